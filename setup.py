@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the Python package by CMake; docs/python.md says how to install it."""
+import importlib.util
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -20,16 +22,23 @@ class CMakeBuild(build_ext):
     """
 
     def build_extension(self, extension):
-        build = Path(os.environ.get("DROPLET_BUILD") or self.build_temp).resolve()
+        missing = [program for program in ("cmake", "ninja") if not shutil.which(program)]
+        if missing:
+            sys.exit(f"{' and '.join(missing)} missing; scripts/setup python installs all that the build needs")
+        own_build = os.environ.get("DROPLET_BUILD")
+        build = Path(own_build or self.build_temp).resolve()
         package = Path(self.get_ext_fullpath(extension.name)).resolve().parent
         options = {
             "CMAKE_BUILD_TYPE": "Release",
-            "DROPLET_PAGE": "OFF",
             "DROPLET_PYTHON": "ON",
             "DROPLET_TESTS": "OFF",
             "Python_EXECUTABLE": sys.executable,
         }
-        if not (build / "CMakeCache.txt").exists():
+        if importlib.util.find_spec("pybind11"):  # where pip installed it
+            import pybind11
+
+            options["pybind11_DIR"] = pybind11.get_cmake_dir()
+        if not own_build or not (build / "CMakeCache.txt").exists():
             definitions = [f"-D{name}={value}" for name, value in options.items()]
             subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", *definitions], check=True)
         jobs = ["--parallel", str(self.parallel)] if self.parallel else []

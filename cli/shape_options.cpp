@@ -223,7 +223,7 @@ std::optional<std::string> readHtml(const CommandLine& line)
         return std::nullopt;
     }
     if (!droplet::hasPage()) {
-        refuse("--html is not available: the program was built with DROPLET_PAGE=OFF");
+        refuse("--html: this build has no page; build it with -DDROPLET_PAGE=ON, or run scripts/run with --html");
     }
     return html->text;
 }

@@ -21,6 +21,10 @@ export const dashed = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.to
 /** The command's words for options, as this package has them. */
 const inScript = (text) => text.replace(/--([a-z][a-z-]*)/g, (_, name) => camelCase(name));
 
+/** A message that refuses an angle in radians, with the same number of degrees. */
+const withDegrees = (message) => message.replace(/'(-?[\d.e+-]+)rad' must be .*/,
+    (refusal, number) => `${refusal}; a number is in radians: write '${Number(number)}deg'`);
+
 /** Units of numbers, by the name that the help gives an option's value. */
 const kUnits = { LENGTH: 'm', AREA: 'm2', VOLUME: 'm3', ANGLE: 'rad', S: 'N/m', G: 'm/s2', D: 'kg/m3' };
 /** Options of files, of the terminal, of the threads, and of colours, which are not a mask's. */
@@ -95,6 +99,9 @@ function describe(mask) {
     const refuse = (what) => {
         throw new DropletError('InvalidArgument', `mask: ${what}`);
     };
+    if (typeof mask === 'string') {
+        refuse(`'${mask}' must be the bytes of a PNG, not its path; in node readFileSync() reads them`);
+    }
     if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {
         refuse(`must be the bytes of a PNG, or have a width and a height of at least 1; it has ${width} and ${height}`);
     }
@@ -173,7 +180,7 @@ export async function loadSolver(wasm) {
     const check = (result) => {
         const code = text(result, kArray.code);
         if (code !== '') {
-            throw new DropletError(code, inScript(text(result, kArray.message)));
+            throw new DropletError(code, withDegrees(inScript(text(result, kArray.message))));
         }
     };
     const helpText = () => {

@@ -81,7 +81,6 @@ QUANTITY = "str | float"
 KINDS = {
     "flag": Kind("flag", "bool"),
     "text": Kind("text", "str"),
-    "choice": Kind("text", "str"),
     "path": Kind("path", "Path"),
     "count": Kind("number", "str | int", ""),
     "number": Kind("number", "float", ""),
@@ -110,7 +109,7 @@ KINDS = {
     "band": Kind("band m/s", "str | tuple[float, float]", "m/s"),
     "angles_of_place": Kind("list rad", "str | Sequence[float]", "rad"),
     "lengths_of_place": Kind("list m", "str | Sequence[float]", "m"),
-    "open": Kind("rad", QUANTITY, "rad"),
+    "open": Kind("number", QUANTITY, "1 is the whole time"),
 }
 KIND_OF_VALUE = {
     "LENGTH": "length",
@@ -150,7 +149,7 @@ KIND_OF_VALUE = {
     "SIZE": "size",
     "ANGLE/s": "spin",
     "BAND": "band",
-    "OPEN": "text",
+    "OPEN": "open",
 }
 KIND_OF_OPTION = {
     "density": "density",
@@ -179,7 +178,8 @@ def kind_of(option, command):
         return KINDS[KIND_OF_VALUE[option.value]]
     words = option.value.split("|")
     if len(words) > 1 and all(word[:1].islower() or word[:1].isdigit() for word in words):
-        return KINDS["count" if words[0].isdigit() else "choice"]
+        literals = ", ".join(word if word.isdigit() else f'"{word}"' for word in words)
+        return Kind("number" if any(word.isdigit() for word in words) else "text", f"Literal[{literals}]")
     raise SystemExit(f"make_package.py: {command}: --{option.name}: unknown value {option.value}")
 
 
@@ -293,7 +293,7 @@ frames: masks of one size, as of make_droplet(), one after another. A mask witho
 >>> len(film), film.report.transitions.vertices_kept
 (3, 2)
 """,
-        "_core.animate((mask_of(frame) for frame in frames), {tokens})",
+        "_core.animate(masks_of(frames), {tokens})",
         leave_out={"channel", "segment", "colour", "contact_sheet", "unit", "material", "onto", "advancing", "receding"},
     ),
     Function(
@@ -441,7 +441,12 @@ def write_function(function, program):
     lines = [f"_{function.name.upper()} = {{"]
     lines += [f'    "{parameter_name(name)}": "{kind.name}",' for name, kind in kinds.items()]
     lines += ["}", "", "", f"def {function.name}("]
-    lines += [f"    {part}," for part in signature]
+    for part in signature:
+        name, is_literal, words = part.partition("Literal[")
+        if is_literal and len(part) > 113:
+            words = wrapped(words.rpartition("]")[0] + ",", " " * 8)
+            part = f"{name}Literal[\n{words}\n    ]{part.rpartition(']')[2]}"
+        lines.append(f"    {part},")
     lines += [f") -> {function.returns}:"]
     title, _, doc = function.doc.rstrip("\n").partition("\n")
     lines += ['    """' + title]
@@ -471,10 +476,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Union
+from typing import TYPE_CHECKING, Literal, Union
 
 from . import _core
-from ._arguments import arguments_of, mask_of
+from ._arguments import arguments_of, mask_of, masks_of
 from ._core import Animation, Droplet, Mask, Surface
 
 if TYPE_CHECKING:

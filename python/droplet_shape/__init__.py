@@ -13,7 +13,7 @@ units (metres, radians, cubic metres, …), or a text with a number and a unit s
 """
 from ._core import Animation, Droplet, Mask, Surface
 from ._core import version as __version__
-from ._errors import Error, InvalidArgument, InvalidInput, NoSuchDroplet, OutputFailed
+from ._errors import Error, InputNotFound, InvalidArgument, InvalidInput, NoSuchDroplet, OutputFailed
 from ._functions import animate, compare, flow, glyphs, make_droplet, read_mask, wind_tunnel, windshield
 
 _REPORTS = ("Comparison", "FlowReport", "Report", "SequenceReport", "WindTunnelReport", "WindshieldReport")
@@ -24,6 +24,7 @@ __all__ = [
     "Droplet",
     "Error",
     "FlowReport",
+    "InputNotFound",
     "InvalidArgument",
     "InvalidInput",
     "Mask",

@@ -4,6 +4,7 @@ from ._core import Droplet as Droplet
 from ._core import Mask as Mask
 from ._core import Surface as Surface
 from ._errors import Error as Error
+from ._errors import InputNotFound as InputNotFound
 from ._errors import InvalidArgument as InvalidArgument
 from ._errors import InvalidInput as InvalidInput
 from ._errors import NoSuchDroplet as NoSuchDroplet
@@ -29,6 +30,7 @@ __all__ = [
     "Droplet",
     "Error",
     "FlowReport",
+    "InputNotFound",
     "InvalidArgument",
     "InvalidInput",
     "Mask",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import numbers
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy
@@ -16,7 +16,19 @@ from ._errors import InvalidArgument
 
 def mask_of(mask: Any) -> Any:
     """A mask or an array, of anything that is one of them or can be turned into an array."""
+    if isinstance(mask, (str, bytes, os.PathLike)):
+        raise InvalidArgument(
+            f"mask: {os.fspath(mask)!r} is a path, must be an array; read_mask() reads a picture, and other packages "
+            "read one with its colours, for by_colour"
+        )
     return mask if isinstance(mask, Mask) else numpy.asarray(mask)
+
+
+def masks_of(frames: Any) -> Iterator[Any]:
+    """A mask or an array of each frame."""
+    if isinstance(frames, (str, bytes, os.PathLike)):
+        raise InvalidArgument(f"frames: {os.fspath(frames)!r} is a path, must be masks; read_mask() reads one picture")
+    return map(mask_of, frames)
 
 
 def arguments_of(kinds: Mapping[str, str], values: Mapping[str, Any]) -> list[str]:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import os
 from collections.abc import Iterable, Iterator
-from typing import Any, Optional, Union
+from typing import Any, Literal, Optional, Protocol, Union
 
 import numpy
 from numpy.typing import NDArray
@@ -9,6 +9,14 @@ from numpy.typing import NDArray
 from ._reports import Report, SequenceReport
 
 _Path = Union[str, os.PathLike[str]]
+_Format = Literal["glb", "gltf", "obj", "ply", "stl", "usda", "usdz"]
+_Material = Literal["water", "ink", "mercury", "honey", "plain"]
+_Unit = Literal["m", "cm", "mm"]
+_Compress = Literal["none", "quantize", "meshopt"]
+_Nodes = Literal["one", "each"]
+
+class _File(Protocol):
+    def write(self, data: bytes, /) -> object: ...
 
 version: str
 
@@ -29,28 +37,49 @@ class Surface:
     def warnings(self) -> tuple[str, ...]: ...
     def save(
         self,
-        path: _Path,
+        path: Union[_Path, _File],
         *,
-        material: Optional[str] = None,
-        unit: str = "mm",
-        compress: str = "none",
+        format: Optional[_Format] = None,
+        material: Optional[_Material] = None,
+        unit: _Unit = "mm",
+        compress: _Compress = "none",
         no_clobber: bool = False,
     ) -> None: ...
+    def to_bytes(
+        self,
+        format: _Format = "glb",
+        *,
+        material: Optional[_Material] = None,
+        unit: _Unit = "mm",
+        compress: _Compress = "none",
+    ) -> bytes: ...
+    def _repr_png_(self) -> Optional[bytes]: ...
 
 class Droplet(Surface):
     @property
     def report(self) -> Report: ...
     def save(
         self,
-        path: _Path,
+        path: Union[_Path, _File],
         *,
-        material: Optional[str] = None,
-        unit: str = "mm",
-        compress: str = "none",
-        nodes: str = "one",
+        format: Optional[_Format] = None,
+        material: Optional[_Material] = None,
+        unit: _Unit = "mm",
+        compress: _Compress = "none",
+        nodes: _Nodes = "one",
         materials: Optional[_Path] = None,
         no_clobber: bool = False,
     ) -> None: ...
+    def to_bytes(
+        self,
+        format: _Format = "glb",
+        *,
+        material: Optional[_Material] = None,
+        unit: _Unit = "mm",
+        compress: _Compress = "none",
+        nodes: _Nodes = "one",
+        materials: Optional[_Path] = None,
+    ) -> bytes: ...
 
 class Animation:
     @property
@@ -60,21 +89,25 @@ class Animation:
     def __len__(self) -> int: ...
     def __getitem__(self, index: int) -> Surface: ...
     def __iter__(self) -> Iterator[Surface]: ...
-    def save(self, path: _Path, *, material: Optional[str] = None, no_clobber: bool = False) -> None: ...
+    def save(
+        self, path: Union[_Path, _File], *, material: Optional[_Material] = None, no_clobber: bool = False
+    ) -> None: ...
+    def to_bytes(self, *, material: Optional[_Material] = None) -> bytes: ...
 
 class Mask:
     @property
     def shape(self) -> tuple[int, int]: ...
     @property
-    def channel(self) -> str: ...
+    def channel(self) -> Literal["alpha", "luma"]: ...
     @property
     def inverted(self) -> bool: ...
     @property
-    def segment(self) -> str: ...
+    def segment(self) -> Literal["threshold", "adaptive", "grabcut"]: ...
     @property
     def segment_confidence(self) -> float: ...
     @property
     def physical_width(self) -> Optional[float]: ...
+    def _repr_png_(self) -> bytes: ...
 
 def read_mask(path: _Path, arguments: list[str]) -> Mask: ...
 def make_droplet(mask: Union[Mask, NDArray[Any]], arguments: list[str]) -> Droplet: ...

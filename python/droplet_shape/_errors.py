@@ -2,6 +2,8 @@
 """Exceptions of the package."""
 from __future__ import annotations
 
+import errno
+import os
 import re
 
 
@@ -24,6 +26,18 @@ class InvalidInput(Error, ValueError):
     code = "InvalidInput"
 
 
+class InputNotFound(InvalidInput, FileNotFoundError):
+    """A file that is to be read does not exist."""
+
+    errno = errno.ENOENT
+
+
+class _OptionNotFound(InvalidArgument, FileNotFoundError):
+    """A file that an option names does not exist."""
+
+    errno = errno.ENOENT
+
+
 class OutputFailed(Error, OSError):
     """A file cannot be written completely."""
 
@@ -38,12 +52,23 @@ class NoSuchDroplet(Error, ValueError):
 
 _CLASSES = {kind.code: kind for kind in (InvalidArgument, InvalidInput, OutputFailed, NoSuchDroplet)}
 
+_NOT_FOUND = {"InvalidInput": InputNotFound, "InvalidArgument": _OptionNotFound}
+
 
 def in_python(message: str) -> str:
     """A message with the names that options have in Python: contact_angle for --contact-angle."""
     return re.sub(r"(?<![\w-])--([a-z][a-z-]*)", lambda match: match.group(1).replace("-", "_"), message)
 
 
+_TOO_LARGE_ANGLE = re.compile(r"'(-?[\d.e+-]+)rad' must be ")
+
+
 def made(code: str, message: str) -> Error:
     """The exception for an error of the library."""
-    return _CLASSES[code](in_python(message))
+    message = in_python(message)
+    if code in _NOT_FOUND and message.endswith(os.strerror(errno.ENOENT)):
+        return _NOT_FOUND[code](message)
+    angle = _TOO_LARGE_ANGLE.search(message)
+    if angle:
+        message += f"; a number is in radians: write '{float(angle.group(1)):g}deg'"
+    return _CLASSES[code](message)

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Union
+from typing import TYPE_CHECKING, Literal, Union
 
 from . import _core
-from ._arguments import arguments_of, mask_of
+from ._arguments import arguments_of, mask_of, masks_of
 from ._core import Animation, Droplet, Mask, Surface
 
 if TYPE_CHECKING:
@@ -47,10 +47,10 @@ _READ_MASK = {
 def read_mask(
     path: Path,
     *,
-    channel: str | None = None,
+    channel: Literal["auto", "alpha", "luma"] | None = None,
     threshold: float | None = None,
     invert: bool = False,
-    segment: str | None = None,
+    segment: Literal["auto", "threshold", "adaptive", "grabcut"] | None = None,
     colour: str | None = None,
 ) -> Mask:
     """Reads the mask in a picture.
@@ -111,7 +111,7 @@ _MAKE_DROPLET = {
     "receding": "rad",
     "triangles": "number",
     "edge": "m",
-    "grading": "text",
+    "grading": "number",
     "open": "flag",
     "fill_range": "range",
     "solver": "text",
@@ -124,7 +124,7 @@ def make_droplet(
     *,
     width: str | float | None = None,
     pixel_size: str | float | None = None,
-    channel: str | None = None,
+    channel: Literal["auto", "alpha", "luma"] | None = None,
     threshold: float | None = None,
     invert: bool = False,
     smooth: str | float | None = None,
@@ -135,14 +135,14 @@ def make_droplet(
     colours: str | int | None = None,
     gap: str | float | None = None,
     contact_angle: str | float | None = None,
-    on: str | None = None,
+    on: Literal["glass", "ptfe", "wax", "lotus"] | None = None,
     volume: str | float | None = None,
     height: str | float | None = None,
-    fill: str | None = None,
-    liquid: str | None = None,
+    fill: Literal["each", "total"] | None = None,
+    liquid: Literal["water", "ethanol", "glycerol", "mercury", "honey"] | None = None,
     surface_tension: str | float | None = None,
     density: str | float | None = None,
-    model: str | None = None,
+    model: Literal["auto", "linear", "exact"] | None = None,
     gravity: str | float | None = None,
     tilt: str | float | None = None,
     tilt_direction: str | float | None = None,
@@ -154,10 +154,10 @@ def make_droplet(
     receding: str | float | None = None,
     triangles: str | int | None = None,
     edge: str | float | None = None,
-    grading: str | None = None,
+    grading: Literal["auto", 1, 2, 4, 8, 16, 32, 64] | None = None,
     open: bool = False,
     fill_range: str | tuple[float, float] | None = None,
-    solver: str | None = None,
+    solver: Literal["auto", "llt", "multigrid"] | None = None,
     threads: str | int | None = None,
 ) -> Droplet:
     """Makes the droplets of liquid that have a mask as their footprints.
@@ -272,7 +272,7 @@ _GLYPHS = {
     "receding": "rad",
     "triangles": "number",
     "edge": "m",
-    "grading": "text",
+    "grading": "number",
     "open": "flag",
     "fill_range": "range",
     "solver": "text",
@@ -288,17 +288,17 @@ def glyphs(
     axis: Mapping[str, float] | None = None,
     em: str | float | None = None,
     tolerance: str | float | None = None,
-    align: str | None = None,
+    align: Literal["start", "centre", "end"] | None = None,
     line_spacing: float | None = None,
     contact_angle: str | float | None = None,
-    on: str | None = None,
+    on: Literal["glass", "ptfe", "wax", "lotus"] | None = None,
     volume: str | float | None = None,
     height: str | float | None = None,
-    fill: str | None = None,
-    liquid: str | None = None,
+    fill: Literal["each", "total"] | None = None,
+    liquid: Literal["water", "ethanol", "glycerol", "mercury", "honey"] | None = None,
     surface_tension: str | float | None = None,
     density: str | float | None = None,
-    model: str | None = None,
+    model: Literal["auto", "linear", "exact"] | None = None,
     gravity: str | float | None = None,
     tilt: str | float | None = None,
     tilt_direction: str | float | None = None,
@@ -310,10 +310,10 @@ def glyphs(
     receding: str | float | None = None,
     triangles: str | int | None = None,
     edge: str | float | None = None,
-    grading: str | None = None,
+    grading: Literal["auto", 1, 2, 4, 8, 16, 32, 64] | None = None,
     open: bool = False,
     fill_range: str | tuple[float, float] | None = None,
-    solver: str | None = None,
+    solver: Literal["auto", "llt", "multigrid"] | None = None,
     threads: str | int | None = None,
 ) -> Droplet:
     """Makes the droplets of a text.
@@ -412,7 +412,7 @@ _ANIMATE = {
     "no_penetration": "flag",
     "triangles": "number",
     "edge": "m",
-    "grading": "text",
+    "grading": "number",
     "open": "flag",
     "solver": "text",
     "threads": "number",
@@ -422,7 +422,7 @@ _ANIMATE = {
 def animate(
     frames: Iterable[MaskLike],
     *,
-    volume_mode: str | None = None,
+    volume_mode: Literal["total", "track", "fill"] | None = None,
     fps: float | None = None,
     width: str | float | None = None,
     pixel_size: str | float | None = None,
@@ -433,14 +433,14 @@ def animate(
     keep: str | int | None = None,
     speck_size: float | None = None,
     contact_angle: str | float | None = None,
-    on: str | None = None,
+    on: Literal["glass", "ptfe", "wax", "lotus"] | None = None,
     volume: str | float | None = None,
     height: str | float | None = None,
-    fill: str | None = None,
-    liquid: str | None = None,
+    fill: Literal["each", "total"] | None = None,
+    liquid: Literal["water", "ethanol", "glycerol", "mercury", "honey"] | None = None,
     surface_tension: str | float | None = None,
     density: str | float | None = None,
-    model: str | None = None,
+    model: Literal["auto", "linear", "exact"] | None = None,
     gravity: str | float | None = None,
     tilt: str | float | None = None,
     tilt_direction: str | float | None = None,
@@ -449,9 +449,9 @@ def animate(
     no_penetration: bool = False,
     triangles: str | int | None = None,
     edge: str | float | None = None,
-    grading: str | None = None,
+    grading: Literal["auto", 1, 2, 4, 8, 16, 32, 64] | None = None,
     open: bool = False,
-    solver: str | None = None,
+    solver: Literal["auto", "llt", "multigrid"] | None = None,
     threads: str | int | None = None,
 ) -> Animation:
     """Makes droplets whose footprints move.
@@ -522,7 +522,7 @@ def animate(
     Raises InvalidArgument: a value is outside of its range; InvalidInput: no frame has liquid, or sizes differ;
     NoSuchDroplet: no such droplet exists, or the solver failed.
     """
-    return _core.animate((mask_of(frame) for frame in frames), arguments_of(_ANIMATE, locals()))
+    return _core.animate(masks_of(frames), arguments_of(_ANIMATE, locals()))
 
 
 _COMPARE = {
@@ -595,7 +595,7 @@ _WIND_TUNNEL = {
 
 def wind_tunnel(
     *,
-    preset: str | None = None,
+    preset: Literal["hashimoto", "thesis", "thesis,hashimoto"] | None = None,
     volume: str | float | Sequence[float] | None = None,
     wind: str | float | Sequence[float] | None = None,
     slope: str | float | Sequence[float] | None = None,
@@ -609,7 +609,7 @@ def wind_tunnel(
     boundary_layer: str | float | None = None,
     profile_exponent: float | None = None,
     air_density: str | float | None = None,
-    liquid: str | None = None,
+    liquid: Literal["water", "ethanol", "glycerol", "mercury", "honey"] | None = None,
     surface_tension: str | float | None = None,
     density: str | float | None = None,
     gravity: str | float | None = None,
@@ -708,7 +708,7 @@ _WINDSHIELD = {
     "samples": "number",
     "exposure": "number",
     "highlight_boost": "number",
-    "shutter": "text",
+    "shutter": "number",
     "layer": "flag",
     "codec": "text",
     "quality": "number",
@@ -727,11 +727,11 @@ _WINDSHIELD = {
 def windshield(
     output: Path,
     *,
-    preset: str | None = None,
+    preset: Literal["figure-3.10", "figure-3.11", "figure-3.12"] | None = None,
     rain: str | float | None = None,
     speed: str | float | None = None,
     drive_cycle: Path | None = None,
-    wind: str | None = None,
+    wind: Literal["turned", "projected"] | None = None,
     noise: str | float | None = None,
     wiper_period: str | float | None = None,
     seed: str | int | None = None,
@@ -743,7 +743,7 @@ def windshield(
     hysteresis: float | None = None,
     still_diameter: str | float | None = None,
     film: str | float | None = None,
-    shape: str | None = None,
+    shape: Literal["capillary", "capsule"] | None = None,
     contact_angle: str | float | None = None,
     viscosity_factor: str | float | None = None,
     kinetic_fraction: float | None = None,
@@ -751,7 +751,7 @@ def windshield(
     boundary_layer: str | float | None = None,
     profile_exponent: float | None = None,
     air_density: str | float | None = None,
-    liquid: str | None = None,
+    liquid: Literal["water", "ethanol", "glycerol", "mercury", "honey"] | None = None,
     surface_tension: str | float | None = None,
     density: str | float | None = None,
     gravity: str | float | None = None,
@@ -770,7 +770,7 @@ def windshield(
     samples: str | int | None = None,
     exposure: float | None = None,
     highlight_boost: float | None = None,
-    shutter: str | None = None,
+    shutter: str | float | None = None,
     layer: bool = False,
     codec: str | None = None,
     quality: float | None = None,
@@ -779,7 +779,7 @@ def windshield(
     droplets: Path | None = None,
     moving_only: bool = False,
     model: Path | None = None,
-    model_animation: str | None = None,
+    model_animation: Literal["nodes", "texture"] | None = None,
     resume: bool = False,
     no_clobber: bool = False,
     threads: str | int | None = None,
@@ -863,7 +863,8 @@ def windshield(
       exposure: Exposure of the frame: 1 is twice the light, -1 half (default: 0)
       highlight_boost: How much brighter lamps are than the background shows them: up to 1 + this, 0 to 4 (default: 3,
         by daylight less)
-      shutter: Motion blur: part of a frame's time that the shutter is open, such as 180deg or 0.5 (default: 0)
+      shutter [1 is the whole time]: Motion blur: part of a frame's time that the shutter is open, such as 180deg or
+        0.5 (default: 0)
       layer: Write only the droplets, with alpha
       codec: Encoder of ffmpeg (default: libx264, libvpx-vp9 for .webm)
       quality: Quality of the video, 1 to 100 (default: 65)
@@ -961,10 +962,12 @@ def flow(
     object: Path | None,
     output: Path,
     *,
-    preset: str | None = None,
+    preset: Literal[
+        "masses", "viscosities", "adhesions", "roughnesses", "tear", "forces", "bottle", "leaf", "car",
+    ] | None = None,
     scale: float | None = None,
     size: str | float | None = None,
-    up: str | None = None,
+    up: Literal["y", "z"] | None = None,
     spin: str | float | None = None,
     spin_axis: str | Sequence[float] | None = None,
     motion: Path | None = None,
@@ -980,7 +983,7 @@ def flow(
     rain: str | float | None = None,
     condensation: str | float | None = None,
     dew_spacing: str | float | None = None,
-    model: str | None = None,
+    model: Literal["capillary", "paper"] | None = None,
     hysteresis: float | None = None,
     friction: float | None = None,
     roughness: str | float | None = None,
@@ -1002,21 +1005,21 @@ def flow(
     boundary_layer: str | float | None = None,
     profile_exponent: float | None = None,
     air_density: str | float | None = None,
-    liquid: str | None = None,
+    liquid: Literal["water", "ethanol", "glycerol", "mercury", "honey"] | None = None,
     surface_tension: str | float | None = None,
     density: str | float | None = None,
     gravity: str | float | None = None,
     time: str | float | None = None,
     fps: float | None = None,
     seed: str | int | None = None,
-    shape: str | None = None,
+    shape: Literal["capillary", "springs", "capsule"] | None = None,
     material: str | None = None,
     streaks: Path | None = None,
     maps: Path | None = None,
     map_width: str | int | None = None,
     droplets: Path | None = None,
     preview: Path | None = None,
-    view: str | None = None,
+    view: Literal["three-quarter", "top", "side"] | None = None,
     camera: str | Sequence[float] | None = None,
     preview_size: str | tuple[int, int] | None = None,
     turntable: str | int | None = None,

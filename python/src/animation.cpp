@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,7 @@
 #include "mask.h"
 #include "mask_shape.h"
 #include "shape.h"
+#include "state.h"
 #include "surface.h"
 #include "surroundings.h"
 #include "work.h"
@@ -39,10 +41,19 @@ namespace py = pybind11;
 using droplet::Error;
 using droplet::ErrorCode;
 
-/// Surfaces of all frames, with their report.
+/// Frame of an animation.
+struct Frame {
+    std::shared_ptr<Surface> surface;  ///< without triangles if there is no liquid
+    bool continues = false;            ///< as in droplet::Frame
+    bool closed = false;               ///< whether the surface is closed
+};
+
+/// Frames with their report.
 struct Animation {
-    std::vector<std::shared_ptr<Surface>> frames;  ///< a frame without liquid has an empty surface
-    droplet::SequenceReport report;
+    std::vector<Frame> frames;
+    double frames_per_second = 24.0;
+    std::vector<std::string> warnings;
+    std::string json;  ///< report, with the schema droplet-shape.sequence/1
 };
 
 /// Makes the droplets of frames, one after another.
@@ -53,25 +64,25 @@ public:
           around_(cli::readSurroundings(options_.settings)),
           made_(std::make_shared<Animation>())
     {
-        droplet::SequenceReport& report = made_->report;
-        report.volume_mode = options_.volume_mode;
-        report.frames_per_second = options_.frames_per_second.value_or(report.frames_per_second);
-        report.warnings = options_.settings.warnings;
+        report_.volume_mode = options_.volume_mode;
+        report_.frames_per_second = options_.frames_per_second.value_or(report_.frames_per_second);
+        report_.warnings = options_.settings.warnings;
     }
 
     /// Adds a frame.
     void add(droplet::Mask mask, const std::string& name)
     {
-        droplet::SequenceReport& report = made_->report;
         if (options_.footprint.mask.invert) {
             cli::invert(mask);
         }
-        if (report.frames.empty()) {
-            sequence_ = cli::beginSequence(mask, options_, around_, made_->report);
-        } else if (mask.width != report.width_px || mask.height != report.height_px) {
+        if (report_.frames.empty()) {
+            sequence_ = cli::beginSequence(mask, options_, around_, report_);
+            stand_ = standOf(sequence_.droplet.solve.ground, around_,
+                             {report_.pixel_size * mask.width, report_.pixel_size * mask.height});
+        } else if (mask.width != report_.width_px || mask.height != report_.height_px) {
             throw Error(ErrorCode::InvalidInput,
                         fmt::format("{}: {} x {} pixels must be {} x {}, as in the first frame", name, mask.width,
-                                    mask.height, report.width_px, report.height_px));
+                                    mask.height, report_.width_px, report_.height_px));
         }
         try {
             solve(mask);
@@ -82,25 +93,31 @@ public:
         }
         droplet::FrameReport frame = reportOf(*frame_, sequence_);
         frame.input = name;
-        report.frames.push_back(std::move(frame));
         const droplet::Droplet& droplet = frame_->droplet;
         for (std::size_t i = 0; i < droplet.warnings.size(); ++i) {
             warn(name, droplet.warnings[i], i < droplet.severe_warnings);
         }
         made_->frames.push_back(
-            std::make_shared<Surface>(droplet.surface, options_.settings.material, droplet.warnings));
+            {std::make_shared<Surface>(SurfaceParts{droplet.surface, options_.settings.material, droplet.warnings},
+                                       stand_),
+             frame.continues, frame.closed});
+        report_.frames.push_back(std::move(frame));
     }
 
     /// Ends the sequence.
     std::shared_ptr<Animation> finish()
     {
-        droplet::SequenceReport& report = made_->report;
-        if (report.dry() == report.frames.size()) {
+        if (report_.dry() == report_.frames.size()) {
             throw Error(ErrorCode::InvalidInput,
-                        fmt::format("frames: no liquid in any of {} frames", report.frames.size()));
+                        fmt::format("frames: no liquid in any of {} frames", report_.frames.size()));
         }
-        report.time_total = clock_.total();
-        report.peak_memory = cli::peakMemory();
+        report_.time_total = clock_.total();
+        report_.peak_memory = cli::peakMemory();
+        std::ostringstream json;
+        writeSequenceReport(json, report_);
+        made_->frames_per_second = report_.frames_per_second;
+        made_->warnings = report_.warnings;
+        made_->json = std::move(json).str();
         return std::move(made_);
     }
 
@@ -119,10 +136,10 @@ private:
     /// Adds a warning, unless an earlier frame had the same kind of warning.
     void warn(const std::string& name, const std::string& warning, bool is_grave)
     {
-        droplet::SequenceReport& report = made_->report;
         if (warned_.insert(warning.substr(0, warning.find_first_of("0123456789"))).second) {
-            report.warnings.insert(is_grave ? report.warnings.begin() : report.warnings.end(), name + ": " + warning);
-            report.severe_warnings += is_grave ? 1 : 0;
+            report_.warnings.insert(is_grave ? report_.warnings.begin() : report_.warnings.end(),
+                                    name + ": " + warning);
+            report_.severe_warnings += is_grave ? 1 : 0;
         }
     }
 
@@ -132,6 +149,8 @@ private:
     droplet::SequenceOptions sequence_;
     std::optional<droplet::Frame> frame_;
     std::set<std::string> warned_;  ///< kinds of warnings so far
+    std::shared_ptr<const Stand> stand_;
+    droplet::SequenceReport report_;
     std::shared_ptr<Animation> made_;
 };
 
@@ -152,31 +171,77 @@ std::shared_ptr<Animation> animate(const py::iterable& frames, const Arguments& 
     return sequence.finish();
 }
 
-void save(const Animation& self, const std::filesystem::path& path, const std::optional<std::string>& material,
-          bool no_clobber)
+/// Writes all frames as one GLB.
+void writeGlb(const Animation& self, const std::optional<std::string>& material, std::ostream& out)
 {
+    droplet::AnimationOptions options;
+    options.frames_per_second = self.frames_per_second;
+    options.material = materialOf(*self.frames.front().surface, material);
+    options.frames = self.frames.size();
+    const auto is_dry = [](const Frame& frame) { return frame.surface->surface().triangles.empty(); };
+    options.closed = std::all_of(self.frames.begin(), self.frames.end(),
+                                 [&](const Frame& frame) { return is_dry(frame) || frame.closed; });
+    droplet::Animation animation(options);
+    for (const Frame& frame : self.frames) {
+        if (is_dry(frame)) {
+            animation.addDry();
+        } else {
+            animation.add(frame.surface->surface(), frame.continues);
+        }
+    }
+    animation.write(out);
+}
+
+py::bytes bytesOf(const Animation& self, const std::optional<std::string>& material)
+{
+    std::ostringstream out;
+    {
+        const py::gil_scoped_release release;
+        writeGlb(self, material, out);
+    }
+    return out.str();
+}
+
+void save(const Animation& self, const py::object& file, const std::optional<std::string>& material, bool no_clobber)
+{
+    if (isFileObject(file)) {
+        file.attr("write")(bytesOf(self, material));
+        return;
+    }
+    const auto path = pathOf(file);
     const py::gil_scoped_release release;
     if (path.extension() != ".glb" && path.extension() != ".GLB") {
         throw Error(ErrorCode::InvalidArgument,
                     "path: '" + path.string() + "' must end in .glb; other formats hold single frames");
     }
-    const auto& reports = self.report.frames;
-    droplet::AnimationOptions options;
-    options.frames_per_second = self.report.frames_per_second;
-    options.material = material ? droplet::materialNamed(*material) : self.frames.front()->material();
-    options.frames = reports.size();
-    options.closed = std::all_of(reports.begin(), reports.end(), [](const droplet::FrameReport& frame) {
-        return frame.droplets.empty() || frame.closed;
-    });
-    droplet::Animation animation(options);
-    for (std::size_t i = 0; i < reports.size(); ++i) {
-        if (reports[i].droplets.empty()) {
-            animation.addDry();
-        } else {
-            animation.add(self.frames[i]->surface(), reports[i].continues);
-        }
+    droplet::writeAtomically(path, [&](std::ostream& out) { writeGlb(self, material, out); }, {no_clobber});
+}
+
+/// State of an animation for pickle.
+py::object stateOf(const Animation& self)
+{
+    py::list frames;
+    for (const Frame& frame : self.frames) {
+        frames.append(py::make_tuple(binding::stateOf(frame.surface->parts()), frame.continues, frame.closed));
     }
-    droplet::writeAtomically(path, [&](std::ostream& out) { animation.write(out); }, {no_clobber});
+    return py::make_tuple(frames, binding::stateOf(self.frames.front().surface->stand()), self.frames_per_second,
+                          binding::stateOf(self.warnings), self.json);
+}
+
+std::shared_ptr<Animation> animationOf(const py::handle& state)
+{
+    const auto [frames, stand_state, frames_per_second, warnings, json] =
+        state.cast<std::tuple<py::list, py::object, double, py::object, std::string>>();
+    const auto stand = standOf(stand_state);
+    auto animation = std::make_shared<Animation>();
+    for (const py::handle& frame : frames) {
+        const auto [parts, continues, closed] = frame.cast<std::tuple<py::object, bool, bool>>();
+        animation->frames.push_back({std::make_shared<Surface>(partsOf(parts), stand), continues, closed});
+    }
+    animation->frames_per_second = frames_per_second;
+    animation->warnings = valueOf<std::vector<std::string>>(warnings);
+    animation->json = json;
+    return animation;
 }
 
 }  // namespace
@@ -196,37 +261,51 @@ A frame without liquid has a surface without triangles.)")
                 if (index < -count || index >= count) {
                     throw py::index_error(fmt::format("frame {} of {}", index, count));
                 }
-                return self.frames[static_cast<std::size_t>(index < 0 ? index + count : index)];
+                return self.frames[static_cast<std::size_t>(index < 0 ? index + count : index)].surface;
             },
             py::arg("index"))
-        .def(
-            "__iter__", [](const Animation& self) { return py::make_iterator(self.frames.begin(), self.frames.end()); },
-            py::keep_alive<0, 1>())
+        .def("__iter__",
+             [](const Animation& self) {
+                 py::list surfaces;
+                 for (const Frame& frame : self.frames) {
+                     surfaces.append(frame.surface);
+                 }
+                 return py::iter(surfaces);
+             })
         .def_property_readonly(
             "report",
             [](const py::object& self) {
                 const py::dict cache = self.attr("__dict__");
                 if (!cache.contains("_report")) {
-                    std::ostringstream out;
-                    writeSequenceReport(out, self.cast<const Animation&>().report);
-                    cache["_report"] = reportOf("SequenceReport", out.str());
+                    cache["_report"] = reportOf("SequenceReport", self.cast<const Animation&>().json);
                 }
                 return py::object(cache["_report"]);
             },
             "Options, results and warnings of all frames as a SequenceReport. Its output has no path or size, as there "
             "is no file.")
         .def_property_readonly(
-            "warnings", [](const Animation& self) { return warningsOf(self.report.warnings); },
+            "warnings", [](const Animation& self) { return warningsOf(self.warnings); },
             "Warnings, one line each, the grave ones first; of each kind the first one.")
         .def("save", &save, py::arg("path"), py::kw_only(), py::arg("material") = py::none(),
-             py::arg("no_clobber") = false, R"(Writes all frames to one .glb that plays, completely or not at all.
+             py::arg("no_clobber") = false,
+             R"(Writes all frames to one .glb that plays, completely or not at all, or to a file object.
 
-path        ends in .glb
+path        ends in .glb; or an object that is open for bytes
 material    water, ink, mercury, honey or plain [the liquid's own]
 no_clobber  refuse to replace a file
 
 Raises InvalidArgument for another extension, OutputFailed if the file cannot
 be written.)")
+        .def("to_bytes", py::overload_cast<const Animation&, const std::optional<std::string>&>(&bytesOf),
+             py::kw_only(), py::arg("material") = py::none(), R"(Bytes of the .glb that save() writes.)")
+        .def(py::pickle(
+            [](const py::object& self) {
+                return pickled(py::make_tuple(stateOf(self.cast<const Animation&>()), attributesOf(self)));
+            },
+            [](const py::tuple& pickle) {
+                const py::tuple parts = unpickled(pickle);
+                return std::pair(animationOf(parts[0]), parts[1].cast<py::dict>());
+            }))
         .def("__repr__",
              [](const Animation& self) { return fmt::format("<Animation of {} frames>", self.frames.size()); });
     module.def("animate", &animate);

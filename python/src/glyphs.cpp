@@ -86,11 +86,7 @@ std::shared_ptr<Droplet> glyphs(const std::filesystem::path& path, const std::st
     droplet::Droplet made =
         droplet::makeDroplet(std::move(layout.outline), settings.droplet,
                              [&](droplet::Stage stage, double share) { clock.begin(stage, share); });
-    std::optional<droplet::ObjectReport> onto;
-    if (around.object) {
-        onto = cli::placeOnObject(made, *around.object, *settings.onto);
-    }
-    return Droplet::make(std::move(made), settings, {std::move(input), std::move(onto)}, clock);
+    return Droplet::make(std::move(made), settings, {std::move(input), around}, clock);
 }
 
 }  // namespace

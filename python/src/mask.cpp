@@ -13,7 +13,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
-#include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,6 +21,7 @@
 #include "droplet/error.h"
 #include "droplet/picture/picture.h"
 #include "shape_options.h"
+#include "state.h"
 #include "work.h"
 
 namespace binding {
@@ -99,13 +100,7 @@ Mask readMask(const std::filesystem::path& path, const Arguments& arguments)
     Arguments all = arguments;
     all.insert(all.end(), {"INPUT", "droplet.glb"});
     const auto options = parsed(cli::parseShape, all);
-    Mask read{{}, path.string(), {}};
-    try {
-        read.mask = droplet::readMask(path, options.footprint.mask);
-    } catch (const Error& error) {
-        const bool is_named = std::string_view(error.what()).starts_with(read.path);
-        throw Error(error.code(), is_named ? error.what() : read.path + ": " + error.what());
-    }
+    Mask read{droplet::readMask(path, options.footprint.mask), path.string(), {}};
     if (options.footprint.mask.accept_any) {
         read.threshold = options.footprint.trace.threshold;
     }
@@ -153,6 +148,33 @@ std::string pngOf(const py::handle& from)
     return std::move(png).str();
 }
 
+template <>
+struct Members<droplet::MaskLevels> {
+    static constexpr std::tuple list{&droplet::MaskLevels::channel, &droplet::MaskLevels::dry,
+                                     &droplet::MaskLevels::liquid};
+};
+
+template <>
+struct Members<droplet::Mask> {
+    static constexpr std::tuple list{&droplet::Mask::width,
+                                     &droplet::Mask::height,
+                                     &droplet::Mask::coverage,
+                                     &droplet::Mask::channel,
+                                     &droplet::Mask::inverted,
+                                     &droplet::Mask::segment,
+                                     &droplet::Mask::segment_confidence,
+                                     &droplet::Mask::level_dry,
+                                     &droplet::Mask::level_liquid,
+                                     &droplet::Mask::found,
+                                     &droplet::Mask::raster_scale,
+                                     &droplet::Mask::physical_width};
+};
+
+template <>
+struct Members<Mask> {
+    static constexpr std::tuple list{&Mask::mask, &Mask::path, &Mask::threshold};
+};
+
 void bindMask(py::module_& module)
 {
     py::class_<Mask, std::shared_ptr<Mask>>(module, "Mask", py::buffer_protocol(),
@@ -184,6 +206,24 @@ shares its memory: 0 is dry, 65535 is liquid.)")
         .def_property_readonly(
             "physical_width", [](const Mask& self) { return self.mask.physical_width; },
             "Width that an SVG states [m], or None.")
+        .def(
+            "_repr_png_",
+            [](const Mask& self) {
+                std::ostringstream png;
+                {
+                    const py::gil_scoped_release release;
+                    droplet::writePng(droplet::DeepPicture{self.mask.width, self.mask.height, 1, self.mask.coverage},
+                                      png, droplet::PngEffort::Fast);
+                }
+                return py::bytes(png.str());
+            },
+            "Picture for notebooks, as PNG: white is liquid.")
+        .def(py::pickle([](const Mask& self) { return pickled(stateOf(self)); },
+                        [](const py::tuple& pickle) {
+                            auto mask = std::make_shared<Mask>(valueOf<Mask>(unpickled(pickle)));
+                            mask->mask.validate();
+                            return mask;
+                        }))
         .def("__repr__", [](const Mask& self) {
             return fmt::format("<Mask of {} x {} pixels>", self.mask.width, self.mask.height);
         });

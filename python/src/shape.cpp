@@ -9,6 +9,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "colour_shape.h"
 #include "droplet/error.h"
 #include "droplet/footprint/colour_regions.h"
+#include "droplet/picture/render.h"
 #include "droplet_report.h"
 #include "file_droplets.h"
 #include "mask.h"
@@ -23,6 +25,7 @@
 #include "materials_file.h"
 #include "option_values.h"
 #include "shape_options.h"
+#include "state.h"
 #include "surroundings.h"
 #include "work.h"
 
@@ -44,12 +47,7 @@ std::shared_ptr<Droplet> makeByColour(const std::string& png, cli::ShapeOptions 
     cli::ColourShape made = cli::makeOfColours(regions, settings, options,
                                                [&](droplet::Stage stage, double share) { clock.begin(stage, share); });
     settings.warnings.insert(settings.warnings.begin(), made.warnings.begin(), made.warnings.end());
-    std::optional<droplet::ObjectReport> onto;
-    if (around.object) {
-        onto = cli::placeOnObject(made.droplet, *around.object, *settings.onto);
-    }
-    return Droplet::make(std::move(made.droplet), settings, {std::move(made.input), std::move(onto), made.colours},
-                         clock);
+    return Droplet::make(std::move(made.droplet), settings, {std::move(made.input), around, made.colours}, clock);
 }
 
 std::shared_ptr<Droplet> makeOfMask(Mask from, cli::ShapeOptions options, cli::StageClock& clock)
@@ -74,11 +72,7 @@ std::shared_ptr<Droplet> makeOfMask(Mask from, cli::ShapeOptions options, cli::S
     if (auto warning = cli::maskWarning(mask, "look at the array of the mask")) {
         settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
     }
-    std::optional<droplet::ObjectReport> onto;
-    if (around.object) {
-        onto = cli::placeOnObject(made.droplet, *around.object, *settings.onto);
-    }
-    return Droplet::make(std::move(made.droplet), settings, {std::move(made.input), std::move(onto)}, clock);
+    return Droplet::make(std::move(made.droplet), settings, {std::move(made.input), around}, clock);
 }
 
 std::shared_ptr<Droplet> makeFrom(const py::handle& from, const Arguments& arguments)
@@ -92,46 +86,127 @@ std::shared_ptr<Droplet> makeFrom(const py::handle& from, const Arguments& argum
                                        : makeOfMask(maskOf(from), std::move(options), clock);
 }
 
-/// Writes the droplets to a file.
-void saveDroplet(const Droplet& self, const SaveOptions& options, const std::string& nodes,
-                 const std::optional<std::filesystem::path>& materials)
+/// What files say of a droplet.
+struct Figures {
+    double volume = 0.0;         ///< [m³]
+    double contact_angle = 0.0;  ///< mean along the rim [rad]
+    double height_max = 0.0;     ///< [m]
+    double pressure = 0.0;       ///< [Pa]
+    std::optional<droplet::CssColour> colour = {};
+};
+
+/// Options of a droplet's file.
+SaveOptions optionsOf(const Droplet& self, SaveOptions options, const std::string& nodes,
+                      const std::optional<std::filesystem::path>& materials)
 {
-    std::optional<cli::Materials> read;
-    if (materials) {
-        read = cli::readMaterials(materials->string());
-    }
-    const auto in_file =
+    options.nodes =
         cli::choice<droplet::Nodes>({nodes, "nodes"}, {{"one", droplet::Nodes::One}, {"each", droplet::Nodes::Each}});
-    std::vector<std::string> warnings;
-    const auto droplets = cli::fileDroplets(self.droplets(), {materialOf(self, options), in_file, read}, warnings);
-    for (const py::handle& warning : warningsOf(warnings)) {
-        if (PyErr_WarnEx(PyExc_UserWarning, std::string(py::str(warning)).c_str(), 1) != 0) {
-            throw py::error_already_set();
-        }
-    }
-    saveSurface(self, options, in_file, droplets);
+    options.droplets = self.inFile(materialOf(self, options.material), options.nodes, materials);
+    return options;
 }
 
 }  // namespace
 
+template <>
+struct Members<droplet::CssColour> {
+    static constexpr std::tuple list{&droplet::CssColour::red, &droplet::CssColour::green, &droplet::CssColour::blue};
+};
+
+template <>
+struct Members<Figures> {
+    static constexpr std::tuple list{&Figures::volume, &Figures::contact_angle, &Figures::height_max,
+                                     &Figures::pressure, &Figures::colour};
+};
+
+std::shared_ptr<const Stand> standOf(const droplet::BaseSurface& ground, const cli::Surroundings& around,
+                                     droplet::Vec2 extent)
+{
+    if (around.object) {
+        return std::make_shared<const Stand>(Stand{*around.object, true});
+    }
+    return ground.flat() ? nullptr : std::make_shared<const Stand>(Stand{droplet::groundMesh(ground, extent), false});
+}
+
 std::shared_ptr<Droplet> Droplet::make(droplet::Droplet droplet, const cli::DropletSettings& settings,
                                        DropletSource source, cli::StageClock& clock)
 {
+    std::optional<droplet::ObjectReport> onto;
+    if (source.around.object) {
+        onto = cli::placeOnObject(droplet, *source.around.object, *settings.onto);
+    }
     droplet::Report report = cli::describe(droplet, settings);
     report.input = std::move(source.input);
-    report.onto = std::move(source.onto);
+    report.onto = std::move(onto);
     for (std::size_t k = 0; k < source.colours.size(); ++k) {
         report.droplets[k].colour = source.colours[k];
     }
     report.time = clock.times();
     report.time_total = clock.total();
     report.peak_memory = cli::peakMemory();
-    return std::shared_ptr<Droplet>(new Droplet(std::move(droplet.surface), settings.material, std::move(report)));
+    std::vector<droplet::DropletReport> droplets = report.droplets;
+    std::vector<std::string> warnings = report.warnings;
+    return std::shared_ptr<Droplet>(
+        new Droplet({std::move(droplet.surface), settings.material, std::move(warnings)},
+                    standOf(settings.droplet.solve.ground, source.around, droplet.domain.extent), std::move(report),
+                    std::move(droplets)));
+}
+
+std::shared_ptr<Droplet> Droplet::ofState(const py::handle& state)
+{
+    const auto [parts, stand, json, figures] =
+        state.cast<std::tuple<py::object, py::object, std::string, py::object>>();
+    Reports droplets;
+    for (const Figures& each : valueOf<std::vector<Figures>>(figures)) {
+        droplet::DropletReport report;
+        report.figures.volume = each.volume;
+        report.figures.contact_angle.mean = each.contact_angle;
+        report.figures.height_max = each.height_max;
+        report.pressure = each.pressure;
+        report.colour = each.colour;
+        droplets.push_back(std::move(report));
+    }
+    return std::shared_ptr<Droplet>(new Droplet(partsOf(parts), binding::standOf(stand), json, std::move(droplets)));
+}
+
+py::object Droplet::state() const
+{
+    std::vector<Figures> figures;
+    for (const droplet::DropletReport& each : droplets_) {
+        figures.push_back({each.figures.volume, each.figures.contact_angle.mean, each.figures.height_max, each.pressure,
+                           each.colour});
+    }
+    return py::make_tuple(stateOf(parts()), stateOf(stand()), json(), stateOf(figures));
+}
+
+std::vector<droplet::FileDroplet> Droplet::inFile(droplet::Material material, droplet::Nodes nodes,
+                                                  const std::optional<std::filesystem::path>& materials) const
+{
+    std::optional<cli::Materials> read;
+    if (materials) {
+        read = cli::readMaterials(materials->string());
+    }
+    std::vector<std::string> warnings;
+    auto droplets = cli::fileDroplets(droplets_, {material, nodes, read}, warnings);
+    for (const py::handle& warning : warningsOf(warnings)) {
+        if (PyErr_WarnEx(PyExc_UserWarning, std::string(py::str(warning)).c_str(), 1) != 0) {
+            throw py::error_already_set();
+        }
+    }
+    return droplets;
+}
+
+std::vector<droplet::Look> Droplet::looks() const
+{
+    std::vector<std::string> none;
+    return droplet::looksOf(cli::fileDroplets(droplets_, {material(), droplet::Nodes::One, {}}, none));
 }
 
 std::string Droplet::json() const
 {
-    droplet::Report report = report_;
+    if (const auto* written = std::get_if<std::string>(&report_)) {
+        return *written;
+    }
+    auto report = std::get<droplet::Report>(report_);
     report.output = cli::describeOutput(surface(), "", droplet::Format::Glb);
     std::ostringstream out;
     droplet::writeReport(out, report);
@@ -164,19 +239,23 @@ Made by make_droplet() and glyphs(); for the arrays see Surface.)")
             "path, format or size, as there is no file.")
         .def(
             "save",
-            [](const Droplet& self, std::filesystem::path path, std::optional<std::string> material, std::string unit,
-               std::string compress, const std::string& nodes, const std::optional<std::filesystem::path>& materials,
-               bool no_clobber) {
-                saveDroplet(self,
-                            {std::move(path), std::move(material), std::move(unit), std::move(compress), no_clobber},
-                            nodes, materials);
+            [](const Droplet& self, const py::object& path, std::optional<std::string> format,
+               std::optional<std::string> material, std::string unit, std::string compress, const std::string& nodes,
+               const std::optional<std::filesystem::path>& materials, bool no_clobber) {
+                const auto options =
+                    optionsOf(self, {std::move(format), std::move(material), std::move(unit), std::move(compress)},
+                              nodes, materials);
+                saveSurface(self, path, options, no_clobber);
             },
-            py::arg("path"), py::kw_only(), py::arg("material") = py::none(), py::arg("unit") = "mm",
-            py::arg("compress") = "none", py::arg("nodes") = "one", py::arg("materials") = py::none(),
-            py::arg("no_clobber") = false,
-            R"(Writes the droplets to a file, completely or not at all.
+            py::arg("path"), py::kw_only(), py::arg("format") = py::none(), py::arg("material") = py::none(),
+            py::arg("unit") = "mm", py::arg("compress") = "none", py::arg("nodes") = "one",
+            py::arg("materials") = py::none(), py::arg("no_clobber") = false,
+            R"(Writes the droplets to a file, completely or not at all, or to a file object.
 
-path        ends in .glb, .gltf, .obj (with its .mtl), .ply, .stl, .usda or .usdz
+path        ends in .glb, .gltf, .obj (with its .mtl), .ply, .stl, .usda or
+            .usdz; or an object that is open for bytes, such as io.BytesIO()
+format      glb, gltf, obj, ply, stl, usda or usdz; a file object needs it [by
+            the path]
 material    water, ink, mercury, honey or plain: the look in glTF, OBJ and USD,
             below the colours of by_colour [the liquid's own]
 unit        m, cm or mm: unit of length in OBJ and STL
@@ -188,7 +267,29 @@ materials   TOML file with a material, colour, roughness or index of refraction
 no_clobber  refuse to replace a file
 
 Warns if materials names a droplet that does not exist. Raises InvalidArgument
-for another extension, OutputFailed if the file cannot be written.)");
+for another extension or format, OutputFailed if the file cannot be written.)")
+        .def(
+            "to_bytes",
+            [](const Droplet& self, std::string format, std::optional<std::string> material, std::string unit,
+               std::string compress, const std::string& nodes, const std::optional<std::filesystem::path>& materials) {
+                return bytesOf(
+                    self,
+                    optionsOf(self, {std::move(format), std::move(material), std::move(unit), std::move(compress)},
+                              nodes, materials));
+            },
+            py::arg("format") = "glb", py::kw_only(), py::arg("material") = py::none(), py::arg("unit") = "mm",
+            py::arg("compress") = "none", py::arg("nodes") = "one", py::arg("materials") = py::none(),
+            R"(Bytes of a file. The arguments are those of save().
+
+Raises InvalidArgument for another format.)")
+        .def(py::pickle(
+            [](const py::object& self) {
+                return pickled(py::make_tuple(self.cast<const Droplet&>().state(), attributesOf(self)));
+            },
+            [](const py::tuple& pickle) {
+                const py::tuple parts = unpickled(pickle);
+                return std::pair(Droplet::ofState(parts[0]), parts[1].cast<py::dict>());
+            }));
 
     module.def("make_droplet",
                [](const py::handle& mask, const Arguments& arguments) { return makeFrom(mask, arguments); });

@@ -7,11 +7,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "droplet/io/output.h"
 #include "files.h"
 #include "option_values.h"
+#include "preview.h"
+#include "state.h"
 #include "surface_files.h"
 
 namespace binding {
@@ -52,33 +56,160 @@ auto view(std::vector<Item> droplet::Surface::*member)
     };
 }
 
-}  // namespace
-
-droplet::Material materialOf(const Surface& surface, const SaveOptions& options)
+/// Options of the library for those of Python.
+droplet::WriteOptions writeOptions(const Surface& surface, const SaveOptions& options)
 {
-    return options.material ? cli::forOption("material", [&] { return droplet::materialNamed(*options.material); })
-                            : surface.material();
-}
-
-void saveSurface(const Surface& surface, const SaveOptions& options, droplet::Nodes nodes,
-                 const std::vector<droplet::FileDroplet>& droplets)
-{
-    const py::gil_scoped_release release;
     using droplet::LengthUnit;
-    const std::string path = options.path.string();
-    cli::SurfaceTarget target{path, droplet::Format::Glb, {}};
-    target.format =
-        cli::forOption("path: '" + path + "'", [&] { return droplet::formatNamed(options.path.extension().string()); });
-    target.options.material = materialOf(surface, options);
-    target.options.unit = cli::choice<LengthUnit>(
+    droplet::WriteOptions write;
+    write.material = materialOf(surface, options.material);
+    write.unit = cli::choice<LengthUnit>(
         {options.unit, "unit"},
         {{"m", LengthUnit::Metre}, {"cm", LengthUnit::Centimetre}, {"mm", LengthUnit::Millimetre}});
-    target.options.nodes = nodes;
-    target.options.droplets = droplets;
-    target.options.compression =
-        cli::forOption("compress", [&] { return droplet::compressionNamed(options.compress); });
+    write.nodes = options.nodes;
+    write.droplets = options.droplets;
+    write.compression = cli::forOption("compress", [&] { return droplet::compressionNamed(options.compress); });
+    return write;
+}
+
+droplet::Format formatOf(const SaveOptions& options)
+{
+    if (!options.format) {
+        cli::refuse("format: a file object has no extension; give its format, such as glb");
+    }
+    return cli::forOption("format", [&] { return droplet::formatNamed(*options.format); });
+}
+
+/// Picture in a notebook, as PNG; None for a surface without triangles.
+py::object pictureOf(const Surface& self)
+{
+    constexpr int kWidth = 640;
+    constexpr int kHeight = 480;
+    if (self.surface().triangles.empty()) {
+        return py::none();
+    }
+    std::ostringstream png;
+    {
+        const py::gil_scoped_release release;
+        cli::PreviewOptions options;
+        options.width = kWidth;
+        options.height = kHeight;
+        cli::PreviewSubject subject{self.surface(), droplet::lookOf(self.material()), self.looks(), {}, {}, {}, {}, {}};
+        if (const auto& stand = self.stand()) {
+            subject.stand = stand->mesh;
+            subject.on_object = stand->is_object;
+        }
+        cli::previewFiles(options, subject).front().write(png);
+    }
+    return py::bytes(png.str());
+}
+
+}  // namespace
+
+template <>
+struct Members<droplet::RefillState> {
+    static constexpr std::tuple list{&droplet::RefillState::fill, &droplet::RefillState::positions,
+                                     &droplet::RefillState::normals};
+};
+
+template <>
+struct Members<droplet::Refill> {
+    static constexpr std::tuple list{&droplet::Refill::min, &droplet::Refill::max, &droplet::Refill::states};
+};
+
+template <>
+struct Members<droplet::Surface> {
+    static constexpr std::tuple list{&droplet::Surface::positions,   &droplet::Surface::normals,
+                                     &droplet::Surface::uvs,         &droplet::Surface::contact_angle,
+                                     &droplet::Surface::triangles,   &droplet::Surface::weld,
+                                     &droplet::Surface::texture_map, &droplet::Surface::mean_height,
+                                     &droplet::Surface::refill,      &droplet::Surface::parts};
+};
+
+template <>
+struct Members<droplet::TexturedMesh> {
+    static constexpr std::tuple list{&droplet::TexturedMesh::positions, &droplet::TexturedMesh::normals,
+                                     &droplet::TexturedMesh::uvs, &droplet::TexturedMesh::triangles};
+};
+
+template <>
+struct Members<Stand> {
+    static constexpr std::tuple list{&Stand::mesh, &Stand::is_object};
+};
+
+template <>
+struct Members<SurfaceParts> {
+    static constexpr std::tuple list{&SurfaceParts::surface, &SurfaceParts::material, &SurfaceParts::warnings};
+};
+
+py::object stateOf(const SurfaceParts& parts)
+{
+    return stateOf<SurfaceParts>(parts);
+}
+
+py::object stateOf(const std::shared_ptr<const Stand>& stand)
+{
+    return stand ? stateOf(*stand) : py::none();
+}
+
+SurfaceParts partsOf(const py::handle& state)
+{
+    auto parts = valueOf<SurfaceParts>(state);
+    if (!parts.surface.triangles.empty()) {
+        parts.surface.validate();
+    }
+    return parts;
+}
+
+std::shared_ptr<const Stand> standOf(const py::handle& state)
+{
+    if (state.is_none()) {
+        return nullptr;
+    }
+    auto stand = std::make_shared<const Stand>(valueOf<Stand>(state));
+    stand->mesh.validate();
+    return stand;
+}
+
+droplet::Material materialOf(const Surface& surface, const std::optional<std::string>& name)
+{
+    return name ? cli::forOption("material", [&] { return droplet::materialNamed(*name); }) : surface.material();
+}
+
+bool isFileObject(const py::object& file)
+{
+    return py::hasattr(file, "write");
+}
+
+std::filesystem::path pathOf(const py::object& file)
+{
+    return py::module_::import("os").attr("fspath")(file).cast<std::filesystem::path>();
+}
+
+py::bytes bytesOf(const Surface& surface, const SaveOptions& options)
+{
+    std::ostringstream out;
+    {
+        const py::gil_scoped_release release;
+        droplet::writeSurface(surface.surface(), out, formatOf(options), writeOptions(surface, options));
+    }
+    return out.str();
+}
+
+void saveSurface(const Surface& surface, const py::object& file, const SaveOptions& options, bool no_clobber)
+{
+    if (isFileObject(file)) {
+        file.attr("write")(bytesOf(surface, options));
+        return;
+    }
+    const auto path = pathOf(file);
+    const py::gil_scoped_release release;
+    const std::string name = path.string();
+    const auto format = options.format ? formatOf(options) : cli::forOption("path: '" + name + "'", [&] {
+        return droplet::formatNamed(path.extension().string());
+    });
     std::uint64_t bytes = 0;
-    cli::writeTogether(cli::surfaceFiles(surface.surface(), target, bytes), {options.no_clobber});
+    cli::writeTogether(cli::surfaceFiles(surface.surface(), {name, format, writeOptions(surface, options)}, bytes),
+                       {no_clobber});
 }
 
 py::object reportOf(const char* name, const std::string& json)
@@ -123,24 +254,45 @@ after the surface is deleted.)")
             "Warnings, one line each, the grave ones first.")
         .def(
             "save",
-            [](const Surface& self, std::filesystem::path path, std::optional<std::string> material, std::string unit,
-               std::string compress, bool no_clobber) {
-                saveSurface(self,
-                            {std::move(path), std::move(material), std::move(unit), std::move(compress), no_clobber});
+            [](const Surface& self, const py::object& path, std::optional<std::string> format,
+               std::optional<std::string> material, std::string unit, std::string compress, bool no_clobber) {
+                saveSurface(self, path, {std::move(format), std::move(material), std::move(unit), std::move(compress)},
+                            no_clobber);
             },
-            py::arg("path"), py::kw_only(), py::arg("material") = py::none(), py::arg("unit") = "mm",
-            py::arg("compress") = "none", py::arg("no_clobber") = false,
-            R"(Writes the surface to a file, completely or not at all.
+            py::arg("path"), py::kw_only(), py::arg("format") = py::none(), py::arg("material") = py::none(),
+            py::arg("unit") = "mm", py::arg("compress") = "none", py::arg("no_clobber") = false,
+            R"(Writes the surface to a file, completely or not at all, or to a file object.
 
-path        ends in .glb, .gltf, .obj (with its .mtl), .ply, .stl, .usda or .usdz
+path        ends in .glb, .gltf, .obj (with its .mtl), .ply, .stl, .usda or
+            .usdz; or an object that is open for bytes, such as io.BytesIO()
+format      glb, gltf, obj, ply, stl, usda or usdz; a file object needs it [by
+            the path]
 material    water, ink, mercury, honey or plain: the look in glTF, OBJ and USD
             [the liquid's own]
 unit        m, cm or mm: unit of length in OBJ and STL
 compress    none, quantize or meshopt: compression of a .glb
 no_clobber  refuse to replace a file
 
-Raises InvalidArgument for another extension, OutputFailed if the file cannot
-be written.)")
+Raises InvalidArgument for another extension or format, OutputFailed if the
+file cannot be written.)")
+        .def(
+            "to_bytes",
+            [](const Surface& self, std::string format, std::optional<std::string> material, std::string unit,
+               std::string compress) {
+                return bytesOf(self, {std::move(format), std::move(material), std::move(unit), std::move(compress)});
+            },
+            py::arg("format") = "glb", py::kw_only(), py::arg("material") = py::none(), py::arg("unit") = "mm",
+            py::arg("compress") = "none",
+            R"(Bytes of a file. The arguments are those of save().
+
+Raises InvalidArgument for another format.)")
+        .def("_repr_png_", &pictureOf, "Picture for notebooks, 640 x 480 pixels, as PNG.")
+        .def(py::pickle(
+            [](const Surface& self) { return pickled(py::make_tuple(stateOf(self.parts()), stateOf(self.stand()))); },
+            [](const py::tuple& pickle) {
+                const py::tuple states = unpickled(pickle);
+                return std::make_shared<Surface>(partsOf(states[0]), standOf(states[1]));
+            }))
         .def("__repr__", [](const py::object& self) {
             const auto& surface = self.cast<const Surface&>().surface();
             return "<" + std::string(py::str(py::type::of(self).attr("__name__"))) + " of " +

@@ -8,7 +8,7 @@ foreach(tool npm node)
   find_program(${variable} ${tool})
   if(NOT ${variable})
     message(FATAL_ERROR "${tool} is missing; it is needed to bundle the page that --html writes. Install it with "
-      "scripts/setup, or build without the page with -DDROPLET_PAGE=OFF.")
+      "scripts/setup page, or build without the page with -DDROPLET_PAGE=OFF.")
   endif()
 endforeach()
 

@@ -8,7 +8,8 @@ execute_process(COMMAND date --utc --rfc-email --date=${released} OUTPUT_VARIABL
 configure_file(${CMAKE_CURRENT_LIST_DIR}/package/changelog.in changelog @ONLY)
 add_custom_command(OUTPUT changelog.Debian.gz
   COMMAND gzip -9 --no-name --stdout changelog > changelog.Debian.gz DEPENDS ${PROJECT_BINARY_DIR}/changelog VERBATIM)
-add_custom_target(package_changelog ALL DEPENDS changelog.Debian.gz)
+add_custom_target(package_changelog DEPENDS changelog.Debian.gz)
+add_dependencies(droplet-shape package_changelog)
 install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz DESTINATION ${documents} COMPONENT command)
 
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/package/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides

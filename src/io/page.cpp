@@ -119,7 +119,7 @@ bool hasPage() noexcept
 std::uint64_t writePage(std::ostream& out, const PageContent& content)
 {
     if (!hasPage()) {
-        refuse("this library was built without the page (DROPLET_PAGE=OFF)");
+        refuse("this build has no page; build it with -DDROPLET_PAGE=ON");
     }
     check(content.glb);
     Json data;

@@ -168,6 +168,8 @@ test('errors name the option as it was given', () => {
         return true;
     });
     refused({ contactAngle: '200deg' }, 'InvalidArgument', /^contactAngle/);
+    refused({ contactAngle: 40 }, 'InvalidArgument', /^contactAngle: .*; a number is in radians: write '40deg'$/);
+    refused({ grading: 3 }, 'InvalidArgument', /^grading: '3' must be one of auto, 1, 2/);
     refused({ contact: '20deg' }, 'InvalidArgument', /contact: unknown option/);
     refused({ volume: '3' }, 'InvalidArgument', /volume/);
     refused({ open: 'yes' }, 'InvalidArgument', /true or false/);
@@ -177,6 +179,7 @@ test('errors name the option as it was given', () => {
     assert.throws(() => shapeDroplet({ width: 4, height: 4, data: new Uint8Array(16) }), { code: 'InvalidInput' });
     assert.throws(() => shapeDroplet({ width: 4, height: 4, data: new Uint8Array(15) }), { code: 'InvalidArgument' });
     assert.throws(() => shapeDroplet(new Uint8Array([1, 2, 3])), { code: 'InvalidInput' });
+    assert.throws(() => shapeDroplet('logo.png'), { code: 'InvalidArgument', message: /^mask: 'logo.png' .*readFileSync/ });
     // The solver goes on after errors.
     assert.ok(shapeDroplet(mask, { triangles: 500 }).report.shape.volume_m3 > 0);
 });

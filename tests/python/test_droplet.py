@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import droplet_shape as ds
-from support import DATA, disc
+from support import DATA, ROOT, disc
 
 SMALL = {"triangles": 2000, "model": "linear"}
 
@@ -83,6 +83,8 @@ class Masks(unittest.TestCase):
             (np.full((4, 4), -0.1), "from 0 to 1"),
             (np.full((4, 4), np.nan), "nan must be from 0 to 1"),
             (None, "dimensions"),
+            ("logo.png", r"'logo.png' is a path, must be an array; read_mask\(\)"),
+            (DATA / "ring.svg", r"ring.svg' is a path, must be an array; read_mask\(\)"),
         ):
             with self.assertRaisesRegex(ds.InvalidArgument, "^mask: .*" + words):
                 ds.make_droplet(array)
@@ -108,8 +110,9 @@ class Masks(unittest.TestCase):
             self.assertGreater(np.asarray(ds.read_mask(DATA / name)).max(), 32768, name)
 
     def test_an_unreadable_picture_is_an_invalid_input(self):
-        with self.assertRaisesRegex(ds.InvalidInput, "nowhere.png"):
-            ds.read_mask("nowhere.png")
+        with self.assertRaisesRegex(ds.InvalidInput, "^" + str(ROOT / "README.md")) as caught:
+            ds.read_mask(ROOT / "README.md")
+        self.assertNotIsInstance(caught.exception, OSError)
 
 
 class Arrays(unittest.TestCase):
@@ -184,6 +187,7 @@ class Options(unittest.TestCase):
             ({"triangles": "3k"}, {"triangles": np.int64(3000)}),
             ({"fill_range": "0..2"}, {"fill_range": (0, 2)}),
             ({"fill_holes": "1mm2"}, {"fill_holes": 1e-6}),
+            ({"grading": "4"}, {"grading": 4}),
         ):
             common = {"model": "linear"} if {"edge", "triangles"} & set(in_units) else SMALL
             a = ds.make_droplet(disc(), **{**common, **in_units})
@@ -206,7 +210,11 @@ class Options(unittest.TestCase):
             ({"width": ""}, "width: '' must be"),
             ({"width": [1, 2]}, "width: "),
             ({"contact_angle": "200deg"}, "contact_angle: '200deg' must be from 0.001deg to 179deg"),
-            ({"contact_angle": 40}, "contact_angle: "),
+            ({"contact_angle": 40}, "^contact_angle: .*; a number is in radians: write '40deg'$"),
+            ({"contact_angle": np.float32(62.5)}, "write '62.5deg'$"),
+            ({"tilt": -200}, "^tilt: .*; a number is in radians: write '-200deg'$"),
+            ({"grading": 3}, "grading: '3' must be one of auto, 1, 2"),
+            ({"grading": True}, "grading: True must be"),
             ({"liquid": "wine"}, "liquid: "),
             ({"model": 3}, "model: 3 must be a text"),
             ({"triangles": 0}, "triangles: "),
