@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/droplet.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -328,6 +330,29 @@ std::vector<ShapeFigures> figuresOf(const std::vector<PlanarMesh>& meshes, const
     return figures;
 }
 
+/// Checks that every droplet has liquid, and leaves out those that are dry because nothing may sink into the ground.
+/// @return        number of droplets left out
+/// @throws Error  NoSuchDroplet
+std::size_t requireLiquid(const std::vector<ShapeFigures>& figures, bool no_penetration)
+{
+    std::size_t dry = 0;
+    for (std::size_t k = 0; k < figures.size(); ++k) {
+        if (figures[k].volume > 0.0) {
+            continue;
+        }
+        ++dry;
+        if (!no_penetration) {
+            throw Error(ErrorCode::NoSuchDroplet,
+                        (figures.size() == 1 ? "" : fmt::format("droplet {} of {}: ", k + 1, figures.size())) +
+                            "with so little liquid the ground stands above it; ask for more, or use --no-penetration");
+        }
+    }
+    if (dry == figures.size()) {
+        throw Error(ErrorCode::NoSuchDroplet, "with so little liquid all of the ground stays dry; ask for more");
+    }
+    return dry;
+}
+
 /// Options of solving: a range that was asked for takes the linear model, where every fill exists.
 SolveOptions solveOptions(const DropletOptions& options)
 {
@@ -390,9 +415,11 @@ std::vector<double> volumesOf(const std::vector<PlanarMesh>& meshes, const Dropl
     solved.volumes.clear();
     const LiquidShapes shapes = solveShapes(meshes, solved, options.allow_less, {});
     solved.model = shapes.solution.report.model;
+    const std::vector<ShapeFigures> figures = figuresOf(meshes, shapes, solved);
+    requireLiquid(figures, solved.no_penetration);
     std::vector<double> volumes;
-    for (const ShapeFigures& figures : figuresOf(meshes, shapes, solved)) {
-        volumes.push_back(figures.volume);
+    for (const ShapeFigures& droplet : figures) {
+        volumes.push_back(droplet.volume);
     }
     return volumes;
 }
@@ -411,10 +438,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     }
     droplet.figures = figuresOf(droplet.meshes, shapes, solved);
     droplet.total = combine(droplet.figures);
-    if (!(droplet.total.volume > 0.0)) {
-        throw Error(ErrorCode::NoSuchDroplet,
-                    "with so little liquid the ground stands above it; ask for more, or use --no-penetration");
-    }
+    const std::size_t dry = requireLiquid(droplet.figures, solved.no_penetration);
     LoftOptions lofting{
         .open = options.open, .extent = droplet.domain.extent, .ground = options.solve.ground, .bases = bases};
     const bool is_affine = solved.model == Model::Linear;
@@ -431,6 +455,12 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     droplet.warnings = warningsOf(droplet, options, shapes.is_stand_in);
     if (!less.empty()) {
         droplet.warnings.push_back(less);
+    }
+    if (dry > 0) {
+        droplet.warnings.push_back(
+            fmt::format("{} of {} footprints {} dry and left out: at this pressure the "
+                        "ground there is above the liquid",
+                        dry, droplet.figures.size(), dry == 1 ? "is" : "are"));
     }
     if (std::string tall = heightWarning(droplet, solved.model); !tall.empty()) {
         droplet.warnings.insert(droplet.warnings.begin(), std::move(tall));

@@ -61,30 +61,13 @@ bool mustHang(const SolveOptions& options)
            options.fill.amount >= 0.5 * std::numbers::pi;
 }
 
-/// Whether the linear model may stand in where no exact shape is found: on footprints as ragged as noise, one droplet
-/// of many would refuse all that share its liquid, and none is lost on curved ground, either.
-bool hasLinear(const SolveOptions& options)
+/// Whether the linear model may stand in where no exact shape is found: for an amount that nobody asked for, on
+/// footprints as ragged as noise, where one droplet of many would refuse all that share its liquid, and on curved
+/// ground.
+bool hasLinear(const SolveOptions& options, bool allow_less)
 {
     const bool is_shared = options.fill.sharing == FillSharing::Total;
-    return options.model == Model::Auto && (is_shared || !options.ground.flat()) && !mustHang(options);
-}
-
-/// Whether a limit is one of nature, not of the search.
-bool isProven(SheetEnd end, const SolveOptions& options)
-{
-    switch (end) {
-        case SheetEnd::NoAngle:
-        case SheetEnd::NoHeight:
-        case SheetEnd::Contact:
-        case SheetEnd::NotHeld:
-            return true;
-        case SheetEnd::Unstable:
-            return planeGravity(options).normal < 0.0;
-        case SheetEnd::OutOfWork:
-        case SheetEnd::Reached:
-            break;
-    }
-    return false;
+    return allow_less && options.model == Model::Auto && (is_shared || !options.ground.flat()) && !mustHang(options);
 }
 
 /// Droplets that are solved together: all at one pressure, or each for itself.
@@ -497,10 +480,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     Solution& solution = shapes.solution;
     if (!mayHang(options)) {
         solution = solve(meshes, options, progress);
-        const Termination end = solution.report.termination;
-        const bool is_proven = end == Termination::NoHeightField || end == Termination::Unstable;
-        if (!solution.report.usable() && options.model == Model::Auto &&
-            (allow_less || (!is_proven && hasLinear(options)))) {
+        if (!solution.report.usable() && options.model == Model::Auto && allow_less) {
             if (auto stand_in = linearStandIn(meshes, options)) {
                 return *std::move(stand_in);
             }
@@ -528,7 +508,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     }
     const std::vector<std::vector<std::size_t>> groups = groupsOf(count, options);
     const bool has_fields = solution.report.usable();
-    const bool has_linear = hasLinear(options);
+    const bool has_linear = hasLinear(options, allow_less);
     std::vector<Shape> found(groups.size());
     ReachedShare reached(progress, groups.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
@@ -586,7 +566,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
                 const bool is_too_little = allow_less && options.model == Model::Auto &&
                                            options.fill.by == FillBy::ContactAngle &&
                                            shape.sheet->contact_angle < kLeastShare * options.fill.amount;
-                if (is_too_little || (has_linear && (allow_less || !isProven(shape.sheet->end, options)))) {
+                if (is_too_little || has_linear) {
                     if (auto stand_in = linearStandIn(meshes, options)) {
                         return *std::move(stand_in);
                     }
