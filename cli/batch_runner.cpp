@@ -28,6 +28,7 @@
 #include "exit_code.h"
 #include "files.h"
 #include "interruption.h"
+#include "library_message.h"
 #include "option_values.h"
 #include "output_clashes.h"
 #include "seconds.h"
@@ -200,7 +201,7 @@ private:
             row.file = std::move(file);
             row.status = ItemStatus::Made;
         } catch (const Error& error) {
-            fail(error.what(), exitCodeOf(error.code()));
+            fail(withOptions(error.what()), exitCodeOf(error.code()));
         } catch (const std::bad_alloc&) {
             fail("out of memory; use fewer --triangles, a smaller picture or fewer --threads", ExitCode::InternalError);
         } catch (const std::exception& error) {

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "droplet/error.h"
+#include "droplet/footprint/colour_regions.h"
+#include "droplet/footprint/css_colour.h"
 #include "droplet/surface/onto.h"
 #include "droplet/units.h"
 
@@ -114,6 +117,35 @@ std::optional<std::string> maskWarning(const droplet::Mask& mask, const std::str
         "the footprints may be wrong: the picture is hardly a mask ({:.0f} % sure, by --segment {}); {}, change it "
         "with --segment, --channel or --threshold",
         100.0 * mask.segment_confidence, name(mask.segment), advice);
+}
+
+std::optional<std::string> hiddenColoursWarning(const droplet::Mask& mask, std::span<const std::byte> picture,
+                                                const droplet::MaskOptions& options)
+{
+    if (mask.channel != droplet::Channel::Alpha || options.channel != droplet::Channel::Auto) {
+        return std::nullopt;
+    }
+    constexpr int kSide = 256;  // of drawings [px]; parts of 5 % are large
+    std::vector<droplet::PaletteColour> palette =
+        droplet::decodePalette(picture, {.channel = droplet::Channel::Alpha,
+                                         .max_pixels = options.max_pixels,
+                                         .vector_long_side = kSide,
+                                         .vector_seconds = options.vector_seconds,
+                                         .vector_memory = options.vector_memory});
+    const auto pixels = [](std::size_t sum, const droplet::PaletteColour& colour) { return sum + colour.pixels; };
+    const std::size_t all = std::accumulate(palette.begin(), palette.end(), std::size_t{0}, pixels);
+    std::erase_if(palette, [&](const droplet::PaletteColour& colour) { return 20 * colour.pixels <= all; });
+    if (palette.size() < 2) {
+        return std::nullopt;
+    }
+    std::string names;
+    for (const droplet::PaletteColour& colour : palette) {
+        names += (names.empty() ? "" : ", ") + droplet::text(colour.colour);
+    }
+    return fmt::format(
+        "all opaque parts of the picture are liquid, whatever their colour ({}); --by-colour makes a droplet of each "
+        "colour, and --colour COLOUR droplets of one of them",
+        names);
 }
 
 }  // namespace cli

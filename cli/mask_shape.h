@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "droplet/droplet.h"
@@ -51,5 +53,12 @@ MaskShape makeOfMask(const droplet::Mask& mask, const DropletSettings& settings,
 /// Warning about a mask that may be wrong.
 /// @param advice  how to look at the mask
 std::optional<std::string> maskWarning(const droplet::Mask& mask, const std::string& advice);
+
+/// Warning about a mask by the transparency of a picture, where that hides two or more colours of over 5 % of its area
+/// each: a sign on a disc becomes a blank disc.
+/// @param picture  encoded picture of the mask
+/// @param options  from which the mask was decoded; without a warning if they name a channel
+std::optional<std::string> hiddenColoursWarning(const droplet::Mask& mask, std::span<const std::byte> picture,
+                                                const droplet::MaskOptions& options);
 
 }  // namespace cli

@@ -30,7 +30,7 @@ struct Materials {
 /// @throws droplet::Error InvalidArgument, naming file, line, key and what is allowed
 Materials readMaterials(const std::string& path);
 
-/// Look that shows a colour: of light after the mean height if the look is clear, otherwise of its matter.
+/// Look that shows a colour: of white ground below the mean height if the look is clear, otherwise of its matter.
 droplet::Look inColour(droplet::Look look, const droplet::CssColour& colour);
 
 /// Applies a file to the looks of droplets, its later entries over earlier ones. Looks that change get a name that says

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "library_message.h"
+
 namespace cli {
 namespace {
 
@@ -50,7 +52,7 @@ std::string oneLine(std::string_view text)
 
 void printError(std::string_view message)
 {
-    std::cerr << paint("droplet-shape: ", Colour::Red) << oneLine(message) << std::endl;
+    std::cerr << paint("droplet-shape: ", Colour::Red) << oneLine(withOptions(std::string(message))) << std::endl;
 }
 
 }  // namespace cli

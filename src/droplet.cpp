@@ -149,9 +149,9 @@ std::string coarseWarning(const Droplet& droplet, const DropletOptions& options,
     const auto enough = static_cast<std::size_t>(static_cast<double>(triangles) * times * times);
     return "triangles along the rim are " + rounded(longest / kMillimetre) +
            " mm long, but the surface bends there within " + rounded(*layer / kMillimetre) +
-           " mm, so heights may be off by more than 1 %; use --" +
-           (options.mesh.edge ? "edge " + rounded(longest / times / kMillimetre) + "mm"
-                              : "triangles " + countText(enough));
+           " mm, so heights may be off by more than 1 %; " +
+           (options.mesh.edge ? "shorten the edges to " + rounded(longest / times / kMillimetre) + "mm"
+                              : "raise the number of triangles to " + countText(enough));
 }
 
 std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions& options, bool is_stand_in)
@@ -167,7 +167,7 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
             "where it is steep; ask for less liquid");
     } else if (model == Model::Linear && steep >= kVisiblySteep) {
         warnings.push_back(percent(steep) +
-                           " of the surface is too steep (over 50 degrees) for the linear model; use --model exact");
+                           " of the surface is too steep (over 50 degrees) for the linear model; use the exact model");
     }
     const double upright = model == Model::Exact ? uprightShare(droplet) : 0.0;
     if (upright > 0.0) {
@@ -176,7 +176,7 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
     }
     if (!options.solve.no_penetration && total.depth_max > kVisible * total.height_max) {
         warnings.push_back("the liquid's surface sinks into the ground, by up to " +
-                           rounded(total.depth_max / kMillimetre) + " mm; --no-penetration keeps it above");
+                           rounded(total.depth_max / kMillimetre) + " mm; prevent penetration to keep it above");
     }
     std::size_t triangles = 0;
     for (const PlanarMesh& mesh : droplet.meshes) {
@@ -310,7 +310,7 @@ Refill refillOf(const Droplet& droplet, const LiquidShapes& shapes, const SolveO
     if (!range.may_shrink && (result.min > range.min || result.max < range.max)) {
         throw Error(ErrorCode::NoSuchDroplet, "droplets of fills " + rounded(range.min) + " to " + rounded(range.max) +
                                                   " do not all exist, but those of " + rounded(result.min) + " to " +
-                                                  rounded(result.max) + " do; ask for these, or use --model linear");
+                                                  rounded(result.max) + " do; ask for these, or use the linear model");
     }
     std::sort(result.states.begin(), result.states.end(),
               [](const RefillState& a, const RefillState& b) { return a.fill < b.fill; });
@@ -344,7 +344,7 @@ std::size_t requireLiquid(const std::vector<ShapeFigures>& figures, bool no_pene
         if (!no_penetration) {
             throw Error(ErrorCode::NoSuchDroplet,
                         (figures.size() == 1 ? "" : fmt::format("droplet {} of {}: ", k + 1, figures.size())) +
-                            "with so little liquid the ground stands above it; ask for more, or use --no-penetration");
+                            "with so little liquid the ground stands above it; ask for more, or prevent penetration");
         }
     }
     if (dry == figures.size()) {

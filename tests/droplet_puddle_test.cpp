@@ -87,10 +87,11 @@ TEST(Puddle, ConvergesOnGradedTriangles)
 TEST(Puddle, WarnsWhereTrianglesAreTooLong)
 {
     const Droplet even = puddle(0.3, Model::Exact, {.triangles = 40'000, .edge = {}, .grading = 1});
-    EXPECT_THAT(even.warnings, ElementsAre(HasSubstr("heights may be off by more than 1 %; use --triangles")));
+    EXPECT_THAT(even.warnings,
+                ElementsAre(HasSubstr("heights may be off by more than 1 %; raise the number of triangles to")));
     EXPECT_LT(even.total.height_max, 0.99 * exactHeight(0.15));
     const Droplet fine = puddle(0.3, Model::Linear, {.triangles = 1, .edge = 5e-3});
-    EXPECT_THAT(fine.warnings, ElementsAre(HasSubstr("use --edge 1.44mm")));
+    EXPECT_THAT(fine.warnings, ElementsAre(HasSubstr("shorten the edges to 1.44mm")));
 }
 
 TEST(Puddle, IsGradedOnlyWhereOneLayerBends)

@@ -628,7 +628,7 @@ TEST(Droplet, WarnsOfSlopesTooSteepForTheModel)
     for (const double angle : {53.0, 80.0}) {
         options.solve.fill.amount = angle * kDegree;
         EXPECT_THAT(makeDroplet(mask, options).warnings,
-                    ElementsAre(AllOf(HasSubstr("too steep"), HasSubstr("--model exact"))))
+                    ElementsAre(AllOf(HasSubstr("too steep"), HasSubstr("use the exact model"))))
             << angle;
     }
     const ShapeFigures total = makeDroplet(mask, options).total;

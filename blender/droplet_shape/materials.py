@@ -28,8 +28,9 @@ def make_material(look, scale):
     if look.attenuation_distance is None:
         _surface(material, look, look.base_colour, "ALL", 0)
     else:
-        # Cycles absorbs light along its way. Eevee does not; there, the colour is that of the mean thickness.
-        depth = look.thickness / look.attenuation_distance
+        # Cycles absorbs light along its way. Eevee does not; there, the colour is that of white ground below the mean
+        # thickness, which light passes down and up.
+        depth = 2 * look.thickness / look.attenuation_distance
         tint = (*(channel**depth for channel in look.attenuation_colour), 1.0)
         output = _surface(material, look, look.base_colour, "CYCLES", 0)
         _surface(material, look, tint, "EEVEE", -500)

@@ -31,16 +31,6 @@ constexpr double kMinThinShare = 3e-3;  ///< likewise for colours of lines that 
 constexpr double kBorderShare = 0.95;
 constexpr int kEven = 8;  ///< range of a channel around a pixel of an even part
 
-Vec3 labOf(Vec3 rgb)
-{
-    const auto [r, g, b] = linearLight(rgb);
-    const auto f = [](double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; };
-    const double x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
-    const double y = f(0.2126729 * r + 0.7151522 * g + 0.0721750 * b);
-    const double z = f((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
-    return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
-}
-
 double squared(Vec3 a)
 {
     return dot(a, a);
@@ -118,6 +108,36 @@ public:
         result.height = image_.height;
         result.raster_scale = image_.raster_scale;
         result.physical_width = image_.physical_width;
+        findColours();
+        if (liquidGroups() == 0) {
+            throw Error(ErrorCode::InvalidInput, "the picture has no colour but that of its border" +
+                                                     (background_ ? ", " + text(*background_) : std::string()));
+        }
+        label(result);
+        nameColours(result);
+        result.background = background_;
+        result.colour = std::move(image_.colour);
+        result.alpha = std::move(image_.alpha);
+        return result;
+    }
+
+    std::vector<PaletteColour> palette()
+    {
+        findColours();
+        std::vector<PaletteColour> found;
+        for (const Group& group : groups_) {
+            if (!group.is_fixed) {
+                found.push_back({rounded(group.rgb), static_cast<std::size_t>(group.weight)});
+            }
+        }
+        return found;
+    }
+
+private:
+    static constexpr std::uint16_t kHalf = 1 << 15;
+
+    void findColours()
+    {
         straighten();
         const bool transparent =
             std::any_of(image_.alpha.begin(), image_.alpha.end(), [](std::uint16_t a) { return a < kHalf; });
@@ -128,16 +148,7 @@ public:
             background_ = borderColour(options_.channel == Channel::Luma ? 0.0 : kBorderShare);
         }
         findGroups();
-        label(result);
-        nameColours(result);
-        result.background = background_;
-        result.colour = std::move(image_.colour);
-        result.alpha = std::move(image_.alpha);
-        return result;
     }
-
-private:
-    static constexpr std::uint16_t kHalf = 1 << 15;
 
     [[nodiscard]] std::size_t at(int x, int y) const
     {
@@ -376,10 +387,6 @@ private:
         while (liquidGroups() > wanted && mergeOnce(std::numeric_limits<double>::infinity())) {
         }
         settle();
-        if (liquidGroups() == 0) {
-            throw Error(ErrorCode::InvalidInput, "the picture has no colour but that of its border" +
-                                                     (background_ ? ", " + text(*background_) : std::string()));
-        }
         std::stable_sort(groups_.begin(), groups_.end(), [](const Group& a, const Group& b) {
             return a.is_fixed != b.is_fixed ? a.is_fixed : a.weight > b.weight;
         });
@@ -535,6 +542,25 @@ private:
     std::vector<Group> groups_;
 };
 
+/// What a function makes of an encoded picture.
+template <typename Function>
+auto ofDecoded(std::span<const std::byte> encoded, const ColourOptions& options, Function function)
+{
+    options.validate();
+    try {
+        Sorter sorter(decodeImage(encoded, {.max_pixels = options.max_pixels,
+                                            .vector_long_side = options.vector_long_side,
+                                            .keeps_colour = true,
+                                            .drawing = {options.vector_seconds, options.vector_memory}}),
+                      options);
+        return function(sorter);
+    } catch (const cv::Exception&) {
+        throwOutOfMemory();
+    } catch (const std::bad_alloc&) {
+        throwOutOfMemory();
+    }
+}
+
 }  // namespace
 
 void ColourOptions::validate() const
@@ -547,19 +573,12 @@ void ColourOptions::validate() const
 
 ColourRegions decodeColours(std::span<const std::byte> encoded, const ColourOptions& options)
 {
-    options.validate();
-    try {
-        return Sorter(decodeImage(encoded, {.max_pixels = options.max_pixels,
-                                            .vector_long_side = options.vector_long_side,
-                                            .keeps_colour = true,
-                                            .drawing = {options.vector_seconds, options.vector_memory}}),
-                      options)
-            .sort();
-    } catch (const cv::Exception&) {
-        throwOutOfMemory();
-    } catch (const std::bad_alloc&) {
-        throwOutOfMemory();
-    }
+    return ofDecoded(encoded, options, [](Sorter& sorter) { return sorter.sort(); });
+}
+
+std::vector<PaletteColour> decodePalette(std::span<const std::byte> encoded, const ColourOptions& options)
+{
+    return ofDecoded(encoded, options, [](Sorter& sorter) { return sorter.palette(); });
 }
 
 }  // namespace droplet

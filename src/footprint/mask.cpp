@@ -273,7 +273,7 @@ LevelMask maskFromImage(Image image, const MaskOptions& options)
     if (options.channel == Channel::Auto) {
         mask.channel = usesAlpha(image.alpha) ? Channel::Alpha : Channel::Luma;
     } else if (options.channel == Channel::Alpha && image.alpha.empty()) {
-        throw Error(ErrorCode::InvalidInput, "--channel alpha: the image has no alpha channel");
+        throw Error(ErrorCode::InvalidInput, "the channel is alpha, but the image has no alpha channel");
     }
     std::vector<std::uint16_t> given;  // plane of the given levels' channel, if the image's own channel differs
     if (options.levels && options.levels->channel != mask.channel) {
@@ -398,7 +398,7 @@ Mask autoMask(std::span<const std::byte> encoded, const MaskOptions& options, Le
         }
         throw Error(ErrorCode::InvalidInput,
                     "does not look like a footprint: no clear edge between liquid and dry; "
-                    "use --segment or --threshold to read it anyway");
+                    "give a segmentation method or a threshold to read it anyway");
     }
     return mask;
 }
@@ -436,8 +436,8 @@ Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
         if (options.allow_dry) {
             return dryMask(mask, options, options.segment);
         }
-        throw Error(ErrorCode::InvalidInput,
-                    std::string("--segment ") + name(options.segment) + " finds no edge in the picture, so no liquid");
+        throw Error(ErrorCode::InvalidInput, std::string("the segmentation method ") + name(options.segment) +
+                                                 " finds no edge in the picture, so no liquid");
     } catch (const cv::Exception&) {
         throwOutOfMemory();
     } catch (const std::bad_alloc&) {

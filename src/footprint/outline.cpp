@@ -75,7 +75,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     const std::vector<Border> borders = followBorders(mask, level);
     if (borders.empty() && !options.allow_dry) {
         throw Error(ErrorCode::InvalidInput,
-                    "no liquid in the mask: no pixel reaches --threshold " + numberText(options.threshold));
+                    "no liquid in the mask: no pixel reaches the threshold " + numberText(options.threshold));
     }
 
     Outline outline;
@@ -124,7 +124,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
         throw Error(ErrorCode::InvalidInput, "only specks in the mask: the largest of " +
                                                  std::to_string(outline.specks_dropped) + " has " +
                                                  numberText(outline.largest_speck_px, 3) +
-                                                 " px², less than --speck-size " + numberText(options.speck_size));
+                                                 " px², less than the speck size " + numberText(options.speck_size));
     }
     return outline;
 }

@@ -34,4 +34,16 @@ inline Vec3 linearLight(Vec3 levels)
     return {light(levels.x), light(levels.y), light(levels.z)};
 }
 
+/// CIE L*a*b* of levels of sRGB in x, y and z, with the white of D65.
+/// @param levels  0 … 255
+inline Vec3 labOf(Vec3 levels)
+{
+    const auto [r, g, b] = linearLight(levels);
+    const auto f = [](double t) { return t > 216.0 / 24389.0 ? std::cbrt(t) : (24389.0 / 27.0 * t + 16.0) / 116.0; };
+    const double x = f((0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047);
+    const double y = f(0.2126729 * r + 0.7151522 * g + 0.0721750 * b);
+    const double z = f((0.0193339 * r + 0.1191920 * g + 0.9503041 * b) / 1.08883);
+    return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
+}
+
 }  // namespace droplet

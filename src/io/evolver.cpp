@@ -349,8 +349,7 @@ private:
         lines_.line(
             "// \"equilibrate; report\" finds the equilibrium and prints the same of it. Vertices move up and down "
             "only,");
-        lines_.line(
-            "// which minimises among the functions that droplet-shape --model exact does; after \"freely\" they move");
+        lines_.line("// which minimises among the functions that the exact model does; after \"freely\" they move");
         lines_.line("// along the surface's normal and may hang over, after \"vertically\" up and down again.");
     }
 

@@ -48,8 +48,9 @@ tinygltf::Material makeMaterial(const Look& look, double thickness, bool closed)
     if (has_volume) {
         tinygltf::Value::Object volume{{"thicknessFactor", tinygltf::Value(thickness)}};
         if (look.tinted) {
-            volume["attenuationColor"] = tinygltf::Value(colourValue(look.colour));
-            volume["attenuationDistance"] = tinygltf::Value(thickness);
+            const Attenuation attenuation = attenuationOf(look, thickness);
+            volume["attenuationColor"] = tinygltf::Value(colourValue(attenuation.colour));
+            volume["attenuationDistance"] = tinygltf::Value(attenuation.distance);
         }
         material.extensions["KHR_materials_volume"] = tinygltf::Value(std::move(volume));
     }

@@ -131,7 +131,7 @@ void checkDetail(double predicted, double wanted)
         throw Error(ErrorCode::InvalidInput,
                     "the footprint's detail takes " + numberText(std::round(predicted), 9) +
                         " triangles or more, over the limit of " + numberText(std::floor(max), 9) +
-                        "; make the picture smaller, smooth it, or raise --triangles to that number");
+                        "; make the picture smaller, smooth it, or raise the number of triangles to that");
     }
 }
 

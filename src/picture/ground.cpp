@@ -85,7 +85,7 @@ Vec3f PicturePyramid::at(Vec2 uv, double width) const
                mix(texel(next_row, column), texel(next_row, next_column), fx), fy);
 }
 
-Table::Table(float span, float area, Vec3f light) : span_(span), light_(light)
+Table::Table(float span, float area, Vec3f light, bool light_grey) : span_(span), light_(light), light_grey_(light_grey)
 {
     const float rough = std::sqrt(std::max(area, 1e-6F)) / 18.0F;
     pitch_ = rough;
@@ -93,9 +93,9 @@ Table::Table(float span, float area, Vec3f light) : span_(span), light_(light)
 
 Vec3f Table::at(Vec3f place, float width) const
 {
-    // The table is cool, and warmer toward the key light.
+    // The dark table is cool, and warmer toward the key light.
     const float warm = smoothstep(-1.1F, 0.8F, dot(light_, place) / span_);
-    const Vec3f base = mix({0.055F, 0.118F, 0.168F}, {0.150F, 0.272F, 0.325F}, warm);
+    const Vec3f base = light_grey_ ? grey(0.94F) : mix({0.055F, 0.118F, 0.168F}, {0.150F, 0.272F, 0.325F}, warm);
     float ruling = 0.0F;
     for (const float along : {place.x, place.y}) {
         const float phase = along / pitch_;
@@ -103,7 +103,7 @@ Vec3f Table::at(Vec3f place, float width) const
         const float soft = std::max(0.012F, width / pitch_);
         ruling = std::max(ruling, (1.0F - smoothstep(0.012F, 0.020F + soft, away)));
     }
-    return mix(base, 1.14F * base, ruling);
+    return mix(base, (light_grey_ ? 0.9F : 1.14F) * base, ruling);
 }
 
 }  // namespace droplet

@@ -38,7 +38,8 @@ public:
     /// @param span   larger side of the box around the liquid, which is centred at the origin
     /// @param area   area of that box
     /// @param light  direction toward the key light, on the table
-    Table(float span, float area, Vec3f light);
+    /// @param light_grey  light grey instead of dark blue
+    Table(float span, float area, Vec3f light, bool light_grey);
 
     /// Share of red, green and blue light that the table scatters.
     /// @param width  width of the area to average
@@ -48,6 +49,7 @@ private:
     float span_;
     float pitch_;
     Vec3f light_;
+    bool light_grey_;
 };
 
 }  // namespace droplet

@@ -204,10 +204,12 @@ Medium mediumOf(const Look& look, double mean_height, double scale)
     medium.clear = look.transmission > 0.0;
     medium.ior = static_cast<float>(look.ior);
     if (look.tinted && mean_height > 0.0) {
+        const Attenuation attenuation = attenuationOf(look, mean_height);
         const auto per_length = [&](double share) {
-            return static_cast<float>(-std::log(std::max(share, 1e-6)) / mean_height * scale);
+            return static_cast<float>(-std::log(share) / attenuation.distance * scale);
         };
-        medium.absorption = {per_length(look.colour.x), per_length(look.colour.y), per_length(look.colour.z)};
+        const Vec3& colour = attenuation.colour;
+        medium.absorption = {per_length(colour.x), per_length(colour.y), per_length(colour.z)};
     }
     return medium;
 }

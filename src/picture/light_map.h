@@ -23,7 +23,7 @@ struct Medium {
 };
 
 /// Medium of a look.
-/// @param mean_height  path that the look's colour belongs to [m]
+/// @param mean_height  of the liquid, whose white ground has the look's colour [m]
 /// @param scale        unit of length [m]
 Medium mediumOf(const Look& look, double mean_height, double scale);
 

@@ -86,7 +86,7 @@ public:
             picture_.emplace(*options.ground);
         }
         const Vec3f size = scene_.high() - scene_.low();
-        table_.emplace(std::max(size.x, size.y), size.x * size.y, turn_({-0.75F, 0.66F, 0.0F}));
+        table_.emplace(std::max(size.x, size.y), size.x * size.y, turn_({-0.75F, 0.66F, 0.0F}), options.light_table);
         span_ = std::max(size.x, size.y);
         if (scene_.onPlane() && !studio_.uniform()) {
             light_ = lightOnPlane(scene_, media_, studio_.lights(),
@@ -149,6 +149,7 @@ private:
         float distance;  // length of the path so far
         Part part;
         std::uint32_t droplet;  // that the ray is inside of
+        bool mirrored = false;  // reflected on its way, outside of the liquid
     };
 
     [[nodiscard]] const Look& lookAt(std::uint32_t droplet) const
@@ -227,9 +228,13 @@ private:
 
     [[nodiscard]] Vec3f onward(const Meeting& meeting, Vec3f direction, const Way& way, float share, bool inside) const
     {
-        const Way next{share * way.weight, inside,
-                       way.meetings + 1,   way.distance + meeting.distance,
-                       way.part,           inside ? entered(meeting, way) : 0};
+        const Way next{share * way.weight,
+                       inside,
+                       way.meetings + 1,
+                       way.distance + meeting.distance,
+                       way.part,
+                       inside ? entered(meeting, way) : 0,
+                       way.mirrored || (!inside && !way.inside)};
         // A direction from a smooth normal may point through the facet; it is bent to graze the facet.
         const float side = (inside ? -1.0F : 1.0F) * dot(direction, meeting.facet);
         if (side < 1e-3F) {
@@ -337,10 +342,11 @@ private:
         return (1.0F - mirrors) * wet + mirrors * onward(meeting, mirrored(ray.direction, normal), way, mirrors, false);
     }
 
-    // Ground of a cut-out: white where it is seen directly, grey where it is reflected.
+    // Ground of a cut-out: white where it is seen directly or through the liquid, which a ray may leave again where it
+    // hangs over its rim; grey where it is reflected.
     [[nodiscard]] Vec3f leftOut(const Meeting& meeting, const Way& way) const
     {
-        const bool is_seen = way.meetings == 0 || way.inside;
+        const bool is_seen = !way.mirrored;
         if (is_seen != (way.part == Part::Through)) {
             return {};
         }
@@ -385,7 +391,7 @@ private:
     {
         const Vec3f flat = turn_({0.12F, -0.10F, 0.0F});
         const Vec3f offset = (1.0F / span_) * Vec3f{place.x, place.y, 0.0F} + flat;
-        const float pool = 1.0F / (1.0F + 1.2F * dot(offset, offset));
+        const float pool = 1.0F / (1.0F + (options_.light_table ? 0.3F : 1.2F) * dot(offset, offset));
         const float haze = smoothstep(1.5F, 7.0F, std::sqrt(dot(offset, offset)));
         return mix(pool * seen, kDistance, haze);
     }

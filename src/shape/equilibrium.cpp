@@ -216,7 +216,7 @@ std::optional<double> gainFor(const std::vector<Member>& members, const std::vec
                                               ? "no volume gives a droplet of that height on this footprint"
                                               : "no volume gives a mean contact angle of " +
                                                     numberText(fill.amount / kDegree) +
-                                                    " degrees on this footprint; ask for a smaller --contact-angle");
+                                                    " degrees on this footprint; ask for a smaller contact angle");
 }
 
 bool preventsPenetration(const std::vector<Member>& members)

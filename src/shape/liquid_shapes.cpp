@@ -118,13 +118,13 @@ std::string refusal(const SolveReport& report, const Refused& refused)
                         ? "at one pressure such droplets drain into each other: the largest has a Bond number of "
                         : "gravity pulls such a droplet off: its Bond number is ") +
                    numberText(report.bond_number, 4) + ", but at most " + numberText(report.critical_bond_number, 4) +
-                   " can hang on this footprint; use a smaller --gravity or --width";
+                   " can hang on this footprint; use less gravity or a smaller width";
         case Termination::NotConverged:
         case Termination::Converged:
             break;
     }
     return which + "the equations could not be solved (residual " + numberText(report.residual, 3) +
-           "); try another number of --triangles";
+           "); try another number of triangles";
 }
 
 /// Height fields, or none where no volume gives the amount.
@@ -159,7 +159,7 @@ std::string refusal(const SheetResult& result, const Refused& refused)
     switch (result.end) {
         case SheetEnd::NoAngle:
             return which + "no such droplet exists on this footprint: the mean contact angle is at most " + angle +
-                   ", at " + at + "; --volume goes on beyond it";
+                   ", at " + at + "; a given volume goes on beyond it";
         case SheetEnd::NoHeight:
             return which + "no such droplet exists on this footprint: it is highest at " + at + "; ask for less";
         case SheetEnd::Contact:
@@ -173,7 +173,7 @@ std::string refusal(const SheetResult& result, const Refused& refused)
                    " it has a contact angle of 180 degrees all along; ask for less";
         case SheetEnd::OutOfWork:
             return which + std::to_string(result.newton_steps) + " steps of Newton's method reached only " + at +
-                   " (mean contact angle " + angle + "); ask for less, or use fewer --triangles";
+                   " (mean contact angle " + angle + "); ask for less, or reduce the number of triangles";
         case SheetEnd::Unstable:
         case SheetEnd::Reached:
             break;

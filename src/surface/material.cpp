@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/surface/material.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -40,6 +41,13 @@ Look lookOf(Material material)
     throw Error(ErrorCode::InvalidArgument, "options.material = " + std::to_string(static_cast<int>(material)) +
                                                 " must be one of the " + std::to_string(entries().size()) +
                                                 " materials");
+}
+
+Attenuation attenuationOf(const Look& look, double mean_height)
+{
+    constexpr double kDarkest = 0.02;
+    const auto channel = [&](double share) { return std::max(share, kDarkest); };
+    return {{channel(look.colour.x), channel(look.colour.y), channel(look.colour.z)}, 2.0 * mean_height};
 }
 
 Material materialOf(const Liquid& liquid)

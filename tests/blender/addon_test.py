@@ -287,9 +287,9 @@ class Look(AddonTest):
             volume = output.inputs["Volume"].links[0].from_node
             colour, density = volume.inputs["Color"].default_value, volume.inputs["Density"].default_value
             densities.append(density)
-            # Light that crosses the mean thickness keeps the material's colour.
+            # Light that passes the mean thickness down to the ground and up again has the material's colour.
             thickness = volume_of(item) / (math.pi * 8e-3**2) * scale
-            kept = [math.exp(-density * (1 - channel) * thickness) for channel in colour[:3]]
+            kept = [math.exp(-2 * density * (1 - channel) * thickness) for channel in colour[:3]]
             np.testing.assert_allclose(kept, (0.03, 0.06, 0.35), atol=0.06)
             node, _, output = self.principled(item, "EEVEE")
             self.assertFalse(output.inputs["Volume"].links)

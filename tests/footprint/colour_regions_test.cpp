@@ -32,13 +32,18 @@ ColourRegions regionsOf(const std::string& picture, const ColourOptions& options
     return decodeColours(std::as_bytes(std::span(picture)), options);
 }
 
-std::set<std::string> paletteOf(const ColourRegions& regions)
+std::set<std::string> paletteOf(const std::vector<PaletteColour>& palette)
 {
     std::set<std::string> colours;
-    for (const PaletteColour& entry : regions.palette) {
+    for (const PaletteColour& entry : palette) {
         colours.insert(text(entry.colour));
     }
     return colours;
+}
+
+std::set<std::string> paletteOf(const ColourRegions& regions)
+{
+    return paletteOf(regions.palette);
 }
 
 TEST(ColourRegions, BlendsAtRimsAreNoColoursOfTheirOwn)
@@ -55,6 +60,21 @@ TEST(ColourRegions, BlendsAtRimsAreNoColoursOfTheirOwn)
     EXPECT_EQ(static_cast<std::size_t>(std::count(regions.label.begin(), regions.label.end(), 0)), 120U * 120U - wet);
     EXPECT_TRUE(std::is_sorted(regions.palette.begin(), regions.palette.end(),
                                [](const auto& a, const auto& b) { return a.pixels > b.pixels; }));
+}
+
+TEST(ColourRegions, PaletteAloneHasTheSameColours)
+{
+    const std::string picture = pie(120, 50.0);
+    const std::vector<PaletteColour> palette = decodePalette(std::as_bytes(std::span(picture)));
+    const ColourRegions regions = regionsOf(picture);
+    EXPECT_EQ(paletteOf(palette), paletteOf(regions.palette));
+    std::size_t pixels = 0;
+    for (const PaletteColour& entry : palette) {
+        pixels += entry.pixels;
+    }
+    EXPECT_NEAR(static_cast<double>(pixels), std::numbers::pi * 50.0 * 50.0, 600.0) << "all but blends";
+    const std::string white = pixmap(8, 8, [](Vec2) { return kWhite; });
+    EXPECT_TRUE(decodePalette(std::as_bytes(std::span(white))).empty());
 }
 
 // The blend of black and white is grey; a grey stripe elsewhere must not claim it.

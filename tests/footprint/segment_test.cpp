@@ -264,7 +264,7 @@ TEST_P(NoMaskTest, IsRejectedUnlessInsistIsSet)
 {
     const Bytes picture = png(painted(GetParam().size, GetParam().colour));
     EXPECT_THAT(messageOf(picture),
-                ::testing::AllOf(HasSubstr("does not look like a footprint"), HasSubstr("--segment")));
+                ::testing::AllOf(HasSubstr("does not look like a footprint"), HasSubstr("segmentation method")));
     MaskOptions options;
     options.accept_any = true;
     EXPECT_LT(decodeMask(picture, options).segment_confidence, 0.3);

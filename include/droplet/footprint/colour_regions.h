@@ -74,4 +74,11 @@ struct ColourRegions {
 /// @throws Error   InvalidArgument; InvalidInput as decodeMask, or if nothing but background is in the picture
 ColourRegions decodeColours(std::span<const std::byte> encoded, const ColourOptions& options = {});
 
+/// Palette of decodeColours() alone, in a fraction of its time. Blends do not count as pixels of a colour.
+/// @param encoded  the file's bytes, in any format of decodeMask
+/// @param options  number of colours, channel, limits
+/// @return         the colour with most pixels first; empty if nothing but background is in the picture
+/// @throws Error   InvalidArgument; InvalidInput as decodeMask
+std::vector<PaletteColour> decodePalette(std::span<const std::byte> encoded, const ColourOptions& options = {});
+
 }  // namespace droplet

@@ -63,6 +63,7 @@ struct RenderOptions {
                                                   ///< scaled to the same brightness of level ground
     Vec2 extent = {};                    ///< physical size of the mask, centred at the origin [m]; > 0 with `ground`
     std::optional<Picture> ground = {};  ///< picture on the ground; empty: a table with a fine ruling
+    bool light_table = false;            ///< that table is light grey, which shows colours as they are; else dark
     std::optional<TexturedMesh> stand = {};      ///< ground instead of the plane z = 0, uv as the droplet's
     bool shows_whole_stand = true;               ///< true: the stand is an object, shown whole; false: ground
     std::optional<StandWater> stand_water = {};  ///< light and wetness below many small droplets on a stand that is an

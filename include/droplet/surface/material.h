@@ -21,14 +21,14 @@ Material materialOf(const Liquid& liquid);
 
 /// Optical properties of a material.
 struct Look {
-    std::string name = "water";     ///< name in files
-    Vec3 colour = {1.0, 1.0, 1.0};  ///< linear red, green, blue; for liquids, the colour of white light after the mean
-                                    ///< height
-    double metallic = 0.0;          ///< 1 for metal
-    double roughness = 0.0;         ///< 0 (mirror) … 1 (matt)
-    double transmission = 1.0;      ///< share of the light that passes, 0 … 1
-    double ior = 1.333;             ///< index of refraction
-    bool tinted = false;            ///< whether the colour deepens with the path through the liquid
+    std::string name = "water";  ///< name in files
+    Vec3 colour = {1.0, 1.0,
+                   1.0};        ///< linear red, green, blue; for liquids, that of white ground below the mean height
+    double metallic = 0.0;      ///< 1 for metal
+    double roughness = 0.0;     ///< 0 (mirror) … 1 (matt)
+    double transmission = 1.0;  ///< share of the light that passes, 0 … 1
+    double ior = 1.333;         ///< index of refraction
+    bool tinted = false;        ///< whether the colour deepens with the path through the liquid
 
     /// Whether all properties are equal.
     friend bool operator==(const Look&, const Look&) = default;
@@ -37,5 +37,20 @@ struct Look {
 /// Looks up a material.
 /// @throws Error InvalidArgument
 Look lookOf(Material material);
+
+/// Absorption in a liquid (Beer and Lambert): white light has this colour after this distance.
+struct Attenuation {
+    Vec3 colour;            ///< linear red, green, blue; > 0
+    double distance = 0.0;  ///< [m]
+};
+
+/// Absorption in a tinted liquid. Light from above passes the liquid down to the ground and up again, so the distance
+/// is twice the mean height: then white ground below that height has the look's colour.
+///
+/// Guarantees: every channel is at least 0.02. A channel of 0 would absorb all light in the thinnest liquid, and a
+/// colour as bright as a logo's would come out nearly black where the liquid is thick.
+/// @param look         tinted
+/// @param mean_height  of the liquid [m] > 0
+Attenuation attenuationOf(const Look& look, double mean_height);
 
 }  // namespace droplet
