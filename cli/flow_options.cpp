@@ -14,6 +14,7 @@
 #include "force_options.h"
 #include "option_values.h"
 #include "value_list.h"
+#include "video_writer.h"
 
 namespace cli {
 namespace {
@@ -138,11 +139,7 @@ void declare(CommandLine& line)
     line.add("Picture", "--preview", "FILE",
              "Write a rendered picture of the last frame beside meshes, as PNG; - is standard output");
     declareView(line);
-    declareTurntable(line,
-                     "Write N previews of a full turn, FILE-001.png and so on, or one video if --preview names a "
-                     ".mp4, .mkv, .mov or .webm; up to 360");
-    line.add("Picture", "--codec", "NAME", "Encoder of ffmpeg [libx264, libvpx-vp9 for .webm]");
-    line.add("Picture", "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
+    declareTurntable(line);
     line.add(kOut, "--streaks", "FILE",
              "Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animated .glb has them too");
     line.add(kOut, "--maps", "PATH",
@@ -442,28 +439,12 @@ void readPreset(const CommandLine& line, FlowOptions& options)
 /// --preview and --turntable.
 void readFlowPreview(const CommandLine& line, FlowOptions& options, bool is_picture)
 {
-    readTurntable(line, options.view);
-    const auto preview = line.value("--preview");
-    if (!preview) {
-        if (options.view.turns) {
-            refuse("--turntable needs --preview");
-        }
-        return;
+    options.has_preview = readPreviewFile(line, options.view);
+    if (!options.has_preview && options.view.turns) {
+        refuse("--turntable needs --preview");
     }
-    options.has_preview = true;
-    options.view.path = preview->text;
-    const bool is_video = isVideo(preview->text);
-    if (is_picture) {
+    if (options.has_preview && is_picture) {
         refuse("--preview is for meshes, but OUTPUT '" + options.output + "' shows pictures already");
-    }
-    if (!is_video && !isStream(preview->text) && std::filesystem::path(preview->text).extension() != ".png") {
-        refuse(*preview, "a file that ends in .png, or -; with --turntable also a .mp4, .mkv, .mov or .webm");
-    }
-    if (is_video && !options.view.turns) {
-        refuse("--preview: the video '" + preview->text + "' needs --turntable, its number of frames");
-    }
-    if (isStream(preview->text) && options.view.turns) {
-        refuse("--turntable writes several files: --preview must name a file, not -");
     }
 }
 
@@ -504,16 +485,8 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
         options.view.camera.reset();
     }
     readView(line, options.view);
-    options.codec = text(line, "--codec");
     const bool is_video = options.kind == FlowOutput::Video || (options.has_preview && isVideo(options.view.path));
-    for (const char* option : {"--codec", "--quality"}) {
-        if (line.value(option) && !is_video) {
-            refuse(std::string(option) + " needs a video as OUTPUT or --preview, not '" + options.output + "'");
-        }
-    }
-    if (const auto quality = line.value("--quality")) {
-        options.quality = number(*quality, {1.0, 100.0, "a number from 1 to 100"});
-    }
+    options.encoding = readVideoEncoding(line, is_video, "OUTPUT or --preview, not '" + options.output + "'");
     if (is_video && (options.view.width % 2 != 0 || options.view.height % 2 != 0)) {
         refuse("--preview-size: a video's frame must have even sides");
     }

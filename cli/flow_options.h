@@ -18,7 +18,7 @@
 #include "droplet_options.h"
 #include "numbered_path.h"
 #include "preview.h"
-#include "video_writer.h"
+#include "video_encoding.h"
 
 namespace cli {
 
@@ -56,8 +56,7 @@ struct FlowOptions {
     std::optional<droplet::Material> material;
     PreviewOptions view;       ///< camera and size of pictures; file and turns of the preview
     bool has_preview = false;  ///< of the last frame, beside meshes
-    std::optional<std::string> codec;
-    double quality = kVideoQuality;
+    VideoEncoding encoding;
     std::optional<NumberedPath> maps;
     bool are_maps_exr = false;  ///< otherwise PNG
     int map_width = 1024;

@@ -357,12 +357,7 @@ void FlowRun::advance(double until)
 
 VideoWriterOptions FlowRun::videoAt(const std::string& path) const
 {
-    const std::string codec = options_.codec.value_or(codecFor(path));
-    checkCodec(codec, path);
-    VideoWriterOptions video{
-        path, codec, options_.view.width, options_.view.height, options_.frames_per_second, options_.quality};
-    tryVideo(video);
-    return video;
+    return triedVideo(path, {options_.view.width, options_.view.height, options_.frames_per_second}, options_.encoding);
 }
 
 droplet::Picture FlowRun::picture(const std::vector<droplet::FlowSample>& samples, double azimuth)

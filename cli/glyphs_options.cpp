@@ -72,7 +72,7 @@ void declare(CommandLine& line)
     line.exclude({"--by-colour", "--equal-height"});
     declareBatch(line);
     declareDroplets(line);
-    declarePreview(line);
+    declarePreview(line, PreviewOf::Text);
     declareHtml(line);
     declareRun(line);
 }
@@ -208,9 +208,9 @@ void refuseInapplicable(const CommandLine& line, bool is_text)
         }
         return;
     }
-    for (const char* option :
-         {"--align", "--line-spacing", "--onto", "--preview", "--view", "--preview-size", "--ground", "--camera",
-          "--environment", "--background", "--preview-colour", "--colour", "--turntable", "--html"}) {
+    for (const char* option : {"--align", "--line-spacing", "--onto", "--preview", "--view", "--preview-size",
+                               "--ground", "--camera", "--environment", "--background", "--preview-colour", "--colour",
+                               "--turntable", "--codec", "--quality", "--html"}) {
         if (line.value(option)) {
             clash(option, "--text alone");
         }
@@ -264,6 +264,9 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
     std::vector<std::string> warnings;
     if (text) {
         options.shape.preview = readPreview(line, warnings);
+        if (options.shape.preview) {
+            lookFromFront(line, *options.shape.preview);
+        }
     }
     options.shape = readDroplets(line, std::move(options.shape), "--output");
     options.shape.footprint.by_colour = readByColour(line, warnings);

@@ -12,6 +12,7 @@
 #include "files.h"
 #include "option_values.h"
 #include "value_list.h"
+#include "video_writer.h"
 
 namespace cli {
 namespace {
@@ -106,8 +107,7 @@ void declare(CommandLine& line)
     line.add(kOut, "--line-width", "NUMBER", "Width of outlines, in thousandths of the drawing's width");
     line.add(kOut, "--masks", "PATH",
              "Masks of all frames, such as masks/%04d.png; - writes them to standard output, for animate");
-    line.add(kOut, "--codec", "NAME", "Encoder of ffmpeg [libx264, libvpx-vp9 for .webm]");
-    line.add(kOut, "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
+    declareVideoEncoding(line, kOut);
     line.add(kOut, "--json", "FILE", "Write a report; - is standard output");
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
@@ -253,15 +253,7 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
             refuse(*width, "a whole number from 16 to 16384");
         }
     }
-    options.codec = text(line, "--codec");
-    for (const char* option : {"--codec", "--quality"}) {
-        if (line.value(option) && options.kind != LiquidOutput::Video) {
-            refuse(std::string(option) + " needs a video as OUTPUT");
-        }
-    }
-    if (const auto quality = line.value("--quality")) {
-        options.quality = number(*quality, {1.0, 100.0, "a number from 1 to 100"});
-    }
+    options.encoding = readVideoEncoding(line, options.kind == LiquidOutput::Video, "OUTPUT");
     options.json = text(line, "--json");
     options.resume = line.flag("--resume");
     const bool has_files =

@@ -12,7 +12,7 @@
 #include "droplet/liquid2d_io/particle_file.h"
 #include "droplet_options.h"
 #include "numbered_path.h"
-#include "video_writer.h"
+#include "video_encoding.h"
 
 namespace cli {
 
@@ -43,8 +43,7 @@ struct Liquid2dOptions {
     droplet::ExpressionOptions controls;  ///< of the style, with changes
     droplet::LiquidLook look;
     int width = 1280;  ///< of drawings and masks [px]
-    double quality = kVideoQuality;
-    std::optional<std::string> codec;
+    VideoEncoding encoding;
     std::optional<double> duration;  ///< [s]; empty: the preset's, or 4 s
     double frames_per_second = 24.0;
     std::optional<std::string> json;

@@ -247,12 +247,8 @@ public:
             resume();
         }
         if (options_.kind == LiquidOutput::Video) {
-            const std::string codec = options_.codec.value_or(codecFor(*options_.output));
-            checkCodec(codec, *options_.output);
-            const VideoWriterOptions video{*options_.output,           codec,           view_.width, view_.height,
-                                           options_.frames_per_second, options_.quality};
-            tryVideo(video);
-            video_ = std::make_unique<VideoWriter>(video);
+            video_ = std::make_unique<VideoWriter>(triedVideo(
+                *options_.output, {view_.width, view_.height, options_.frames_per_second}, options_.encoding));
         }
         if (options_.kind == LiquidOutput::Lottie) {
             lottie_.emplace(view_, options_.look, options_.frames_per_second);

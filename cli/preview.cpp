@@ -6,18 +6,21 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
 #include "droplet/picture/paint.h"
+#include "droplet/units.h"
 #include "droplet_options.h"
 #include "video_writer.h"
 
 namespace cli {
 namespace {
 
-constexpr int kMaxPixels = 8192;        // limit of width and height
-constexpr std::size_t kMaxTurns = 360;  // limit of a turntable's pictures
+constexpr int kMaxPixels = 8192;          // limit of width and height
+constexpr std::size_t kMaxTurns = 360;    // limit of a turntable's pictures
+constexpr std::size_t kVideoTurns = 120;  // pictures of a turntable's video: five seconds
 constexpr int kFewestDigits = 3;
 
 void readSize(const Given& given, PreviewOptions& options)
@@ -75,11 +78,29 @@ std::vector<std::string> paths(const PreviewOptions& options)
     return found;
 }
 
+/// Height at which a surface seen from the camera's place fills the picture as far as in width [px].
+int fittedHeight(const PreviewOptions& options, const droplet::Surface& surface)
+{
+    const auto box = droplet::around(surface);
+    if (!box || !options.camera) {
+        return options.height;
+    }
+    const droplet::Vec3 size = box->high - box->low;
+    const double turned = std::hypot(size.x, size.y);
+    const double across = options.turns ? turned : size.x;
+    const double deep = options.turns ? turned : size.y;
+    const double seen = deep * std::sin(options.camera->elevation) + size.z * std::cos(options.camera->elevation);
+    const double share = across > 0.0 ? seen / across : 1.0;
+    constexpr double kLeast = 0.25;
+    // Videos need even sides.
+    return 2 * static_cast<int>(std::lround(0.5 * options.width * std::clamp(share, kLeast, 0.75)));
+}
+
 droplet::RenderOptions renderOptions(const PreviewOptions& options, const PreviewSubject& subject, std::size_t index)
 {
     droplet::RenderOptions render;
     render.width = options.width;
-    render.height = options.height;
+    render.height = options.fits_height ? fittedHeight(options, subject.surface) : options.height;
     render.view = options.view;
     render.camera = options.camera;
     if (options.turns) {
@@ -91,6 +112,7 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
     render.colour_map = subject.colour_map;
     render.extent = subject.extent;
     render.ground = subject.ground;
+    render.light_table = subject.by_colour;
     render.environment = subject.light;
     render.stand = subject.stand;
     render.shows_whole_stand = subject.on_object;
@@ -102,12 +124,24 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
     return render;
 }
 
+/// Draws one picture of a preview.
+droplet::Picture drawn(const PreviewSubject& subject, const droplet::RenderOptions& render, bool cut_out)
+{
+    return cut_out ? onWhite(droplet::renderCutOut(subject.surface, render)) : droplet::render(subject.surface, render);
+}
+
+bool showsVideo(const PreviewOptions& options)
+{
+    return options.turns && isVideo(options.path);
+}
+
 }  // namespace
 
-void declarePreview(CommandLine& line)
+void declarePreview(CommandLine& line, PreviewOf subject)
 {
-    line.add("Picture", "--preview", "FILE", "Write a rendered picture, as PNG; - is standard output");
-    declareView(line);
+    line.add("Picture", "--preview", "FILE",
+             "Write a rendered picture, as PNG; - is standard output; with --turntable also a video");
+    declareView(line, subject);
     line.add("Picture", "--ground", "PICTURE",
              "Picture on the ground, aligned with the footprint's picture; with --onto, the object's texture [a table "
              "with a ruling]");
@@ -122,18 +156,65 @@ void declarePreview(CommandLine& line)
     if (!line.knows("--colour")) {
         line.add("Picture", "--colour", "look|contours|contact-angle", "Old name of --preview-colour");
     }
-    declareTurntable(line, "Write N previews of a full turn, FILE-001.png and so on; up to 360");
+    declareTurntable(line);
 }
 
-void declareTurntable(CommandLine& line, const char* text)
+void declareTurntable(CommandLine& line)
 {
-    line.add("Picture", "--turntable", "N", text);
+    line.add("Picture", "--turntable", "N|FILE",
+             "Write N previews of a full turn, FILE-001.png and so on, or one video if --preview names a .mp4, .mkv, "
+             ".mov or .webm; up to 360. A video's FILE, without --preview, gets 120");
+    declareVideoEncoding(line, "Picture");
 }
 
-void readTurntable(const CommandLine& line, PreviewOptions& options)
+bool readPreviewFile(const CommandLine& line, PreviewOptions& options)
 {
-    if (const auto turns = line.value("--turntable")) {
-        options.turns = count(*turns, kMaxTurns, "360");
+    const auto preview = line.value("--preview");
+    const auto turntable = line.value("--turntable");
+    if (turntable && isVideo(turntable->text)) {
+        if (preview) {
+            refuse("--turntable " + turntable->text + " and --preview exclude each other: give the number of pictures");
+        }
+        options.path = turntable->text;
+        options.turns = kVideoTurns;
+        return true;
+    }
+    if (turntable) {
+        options.turns = count(*turntable, kMaxTurns, "360");
+    }
+    if (!preview) {
+        return false;
+    }
+    options.path = preview->text;
+    std::string extension = std::filesystem::path(options.path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool is_video = isVideo(options.path);
+    if (!isStream(options.path) && extension != ".png" && !is_video) {
+        refuse(*preview, "a file that ends in .png, or -; with --turntable also a .mp4, .mkv, .mov or .webm");
+    }
+    if (is_video && !options.turns) {
+        refuse("--preview: the video '" + options.path + "' needs --turntable, its number of frames");
+    }
+    if (isStream(options.path) && options.turns) {
+        refuse("--turntable writes several files: --preview must name a file, not -");
+    }
+    return true;
+}
+
+void lookFromFront(const CommandLine& line, PreviewOptions& options)
+{
+    constexpr droplet::CameraPlace kFront{-90.0 * droplet::kDegree, 60.0 * droplet::kDegree};
+    if (!line.value("--view") && !line.value("--camera")) {
+        options.camera = kFront;
+        options.fits_height = !line.value("--preview-size");
+    }
+}
+
+void checkVideo(const PreviewOptions& options)
+{
+    if (showsVideo(options)) {
+        triedVideo(options.path, {options.width, options.height}, options.encoding);
     }
 }
 
@@ -142,14 +223,19 @@ double turnOf(const PreviewOptions& options, std::size_t index)
     return 2.0 * std::numbers::pi * static_cast<double>(index) / static_cast<double>(options.turns.value_or(1));
 }
 
-void declareView(CommandLine& line)
+void declareView(CommandLine& line, PreviewOf subject)
 {
-    line.add("Picture", "--view", "three-quarter|top|side", "Direction of the preview's view [three-quarter]");
+    const bool is_text = subject == PreviewOf::Text;
+    line.add(
+        "Picture", "--view", "three-quarter|top|side",
+        std::string("Direction of the preview's view ") + (is_text ? "[the front, from above]" : "[three-quarter]"));
     line.add("Picture", "--camera", "PLACE",
              "Camera position, instead of --view: azimuth, counter-clockwise from the picture's right, and elevation, "
              "such as -60deg,30deg");
     line.exclude({"--view", "--camera"});
-    line.add("Picture", "--preview-size", "SIZE", "Width and height of the preview in pixels [1280x960]");
+    line.add("Picture", "--preview-size", "SIZE",
+             std::string("Width and height of the preview in pixels ") +
+                 (is_text ? "[1280 wide, as high as the text needs]" : "[1280x960]"));
 }
 
 void readView(const CommandLine& line, PreviewOptions& options)
@@ -194,9 +280,9 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
             *colour,
             {{"look", Colouring::Look}, {"contours", Colouring::Contours}, {"contact-angle", Colouring::ContactAngle}});
     }
-    readTurntable(line, options);
-    const auto preview = line.value("--preview");
-    if (!preview) {
+    const bool has_preview = readPreviewFile(line, options);
+    options.encoding = readVideoEncoding(line, has_preview && showsVideo(options), "--preview or --turntable");
+    if (!has_preview) {
         for (const char* option :
              {"--view", "--camera", "--preview-size", "--ground", "--environment", "--background", "--turntable"}) {
             if (line.value(option)) {
@@ -208,15 +294,8 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
         }
         return std::nullopt;
     }
-    options.path = preview->text;
-    std::string extension = std::filesystem::path(options.path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (!isStream(options.path) && extension != ".png") {
-        refuse(*preview, "a file that ends in .png, or -");
-    }
-    if (isStream(options.path) && options.turns) {
-        refuse("--turntable writes several files: --preview must name a file, not -");
+    if (showsVideo(options) && (options.width % 2 != 0 || options.height % 2 != 0)) {
+        refuse("--preview-size: a video's frame must have even sides");
     }
     if (options.cut_out && ground && !line.value("--onto")) {
         refuse("--background none and --ground exclude each other, give one of them");
@@ -248,6 +327,17 @@ std::vector<NamedFile> previewPaths(const PreviewOptions& options)
 
 std::vector<OutputFile> previewFiles(const PreviewOptions& options, const PreviewSubject& subject)
 {
+    if (showsVideo(options)) {
+        return {{options.path, [&options, &subject](std::ostream& out) {
+                     droplet::RenderOptions render = renderOptions(options, subject, 0);
+                     VideoWriter video(triedVideo(options.path, {render.width, render.height}, options.encoding));
+                     for (std::size_t k = 0; k < *options.turns; ++k) {
+                         render.azimuth = turnOf(options, k);
+                         video.add(drawn(subject, render, options.cut_out));
+                     }
+                     video.finish(out);
+                 }}};
+    }
     std::vector<OutputFile> files;
     const std::vector<std::string> names = paths(options);
     for (std::size_t k = 0; k < names.size(); ++k) {

@@ -12,6 +12,7 @@
 #include "droplet/surface/surface.h"
 #include "droplet/surface/textured_mesh.h"
 #include "files.h"
+#include "video_encoding.h"
 
 namespace cli {
 
@@ -34,6 +35,8 @@ struct PreviewOptions {
     std::optional<std::string> environment;      ///< path of a panorama that lights the scene
     Colouring colouring = Colouring::Look;
     std::optional<std::size_t> turns;  ///< number of a turntable's pictures
+    VideoEncoding encoding = {};       ///< of a turntable's video
+    bool fits_height = false;          ///< the height follows from the droplet, seen from `camera`
 };
 
 /// Droplet to be shown.
@@ -47,24 +50,36 @@ struct PreviewSubject {
     std::optional<droplet::Environment> light;   ///< PreviewOptions::environment, read
     std::optional<droplet::TexturedMesh> stand;  ///< mesh below it, unless the ground is flat
     bool on_object = false;                      ///< whether that mesh is an object
+    bool by_colour = false;                      ///< whether droplets show colours of a picture: on a light table
 };
 
+/// What a preview shows.
+enum class PreviewOf { Picture, Text };
+
 /// Declares the options of the preview.
-void declarePreview(CommandLine& line);
+void declarePreview(CommandLine& line, PreviewOf subject = PreviewOf::Picture);
 
 /// Declares --view, --camera and --preview-size alone.
-void declareView(CommandLine& line);
+void declareView(CommandLine& line, PreviewOf subject = PreviewOf::Picture);
 
 /// Reads the options of declareView.
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 void readView(const CommandLine& line, PreviewOptions& options);
 
-/// Declares --turntable.
-void declareTurntable(CommandLine& line, const char* text);
+/// Declares --turntable, --codec and --quality.
+void declareTurntable(CommandLine& line);
 
-/// Reads --turntable.
+/// Reads --preview and --turntable.
+/// @return                whether there is a preview
 /// @throws droplet::Error InvalidArgument
-void readTurntable(const CommandLine& line, PreviewOptions& options);
+bool readPreviewFile(const CommandLine& line, PreviewOptions& options);
+
+/// Shows a text from the front, and as high as it needs, where neither view nor size is given.
+void lookFromFront(const CommandLine& line, PreviewOptions& options);
+
+/// Checks that ffmpeg writes the preview, if it is a video.
+/// @throws droplet::Error InvalidArgument: the encoder does not exist, or does not fit; OutputFailed: no ffmpeg
+void checkVideo(const PreviewOptions& options);
 
 /// Turn of a turntable's picture [rad].
 /// @param index           from 0

@@ -29,6 +29,7 @@
 #include "droplet_report.h"
 #include "file_droplets.h"
 #include "files.h"
+#include "library_message.h"
 #include "mask_shape.h"
 #include "picture_watch.h"
 #include "progress_display.h"
@@ -156,7 +157,12 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
     if (!hasSliderInPageOnly(options)) {
         droplet.surface.refill.swap(refill);
     }
-    std::vector<OutputFile> files = surfaceFiles(droplet.surface,
+    // Previews and the page have a ground of their own; an object's droplets were lowered before they were laid on it.
+    std::optional<droplet::Surface> sunk;
+    if (options.settings.sink > 0.0 && !options.settings.onto) {
+        sunk = lowered(droplet.surface, options.settings.sink);
+    }
+    std::vector<OutputFile> files = surfaceFiles(sunk ? *sunk : droplet.surface,
                                                  {options.output,
                                                   options.format,
                                                   {.material = options.settings.material,
@@ -238,6 +244,7 @@ droplet::Report finish(Droplet droplet, const DropletSettings& settings, const S
 {
     std::optional<droplet::ObjectReport> onto;
     if (around.object) {
+        droplet.surface = lowered(std::move(droplet.surface), settings.sink);
         onto = placeOnObject(droplet, *around.object, *options.settings.onto);
     }
     stages.begin(Stage::Write);
@@ -261,6 +268,7 @@ droplet::Report finish(Droplet droplet, const DropletSettings& settings, const S
     if (options.preview) {
         extras.subject.emplace(
             subjectOf(droplet, settings, droplet::looksOf(extras.droplets), source.colour_map, around));
+        extras.subject->by_colour = !source.colours.empty();
     }
     save(droplet, options, extras, stages.clock, report);
     return report;
@@ -282,10 +290,14 @@ droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& ar
     if (settings.colour_map) {
         colour_map = forInput(options, [&] { return droplet::decodePicture(picture); });
     }
+    const auto hidden = settings.colour_map ? std::nullopt : hiddenColoursWarning(mask, picture, mask_options);
     picture = {};
     addPageSlider(settings.droplet, options);
     const auto begin = [&](Stage stage, double share) { stages.begin(stage, share); };
     MaskShape made = forInput(options, [&] { return makeOfMask(mask, settings, options, begin); });
+    if (hidden) {
+        settings.warnings.push_back(*hidden);
+    }
     if (auto warning = maskWarning(mask, "look at it with --mask-out")) {
         settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
     }
@@ -477,17 +489,21 @@ void checkShape(const ShapeOptions& options, const std::string& input_name)
         inputs.push_back({"--environment", *picture});
     }
     checkFiles(inputs, outputs, options.run.files);
+    if (options.preview) {
+        checkVideo(*options.preview);
+    }
 }
 
 void printWarning(const std::string& warning, ProgressMode progress)
 {
+    const std::string text = withOptions(warning);
     if (progress == ProgressMode::Json) {
-        std::cerr << nlohmann::json{{"warning", warning}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+        std::cerr << nlohmann::json{{"warning", text}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
                   << "\n"
                   << std::flush;
         return;
     }
-    std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n" << std::flush;
+    std::cerr << paint("warning: ", Colour::Yellow) << oneLine(text) << "\n" << std::flush;
 }
 
 void makeAndReport(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make)

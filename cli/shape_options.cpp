@@ -196,6 +196,10 @@ void declareDroplets(CommandLine& line)
              "Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; "
              "takes the linear model unless --model exact is given");
     line.add(
+        "Surface", "--sink", "LENGTH",
+        "Lower the droplet into the ground by LENGTH in its file, so that a ground at height 0 cuts it: a base just "
+        "above the ground leaves a film of air, which mirrors the sky");
+    line.add(
         "Surface", "--compress", "none|quantize|meshopt",
         "Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three quarters of the size; meshopt, "
         "those encoded (EXT_meshopt_compression), a third of the size [none]");
@@ -239,6 +243,9 @@ ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const s
     }
     if (const auto materials = line.value("--materials")) {
         options.settings.materials = readMaterials(materials->text);
+    }
+    if (const auto sink = line.value("--sink")) {
+        options.settings.sink = quantity(*sink, kLength);
     }
     readFormat(line, subject, options);
     readFillRange(line, options);

@@ -15,6 +15,14 @@ std::optional<std::string> materialFile(const std::string& path, droplet::Format
     return file.replace_extension(".mtl").string();
 }
 
+droplet::Surface lowered(droplet::Surface surface, double depth)
+{
+    for (droplet::Vec3& position : surface.positions) {
+        position.z -= depth;
+    }
+    return surface;
+}
+
 std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTarget target, std::uint64_t& bytes)
 {
     std::vector<OutputFile> files;

@@ -15,6 +15,10 @@ namespace cli {
 /// Path of the .mtl file beside an .obj file; nothing for other names, formats and standard output.
 std::optional<std::string> materialFile(const std::string& path, droplet::Format format);
 
+/// Surface that lies deeper in the ground.
+/// @param depth  [m]
+droplet::Surface lowered(droplet::Surface surface, double depth);
+
 /// Path and format of a surface's file.
 struct SurfaceTarget {
     std::string path;

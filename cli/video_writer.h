@@ -7,11 +7,9 @@
 
 #include "droplet/picture/picture.h"
 #include "process.h"
+#include "video_encoding.h"
 
 namespace cli {
-
-/// Default quality, at which no difference from the frames is visible.
-inline constexpr double kVideoQuality = 65.0;
 
 struct VideoWriterOptions {
     std::string path;   ///< its extension selects the container: isVideo(path)

@@ -23,7 +23,7 @@ std::string videoCodec(const WindshieldOptions& options)
     if (!options.is_video) {
         return {};
     }
-    std::string codec = options.codec.value_or(codecFor(options.output));
+    std::string codec = options.encoding.codec.value_or(codecFor(options.output));
     checkCodec(codec, options.output);
     return codec;
 }
@@ -74,8 +74,8 @@ void WindshieldFrames::begin()
 {
     if (options_.is_video) {
         const VideoWriterOptions video{
-            options_.output, codec_, view_options_.width, view_options_.height, options_.frames_per_second,
-            options_.quality};
+            options_.output,          codec_, view_options_.width, view_options_.height, options_.frames_per_second,
+            options_.encoding.quality};
         tryVideo(video);
         video_ = std::make_unique<VideoWriter>(video);
     }

@@ -126,8 +126,7 @@ void declare(CommandLine& line)
     line.add(kLooks, "--shutter", "OPEN",
              "Motion blur: part of a frame's time that the shutter is open, such as 180deg or 0.5 [0]");
     line.addFlag(kLooks, "--layer", "Write only the droplets, with alpha");
-    line.add(kLooks, "--codec", "NAME", "Encoder of ffmpeg [libx264, libvpx-vp9 for .webm]");
-    line.add(kLooks, "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
+    declareVideoEncoding(line, kLooks);
     constexpr const char* kOut = "Beside the frames";
     line.add(kOut, "--maps", "PATH",
              "Textures of the whole glass, such as maps/%05d.png or .exr: three files per frame, -normal, -thickness "
@@ -335,16 +334,7 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
     if (options.layer && options.is_video) {
         refuse("--layer and a video exclude each other: frames have alpha, as in out/%05d.png");
     }
-    options.codec = text(line, "--codec");
-    if (options.codec && !options.is_video) {
-        refuse("--codec needs a video as OUTPUT, not '" + options.output + "'");
-    }
-    if (const auto quality = line.value("--quality")) {
-        if (!options.is_video) {
-            refuse("--quality needs a video as OUTPUT, not '" + options.output + "'");
-        }
-        options.quality = number(*quality, {1.0, 100.0, "a number from 1 to 100"});
-    }
+    options.encoding = readVideoEncoding(line, options.is_video, "OUTPUT, not '" + options.output + "'");
     if (const auto maps = line.value("--maps")) {
         options.maps = NumberedPath::of(maps->text, "--maps");
         if (!options.maps) {

@@ -12,7 +12,7 @@
 #include "droplet/wind_io/droplet_scene.h"
 #include "droplet/windshield/windshield.h"
 #include "numbered_path.h"
-#include "video_writer.h"
+#include "video_encoding.h"
 
 namespace cli {
 
@@ -33,8 +33,7 @@ struct WindshieldOptions {
     std::optional<std::string> environment;
     bool fit = false;  ///< scale and crop the background
     bool layer = false;
-    std::optional<std::string> codec;
-    double quality = kVideoQuality;  ///< quality of a video, 1 … 100
+    VideoEncoding encoding;
     std::optional<NumberedPath> maps;
     bool are_maps_exr = false;  ///< otherwise PNG
     droplet::GlassMapOptions map;

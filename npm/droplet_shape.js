@@ -29,7 +29,7 @@ const withDegrees = (message) => message.replace(/'(-?[\d.e+-]+)rad' must be .*/
 const kUnits = { LENGTH: 'm', AREA: 'm2', VOLUME: 'm3', ANGLE: 'rad', S: 'N/m', G: 'm/s2', D: 'kg/m3' };
 /** Options of files, of the terminal, of the threads, and of colours, which are not a mask's. */
 const kNotHere = new Set(['format', 'config', 'help', 'version', 'quiet', 'verbose', 'progress', 'threads', 'no-clobber', 'onto',
-    'surface-depth', 'by-colour', 'colours', 'gap', 'colour-map', 'nodes', 'materials', 'compress']);
+    'surface-depth', 'by-colour', 'colours', 'gap', 'colour-map', 'nodes', 'materials', 'compress', 'sink']);
 
 /** Options in the command's help: the heading, an option with its value, and its text in lines after column 26. */
 function optionsOf(help) {

@@ -128,6 +128,7 @@ KIND_OF_VALUE = {
     "V|artistic|wedge": "viscosity",
     "V|every": "volume",
     "N": "count",
+    "N|FILE": "count",
     "K|auto": "count",
     "F": "number",
     "C": "number",
@@ -249,7 +250,7 @@ mask: array of two dimensions, rows from the top: bool; uint8 or uint16, whose l
         "_core.make_droplet(mask_of(mask), {tokens})",
         leave_out={
             "segment", "colour", "mask_out", "unit", "format", "material",
-            "colour_map", "nodes", "materials", "compress",
+            "colour_map", "nodes", "materials", "compress", "sink",
         },
     ),
     Function(
@@ -272,7 +273,7 @@ text: one line or more, separated by line feeds.
         "_core.glyphs(font, text, {tokens})",
         leave_out={
             "font", "text", "charset", "all", "list", "output", "json", "equal_height", "unit", "format", "material", "nodes",
-            "materials", "compress", "by_colour", "palette", "text_colour", "gap",
+            "materials", "compress", "sink", "by_colour", "palette", "text_colour", "gap",
         },
     ),
     Function(

@@ -1127,7 +1127,7 @@ def flow(
         elevation, such as -60deg,30deg
       preview_size [px]: Width and height of the preview in pixels (default: 1280x960)
       turntable: Write N previews of a full turn, FILE-001.png and so on, or one video if preview names a .mp4, .mkv,
-        .mov or .webm; up to 360
+        .mov or .webm; up to 360. A video's FILE, without preview, gets 120
       codec: Encoder of ffmpeg (default: libx264, libvpx-vp9 for .webm)
       quality: Quality of the video, 1 to 100 (default: 65)
 

@@ -94,6 +94,7 @@ py::object pictureOf(const Surface& self)
         options.width = kWidth;
         options.height = kHeight;
         cli::PreviewSubject subject{self.surface(), droplet::lookOf(self.material()), self.looks(), {}, {}, {}, {}, {}};
+        subject.by_colour = !subject.looks.empty();
         if (const auto& stand = self.stand()) {
             subject.stand = stand->mesh;
             subject.on_object = stand->is_object;

@@ -20,8 +20,7 @@ def aimed(position, target):
     return (Vector(target) - Vector(position)).to_track_quat("-Z", "Y").to_euler()
 
 
-# The ground is slightly below the droplet, so that the surfaces do not coincide.
-bpy.ops.mesh.primitive_plane_add(size=40 * size, location=(0, 0, -1e-3 * size))
+bpy.ops.mesh.primitive_plane_add(size=40 * size)  # the droplet was made with --sink
 ground = bpy.data.materials.new("ground")
 ground.use_nodes = True
 nodes = ground.node_tree.nodes

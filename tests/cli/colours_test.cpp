@@ -106,7 +106,7 @@ TEST_F(ColoursTest, MakesOneDropletForEachColour)
     }
 }
 
-// White light that passes the mean height of a droplet gets its colour.
+// White light that passes the mean height of a droplet down to the ground and up again has its colour.
 TEST_F(ColoursTest, TintIsTheRegionsColour)
 {
     made({"pie.ppm", "pie.glb", "--by-colour"});
@@ -116,13 +116,35 @@ TEST_F(ColoursTest, TintIsTheRegionsColour)
     ASSERT_EQ(namesOf(scene["materials"]), (std::set<std::string>{"e30613", "ffcc00", "0062b8"}));
     for (const json& material : scene["materials"]) {
         const json& volume = material["extensions"]["KHR_materials_volume"];
-        EXPECT_EQ(volume["attenuationDistance"], volume["thicknessFactor"]);
+        EXPECT_EQ(volume["attenuationDistance"], 2.0 * volume["thicknessFactor"].get<double>());
         if (material["name"] == "ffcc00") {
             EXPECT_NEAR(volume["attenuationColor"][0].get<double>(), 1.0, 1e-9);
             EXPECT_NEAR(volume["attenuationColor"][1].get<double>(), 0.6038, 1e-4);
-            EXPECT_NEAR(volume["attenuationColor"][2].get<double>(), 0.0, 1e-9);
+            EXPECT_NEAR(volume["attenuationColor"][2].get<double>(), 0.02, 1e-9) << "no channel is black";
         }
     }
+}
+
+// A white sign on a blue disc: its transparency says nothing of the sign.
+TEST_F(ColoursTest, AlphaThatHidesColoursIsTold)
+{
+    const auto icon = [&](const std::string& sign) {
+        writeFile(at("icon.svg"),
+                  "<svg xmlns='http://www.w3.org/2000/svg' width='64' height='64'><circle cx='32' "
+                  "cy='32' r='30' fill='#229ed9'/><path fill='" +
+                      sign + "' d='M16 22h32v20H16Z'/></svg>");
+    };
+    icon("#fff");
+    const char* const warning = "(#229ed9, #ffffff); --by-colour makes a droplet of each colour, and --colour COLOUR";
+    EXPECT_THAT(made({"icon.svg", "icon.stl"}).error, HasSubstr(warning));
+    for (const std::vector<std::string>& chosen :
+         {std::vector<std::string>{"--by-colour"}, {"--colour", "#fff"}, {"--channel", "alpha"}, {"--colour-map"}}) {
+        std::vector<std::string> arguments{"icon.svg", "icon.glb"};
+        arguments.insert(arguments.end(), chosen.begin(), chosen.end());
+        EXPECT_THAT(made(arguments).error, ::testing::Not(HasSubstr("whatever their colour"))) << chosen.front();
+    }
+    icon("#229eda");
+    EXPECT_THAT(made({"icon.svg", "icon.stl"}).error, ::testing::Not(HasSubstr("whatever their colour")));
 }
 
 std::vector<std::string> typeOf(const std::string& text, std::vector<std::string> more)

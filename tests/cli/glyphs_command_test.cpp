@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "droplet/picture/picture.h"
 #include "support/command.h"
 #include "support/fonts.h"
 #include "support/refusal.h"
@@ -65,6 +66,27 @@ protected:
         return names;
     }
 };
+
+// A line of type fills the picture's width, and its lines are level.
+TEST_F(Glyphs, PreviewLooksFromTheFrontAndIsAsHighAsTheTextNeeds)
+{
+    const std::vector<std::string> text{"--text", "Water", "-o", "w.glb", "--triangles", "2k", "--preview"};
+    const auto preview = [&](const std::string& name, const std::vector<std::string>& view) {
+        std::vector<std::string> arguments = text;
+        arguments.push_back(name);
+        arguments.insert(arguments.end(), view.begin(), view.end());
+        succeeds(arguments);
+        return readPicture(directory() / name);
+    };
+    const Picture own = preview("own.png", {});
+    EXPECT_EQ(own.width, 1280);
+    EXPECT_LT(own.height, 480);
+    EXPECT_EQ(own.height % 2, 0);
+    const std::string size = "1280x" + std::to_string(own.height);
+    EXPECT_EQ(preview("front.png", {"--camera", "-90deg,60deg", "--preview-size", size}), own);
+    EXPECT_EQ(preview("small.png", {"--preview-size", "64x48"}).height, 48);
+    EXPECT_EQ(preview("above.png", {"--view", "top", "--preview-size", "64x48"}).height, 48);
+}
 
 TEST_F(Glyphs, WritesATextToOneFile)
 {

@@ -94,6 +94,16 @@ TEST_F(PreviewTest, TurntablePicturesAreNumberedAndTurned)
     EXPECT_NE(pictureOf("turn-001.png"), pictureOf("turn-002.png")) << "the table's ruling turns";
 }
 
+TEST_F(PreviewTest, TurntableIsOneVideo)
+{
+    made({"--preview", "turn.mp4", "--turntable", "2", "--background", "none"});
+    EXPECT_EQ(readFile(directory() / "turn.mp4").substr(4, 4), "ftyp");
+    EXPECT_FALSE(fs::exists(directory() / "turn-001.mp4"));
+    made({"--preview", "best.mkv", "--turntable", "2", "--quality", "100"});
+    made({"--preview", "worst.mkv", "--turntable", "2", "--quality", "1"});
+    EXPECT_GT(readFile(directory() / "best.mkv").size(), readFile(directory() / "worst.mkv").size());
+}
+
 TEST_F(PreviewTest, BackgroundNoneIsTransparent)
 {
     made({"--preview", "cut.png", "--background", "none"});
@@ -148,6 +158,12 @@ TEST_F(PreviewTest, RefusesWrongOptions)
     refused({"--preview", "a.png", "--turntable", "0"}, 2, {"--turntable"});
     refused({"--preview", "a.png", "--turntable", "361"}, 2, {"--turntable", "360"});
     refused({"--preview", "-", "--turntable", "3"}, 2, {"--turntable", "--preview must name a file"});
+    refused({"--preview", "a.mp4"}, 2, {"a.mp4", "needs --turntable"});
+    refused({"--turntable", "nowhere/a.mp4"}, 4, {"nowhere"});
+    refused({"--preview", "a.png", "--turntable", "b.mp4"}, 2, {"--turntable b.mp4", "--preview exclude each other"});
+    refused({"--preview", "a.mp4", "--turntable", "2", "--preview-size", "33x32"}, 2, {"--preview-size", "even"});
+    refused({"--preview", "a.mp4", "--turntable", "2", "--codec", "none"}, 2, {"--codec", "'none'", "ffmpeg"});
+    refused({"--preview", "a.png", "--codec", "libx264"}, 2, {"--codec needs a video as --preview"});
     refused({"--preview", "a.png", "--colour", "contours", "--onto", "o.glb"}, 2, {"--colour contours", "--onto"});
     refused({"--preview", "a.png", "--ground", "missing.png"}, 3, {"missing.png"});
     refused({"--preview", "a.png", "--ground", "old.json"}, 3, {"old.json"});

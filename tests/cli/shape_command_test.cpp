@@ -441,6 +441,29 @@ TEST_F(ShapeCommandTest, BaseFollowsTheGround)
     EXPECT_NEAR(rangeOfZ(bytesOf("bowl.stl")).second, 1.46, 0.2);
 }
 
+// A base just above the ground leaves a film of air. Previews have a ground of their own.
+TEST_F(ShapeCommandTest, SinkLowersTheDropletInItsFile)
+{
+    const std::vector<std::string> picture{"--preview-size", "64x48", "--preview"};
+    const auto made = [&](std::vector<std::string> arguments, const std::string& preview) {
+        arguments.insert(arguments.end(), picture.begin(), picture.end());
+        arguments.push_back(preview);
+        make(arguments);
+    };
+    made({"disc.pgm", "flat.stl"}, "flat.png");
+    made({"disc.pgm", "sunk.stl", "--sink", "0.01mm"}, "sunk.png");
+    const auto [low, high] = rangeOfZ(bytesOf("flat.stl"));
+    const auto [sunk_low, sunk_high] = rangeOfZ(bytesOf("sunk.stl"));
+    EXPECT_NEAR(sunk_low, low - 0.01, 1e-6);
+    EXPECT_NEAR(sunk_high, high - 0.01, 1e-6);
+    EXPECT_EQ(bytesOf("sunk.png"), bytesOf("flat.png"));
+    make({"disc.pgm", "cap.glb", "--open", "--width", "6cm"});
+    writeFile(directory() / "spot.pgm", discPicture(64, 8.0));
+    make({"spot.pgm", "on.stl", "--onto", "cap.glb"});
+    make({"spot.pgm", "in.stl", "--onto", "cap.glb", "--sink", "0.01mm"});
+    EXPECT_NEAR(rangeOfZ(bytesOf("in.stl")).second, rangeOfZ(bytesOf("on.stl")).second - 0.01, 2e-3);
+}
+
 TEST_F(ShapeCommandTest, LevelHeightMapLiftsTheDroplet)
 {
     writeFile(directory() / "white.pgm", greymap(8, 8, [](int, int) { return 255; }));

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "video_encoding.h"
+
+#include "option_values.h"
+#include "video_writer.h"
+
+namespace cli {
+
+void declareVideoEncoding(CommandLine& line, const char* group)
+{
+    line.add(group, "--codec", "NAME", "Encoder of ffmpeg [libx264, libvpx-vp9 for .webm]");
+    line.add(group, "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
+}
+
+VideoEncoding readVideoEncoding(const CommandLine& line, bool has_video, const std::string& needed)
+{
+    for (const char* option : {"--codec", "--quality"}) {
+        if (line.value(option) && !has_video) {
+            refuse(std::string(option) + " needs a video as " + needed);
+        }
+    }
+    VideoEncoding encoding;
+    if (const auto codec = line.value("--codec")) {
+        encoding.codec = codec->text;
+    }
+    if (const auto quality = line.value("--quality")) {
+        const auto value = finiteNumber(quality->text);
+        if (!value || *value < 1.0 || *value > 100.0) {
+            refuse(*quality, "a number from 1 to 100");
+        }
+        encoding.quality = *value;
+    }
+    return encoding;
+}
+
+VideoWriterOptions triedVideo(const std::string& path, const VideoFrames& frames, const VideoEncoding& encoding)
+{
+    const std::string codec = encoding.codec.value_or(codecFor(path));
+    checkCodec(codec, path);
+    VideoWriterOptions video{path, codec, frames.width, frames.height, frames.per_second, encoding.quality};
+    tryVideo(video);
+    return video;
+}
+
+}  // namespace cli
