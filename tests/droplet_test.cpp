@@ -720,6 +720,16 @@ TEST(Droplet, NamesNeighboursThatWouldTouch)
         ASSERT_NE(at, std::string::npos) << message;
         EXPECT_NEAR(std::stod(message.substr(at + 30)), 104.0, 1.5);  // see below
     }
+    // Where the work does not suffice to find that angle, none is named.
+    DropletOptions short_of_work = options;
+    short_of_work.solve.max_work = 4e4;
+    try {
+        (void)makeDroplet(nearDiscs(), short_of_work);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::NoSuchDroplet);
+        EXPECT_THAT(error.what(), ::testing::EndsWith("ask for less"));
+    }
     // Where nobody asked for that much, they get less, and one line says so.
     options.allow_less = true;
     const Droplet less = makeDroplet(nearDiscs(), options);

@@ -42,6 +42,8 @@ public:
     virtual void prepare(const Operator& op) = 0;
     [[nodiscard]] virtual ConstrainedSolution solve(const ConstrainedProblem& problem) const = 0;
     [[nodiscard]] virtual const char* method() const = 0;
+    /// Work of the last prepare(), as SolveOptions::max_work.
+    [[nodiscard]] virtual double prepareWork() const { return 0.0; }
 };
 
 /// Solver by factorisation: SimplicialLLT if A itself is positive definite, otherwise SimplicialLDLT.

@@ -418,6 +418,7 @@ bool isStable(const std::vector<Step>& steps)
 struct StepOptions {
     Fill fill;
     double tolerance = 1e-10;  ///< of linear systems
+    double max_work = std::numeric_limits<double>::infinity();
 };
 
 Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vector<double>>& gradients,
@@ -451,10 +452,12 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
             advance.residual = std::max(advance.residual, step.residual);
             if (changed[k] != 0) {
                 const std::size_t unknowns = members[k].sheet->height.size() - rimOf(members[k]);
-                advance.work += kStepWork * static_cast<double>(unknowns) +
+                advance.work += std::max(kStepWork * static_cast<double>(unknowns), members[k].solver->prepareWork()) +
                                 static_cast<double>(step.iterations) * static_cast<double>(unknowns);
             }
         }
+        // The set of held vertices may take many systems to settle.
+        advance.converged = advance.converged && advance.work < options.max_work;
         // At least one droplet must keep liquid.
         advance.converged =
             advance.converged && std::any_of(steps.begin(), steps.end(), [](const Step& step) { return !step.loss; });
@@ -641,6 +644,7 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
     StepOptions step{options.fill, exact ? loose : options.linear_tolerance};
     double min_residual = std::numeric_limits<double>::infinity();
     while (settled.newton_steps < options.max_steps && settled.work < options.max_work) {
+        step.max_work = options.max_work - settled.work;
         const Advance next = advanceOf(members, gradients, step);
         ++settled.newton_steps;
         settled.work += next.work;

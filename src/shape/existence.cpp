@@ -15,6 +15,7 @@
 #include "droplet/units.h"
 #include "shape/cap.h"
 #include "shape/hanging.h"
+#include "shape/work.h"
 
 namespace droplet {
 namespace {
@@ -121,13 +122,21 @@ public:
 
     Outcome run()
     {
+        search();
+        outcome_.work = work_;
+        return outcome_;
+    }
+
+private:
+    void search()
+    {
         if (!settleLinear(linearFill(options_->fill))) {
             checkStability();
-            return outcome_;
+            return;
         }
         if (options_->model == Model::Linear) {
             outcome_.termination = Termination::Converged;
-            return outcome_;
+            return;
         }
         outcome_.iterations = 0;
         use(Model::Exact);
@@ -141,10 +150,8 @@ public:
             outcome_.termination = Termination::OutOfSteps;
             outcome_.largest_volume = reached_;
         }
-        return outcome_;
     }
 
-private:
     [[nodiscard]] std::size_t stepsLeft() const
     {
         return options_->max_newton_steps - std::min(outcome_.newton_steps, options_->max_newton_steps);
@@ -152,15 +159,12 @@ private:
 
     [[nodiscard]] double maxWork() const
     {
-        // Half a minute for about ten thousand unknowns.
-        constexpr double kBaseWork = 6e7;
-        constexpr double kWorkPerUnknown = 2000.0;
-        const double unknowns =
-            std::accumulate(members_->begin(), members_->end(), 0.0, [](double sum, const Member& member) {
-                const PlanarMesh& mesh = member.energy->mesh();
-                return sum + static_cast<double>(mesh.vertices.size() - mesh.rimVertexCount());
-            });
-        return options_->max_work.value_or(kBaseWork + kWorkPerUnknown * unknowns);
+        std::size_t unknowns = 0;
+        for (const Member& member : *members_) {
+            const PlanarMesh& mesh = member.energy->mesh();
+            unknowns += mesh.vertices.size() - mesh.rimVertexCount();
+        }
+        return options_->max_work.value_or(fieldWork(unknowns));
     }
 
     [[nodiscard]] bool isOutOfSteps() const { return stepsLeft() == 0 || work_ >= max_work_; }
@@ -183,7 +187,8 @@ private:
 
     bool settleLinear(const Fill& fill)
     {
-        SettleOptions options{.fill = fill};
+        constexpr double kFaster = 4.0;  // a system costs less than a step of the exact model
+        SettleOptions options{.fill = fill, .max_work = kFaster * maxWork()};
         if (options_->model == Model::Exact) {
             options.linear_tolerance = kStartTolerance;
         }

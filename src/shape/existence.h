@@ -16,6 +16,7 @@ struct Outcome {
     std::size_t newton_steps = 0;
     std::size_t iterations = 0;
     double residual = 0.0;
+    double work = 0.0;                  ///< of the exact model, as SolveOptions::max_work
     double largest_volume = 0.0;        ///< with NoHeightField [m³]
     double bond_number = 0.0;           ///< with Unstable
     double critical_bond_number = 0.0;  ///< with Unstable

@@ -22,6 +22,7 @@
 #include "shape/sheet_base.h"
 #include "shape/sheet_contact.h"
 #include "shape/sheet_mesh.h"
+#include "shape/work.h"
 #include "union_find.h"
 
 namespace droplet {
@@ -33,14 +34,26 @@ constexpr std::size_t kQuickSteps = 15;
 /// Work of the height field where no sheet was found, as in SolveOptions: some seconds.
 constexpr double kMaxWork = 2e7;
 
+/// Most work of a run: one and a half minutes, or half of what a height field may take. A part of it where nobody asked
+/// for an amount.
+constexpr double kRunWork = 2.7e8;
+constexpr double kFieldShare = 0.5;
+constexpr double kDefaultShare = 0.5;
+
+/// Part of it that is kept for droplets that touch, and work of a test for contact, of a triangle.
+constexpr double kContactShare = 0.2;
+constexpr double kContactWork = 10.0;
+
 /// Share of the wanted contact angle below which a sheet is no droplet, and the linear model is taken.
 constexpr double kLeastShare = 0.5;
 
 /// Largest mean contact angle of sheets that sink to the ground on a straight way [rad].
 constexpr double kFlat = 30.0 * kDegree;
 
-/// Reduction of the contact angle until neighbours do not touch [rad], and its most repetitions.
+/// First reduction of the contact angle of a droplet that touches a neighbour [rad], the growth of the next ones, and
+/// the most of them.
 constexpr double kLower = 2.0 * kDegree;
+constexpr double kLowerMore = 1.5;
 constexpr int kMaxLowerings = 60;
 
 /// Error of the largest share of an amount at which neighbours do not touch, and most pairs that are looked at.
@@ -172,6 +185,11 @@ std::string refusal(const SheetResult& result, const Refused& refused)
             return which + "the rim does not hold such a droplet: at " + at +
                    " it has a contact angle of 180 degrees all along; ask for less";
         case SheetEnd::OutOfWork:
+            if (result.volume == 0.0) {
+                return which +
+                       "the work that a run may take does not begin to fill this footprint: its ground is too steep or "
+                       "rough, or its rim too ragged; smooth them, or use fewer --triangles";
+            }
             return which + std::to_string(result.newton_steps) + " steps of Newton's method reached only " + at +
                    " (mean contact angle " + angle + "); ask for less, or reduce the number of triangles";
         case SheetEnd::Unstable:
@@ -188,17 +206,52 @@ std::string refusal(const SheetResult& result, const Refused& refused)
 
 /// Shape of one droplet, or of all at one pressure.
 struct Shape {
-    std::vector<HeightField> fields;  ///< one per droplet, or empty
-    std::optional<SheetResult> sheet;
-    SolveReport report;                 ///< of the height fields
+    std::vector<HeightField> fields = {};  ///< one per droplet, or empty
+    std::optional<SheetResult> sheet = {};
+    SolveReport report = {};            ///< of the height fields
     std::optional<double> lesser = {};  ///< mean contact angle, if they have less liquid than was wanted [rad]
+    double work = 0.0;                  ///< done for all of it, as SolveOptions::max_work
 };
+
+std::size_t unknownsOf(const std::vector<PlanarMesh>& meshes)
+{
+    std::size_t unknowns = 0;
+    for (const PlanarMesh& mesh : meshes) {
+        unknowns += mesh.vertices.size() - mesh.rimVertexCount();
+    }
+    return unknowns;
+}
+
+/// Most work of a run.
+double runWork(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, bool allow_less)
+{
+    const double most = std::max(kRunWork, kFieldShare * fieldWork(unknownsOf(meshes)));
+    return options.max_work.value_or(allow_less ? kDefaultShare * most : most);
+}
+
+/// Share of the work for every group of droplets: one half in equal parts, one in proportion to a factorisation.
+std::vector<double> sharesOf(const std::vector<PlanarMesh>& meshes, const std::vector<std::vector<std::size_t>>& groups)
+{
+    std::vector<double> costs;
+    for (const std::vector<std::size_t>& group : groups) {
+        std::size_t triangles = 0;
+        for (const std::size_t k : group) {
+            triangles += meshes[k].triangles.size();
+        }
+        costs.push_back(factorWork(triangles));
+    }
+    const double all = std::accumulate(costs.begin(), costs.end(), 0.0);
+    for (double& cost : costs) {
+        cost = 0.5 * cost / all + 0.5 / static_cast<double>(costs.size());
+    }
+    return costs;
+}
 
 /// Height fields of droplets, and how they were found.
 Shape solveFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
 {
     Solution solution = findFields(meshes, options, {});
-    Shape shape{{}, {}, solution.report};
+    Shape shape{.report = solution.report, .work = solution.report.work};
     if (solution.report.usable()) {
         shape.fields = std::move(solution.droplets);
     }
@@ -220,6 +273,7 @@ Shape lesserFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& op
     less.fill.by = FillBy::Volume;
     less.fill.amount = kSurely * shape.report.largest_volume;
     Shape lesser = solveFields(meshes, less);
+    lesser.work += shape.work;
     if (lesser.fields.empty()) {
         return shape;
     }
@@ -237,9 +291,12 @@ Shape lesserFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& op
 Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, std::vector<HeightField> fields,
                  SheetEffort effort, const std::function<void(double)>& reached)
 {
-    Shape shape{std::move(fields), {}, {}};
+    const double most = options.max_work.value_or(kRunWork);
+    const double field_work = fieldWork(unknownsOf(meshes));
+    Shape shape{.fields = std::move(fields)};
     if (shape.fields.empty() && !mustHang(options)) {
         SolveOptions quick = options;
+        quick.max_work = std::min(field_work, most);
         quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
         shape = solveFields(meshes, quick);
     }
@@ -249,20 +306,22 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
     }
     // Where nobody asked for an amount, a height field that is upright in a few places may stand.
     const bool has_stand_in = !shape.fields.empty() && effort == SheetEffort::Modest;
-    shape.sheet = solveSheet(meshes, options, has_stand_in ? SheetEffort::Slight : effort, reached);
+    SolveOptions rest = options;
+    rest.max_work = std::max(most - shape.work, 0.0);
+    shape.sheet = solveSheet(meshes, rest, has_stand_in ? SheetEffort::Slight : effort, reached);
+    shape.work += shape.sheet->work;
     if (shape.sheet->end == SheetEnd::Reached) {
         shape.fields.clear();
     } else if (shape.fields.empty() && !mustHang(options)) {
         SolveOptions limited = options;
         // Where a mask full of holes takes too many triangles for a sheet, height fields are all there is.
         const bool is_lost = shape.sheet->end == SheetEnd::OutOfWork && shape.sheet->volume == 0.0;
-        if (!is_lost) {
-            limited.max_work = options.max_work.value_or(kMaxWork);
-        }
+        limited.max_work = std::clamp(is_lost ? field_work : kMaxWork, 0.0, std::max(most - shape.work, 0.0));
         Shape upright = solveFields(meshes, limited);
         upright.sheet = std::move(shape.sheet);
+        upright.work += shape.work;
         return upright.fields.empty() && reachesFurther(upright) && effort == SheetEffort::Modest
-                   ? lesserFields(meshes, options, std::move(upright))
+                   ? lesserFields(meshes, limited, std::move(upright))
                    : upright;
     }
     return shape;
@@ -341,12 +400,25 @@ void take(SheetResult& result, const std::vector<std::size_t>& droplets, LiquidS
     report.newton_steps = std::max(report.newton_steps, result.newton_steps);
 }
 
-/// Lowers the contact angles of droplets that touch until they do not.
-void lowerUntilApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, LiquidShapes& shapes)
+/// Work of neighbourContact().
+double contactWork(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes)
+{
+    std::size_t triangles = 0;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        triangles += shapes.sheets[k] ? shapes.sheets[k]->triangles.size() : meshes[k].triangles.size();
+    }
+    return kContactWork * static_cast<double>(triangles);
+}
+
+/// Lowers the contact angles of droplets that touch until they do not, or no work is left.
+void lowerUntilApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, Work& work,
+                     LiquidShapes& shapes)
 {
     std::vector<bool> is_lowered(meshes.size(), false);
-    for (int round = 0; round < kMaxLowerings; ++round) {
+    std::vector<double> lowerings(meshes.size(), kLower);
+    for (int round = 0; round < kMaxLowerings && work.isLeft(); ++round) {
         const std::optional<SheetContact> contact = neighbourContact(meshes, shapes);
+        work.done += contactWork(meshes, shapes);
         if (!contact) {
             return;
         }
@@ -358,14 +430,17 @@ void lowerUntilApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& 
             own.volumes.clear();
             own.fill = {FillBy::ContactAngle, 0.0, FillSharing::Each};
             const double angle = measure(*shapes.sheets[k], options).contact_angle.mean;
-            for (int lowering = 1; angle > lowering * kLower; ++lowering) {
-                own.fill.amount = angle - lowering * kLower;
+            for (double& lowering = lowerings[k]; angle > lowering && work.isLeft(); lowering *= kLowerMore) {
+                own.fill.amount = angle - lowering;
+                own.max_work = work.left();
                 SheetResult lower = solveSheet(meshes[k], own, SheetEffort::Modest);
+                work.done += lower.work;
                 if (lower.end == SheetEnd::Reached) {
                     shapes.least_angle = std::min(shapes.least_angle, own.fill.amount);
                     take(lower, {k}, shapes);
                     shapes.with_less += is_lowered[k] ? 0 : 1;
                     is_lowered[k] = true;
+                    lowering *= kLowerMore;
                     break;
                 }
             }
@@ -480,6 +555,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     Solution& solution = shapes.solution;
     if (!mayHang(options)) {
         solution = solve(meshes, options, progress);
+        shapes.work = solution.report.work;
         if (!solution.report.usable() && options.model == Model::Auto && allow_less) {
             if (auto stand_in = linearStandIn(meshes, options)) {
                 return *std::move(stand_in);
@@ -500,6 +576,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         SolveOptions quick = options;
         quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
         solution = findFields(meshes, quick, progress);
+        shapes.work = solution.report.work;
         if (solution.report.usable() && std::none_of(solution.droplets.begin(), solution.droplets.end(), isUpright)) {
             return shapes;
         }
@@ -509,6 +586,8 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     const std::vector<std::vector<std::size_t>> groups = groupsOf(count, options);
     const bool has_fields = solution.report.usable();
     const bool has_linear = hasLinear(options, allow_less);
+    const double most = std::max(runWork(meshes, options, allow_less) - shapes.work, 0.0);
+    const std::vector<double> parts = sharesOf(meshes, groups);
     std::vector<Shape> found(groups.size());
     ReachedShare reached(progress, groups.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
@@ -524,7 +603,9 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
                 fields.push_back(std::move(solution.droplets[k]));
             }
         }
-        found[g] = solveShape(own, ownOptions(options, g), std::move(fields),
+        SolveOptions own_options = ownOptions(options, g);
+        own_options.max_work = parts[g] * most;
+        found[g] = solveShape(own, own_options, std::move(fields),
                               has_linear   ? SheetEffort::Slight
                               : allow_less ? SheetEffort::Modest
                                            : SheetEffort::Full,
@@ -549,6 +630,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     shapes.least_angle = std::numbers::pi;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         Shape& shape = found[g];
+        shapes.work += shape.work;
         const Refused refused{groups.size() == 1 ? "" : ofDroplet(g, count), groups[g].size(), gravity};
         report.residual = std::max(report.residual, shape.report.usable() ? shape.report.residual : 0.0);
         if (!shape.fields.empty()) {
@@ -596,14 +678,17 @@ SolveOptions scaled(const SolveOptions& options, double share)
 }
 
 /// Whether droplets with a share of their amount exist, and do not touch.
-bool areApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, double share)
+bool areApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, double share, Work& work)
 {
-    const LiquidShapes shapes = solveAll(meshes, scaled(options, share), true, {});
+    SolveOptions own = scaled(options, share);
+    own.max_work = work.left();
+    const LiquidShapes shapes = solveAll(meshes, own, true, {});
+    work.done += shapes.work + (shapes.sheets.empty() ? 0.0 : contactWork(meshes, shapes));
     return shapes.with_less == 0 && (shapes.sheets.empty() || !neighbourContact(meshes, shapes));
 }
 
-/// Why neighbours are refused, with the largest amount at which no droplets touch.
-std::string refusal(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, SheetContact contact)
+/// Why neighbours are refused, with the largest amount at which no droplets touch, or one that was found with the work.
+std::string refusal(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, SheetContact contact, Work work)
 {
     const std::string where =
         fmt::format("droplets {} and {} would touch at x {} mm, y {} mm; ", contact.first + 1, contact.second + 1,
@@ -616,18 +701,24 @@ std::string refusal(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
             own.volumes = {options.volumes[pair[0]], options.volumes[pair[1]]};
         }
         double apart = 0.0;
-        for (double touching = share; touching - apart > kShareError * touching;) {
+        for (double touching = share; touching - apart > kShareError * touching && work.isLeft();) {
             const double middle = 0.5 * (apart + touching);
-            (areApart({meshes[pair[0]], meshes[pair[1]]}, own, middle) ? apart : touching) = middle;
+            (areApart({meshes[pair[0]], meshes[pair[1]]}, own, middle, work) ? apart : touching) = middle;
             if (touching < kShareError) {
                 break;
             }
         }
         share = apart;
+        if (!work.isLeft()) {
+            return where + "ask for less";
+        }
         if (share == 0.0) {
             return where + "they do with less, too";
         }
-        const LiquidShapes shapes = solveAll(meshes, scaled(options, share), true, {});
+        own = scaled(options, share);
+        own.max_work = work.left();
+        const LiquidShapes shapes = solveAll(meshes, own, true, {});
+        work.done += shapes.work;
         const std::optional<SheetContact> next =
             shapes.sheets.empty() ? std::nullopt : neighbourContact(meshes, shapes);
         if (!next) {
@@ -699,11 +790,13 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
     if (shapes.sheets.empty() || options.fill.sharing == FillSharing::Total) {
         return shapes;
     }
+    const double most = runWork(meshes, options, allow_less);
+    Work work{std::max(most - shapes.work, kContactShare * most)};
     if (allow_less) {
-        lowerUntilApart(meshes, options, shapes);
+        lowerUntilApart(meshes, options, work, shapes);
     }
     if (const std::optional<SheetContact> contact = neighbourContact(meshes, shapes)) {
-        throw Error(ErrorCode::NoSuchDroplet, refusal(meshes, options, *contact));
+        throw Error(ErrorCode::NoSuchDroplet, refusal(meshes, options, *contact, work));
     }
     return shapes;
 }

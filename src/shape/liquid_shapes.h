@@ -23,6 +23,7 @@ struct LiquidShapes {
     std::size_t with_less = 0;  ///< number of droplets that have less liquid than was wanted
     double least_angle = 0.0;   ///< smallest mean contact angle of those [rad]
     bool is_stand_in = false;   ///< whether the linear model stands in for an exact shape that was not found
+    double work = 0.0;          ///< done, as SolveOptions::max_work
 };
 
 /// Solves every droplet: by the linear system, by Newton's method, or, where the liquid hangs over its rim, as a sheet.

@@ -17,6 +17,7 @@
 #include "shape/sheet_energy.h"
 #include "shape/sheet_follow.h"
 #include "shape/sheet_path.h"
+#include "shape/work.h"
 
 namespace droplet {
 namespace {
@@ -157,6 +158,7 @@ void take(FilledSheet filled, const SolveOptions& options, SheetResult& result)
     result.volume = filled.volume;
     result.contact_angle = filled.angle;
     result.newton_steps = static_cast<std::size_t>(filled.newton_steps);
+    result.work = filled.work / kSheetUnits;
     result.contact = filled.contact;
     result.sheet.contact_angle = smoothed(
         result.sheet.footprint, rimAngles(filled.mesh, weightOf(options), filled.pressure, options.ground).angle);
@@ -199,6 +201,9 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
     sheet_options.max_work = effort == SheetEffort::Full ? std::max(kLeastFullWork, work)
                                                          : (effort == SheetEffort::Modest ? kModestWork : kSlightWork) *
                                                                std::max(kLeastWork, work);
+    if (options.max_work) {
+        sheet_options.max_work = std::min(sheet_options.max_work, kSheetUnits * *options.max_work);
+    }
     sheet_options.ground = options.ground;
     sheet_options.reached = reached;
     take(fillSheet(pinned, {options.fill.by, options.fill.amount}, sheet_options), options, result);
@@ -224,11 +229,18 @@ SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOpt
     }
     SheetResult result = solveWith(footprints, options, 1.0, effort, reached);
     const bool is_open = result.end != SheetEnd::Reached && result.end != SheetEnd::OutOfWork;
-    if (is_open && effort == SheetEffort::Full && triangles <= kConfirmed) {
-        SheetResult finer = solveWith(footprints, options, 0.5, effort, reached);
-        if (finer.end == SheetEnd::Reached || finer.volume > result.volume) {
-            return finer;
+    const bool has_work = !options.max_work || result.work < *options.max_work;
+    if (is_open && effort == SheetEffort::Full && triangles <= kConfirmed && has_work) {
+        SolveOptions rest = options;
+        if (rest.max_work) {
+            *rest.max_work -= result.work;
         }
+        SheetResult finer = solveWith(footprints, rest, 0.5, effort, reached);
+        const double work = result.work + finer.work;
+        if (finer.end == SheetEnd::Reached || finer.volume > result.volume) {
+            result = std::move(finer);
+        }
+        result.work = work;
     }
     return result;
 }

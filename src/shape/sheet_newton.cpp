@@ -12,6 +12,7 @@
 
 #include "blocks.h"
 #include "shape/sheet_remesh.h"
+#include "shape/work.h"
 
 namespace droplet {
 namespace {
@@ -36,6 +37,9 @@ constexpr double kSolved = 1e-11;
 /// Relative residual of an equilibrium from which on its matrix serves for the next place as well: the places differ by
 /// as much, and Newton's next step ends.
 constexpr double kSamePlace = 1e-5;
+/// Work of moving and integrating a triangle, and of finding the ground under it.
+constexpr double kPassWork = 8.0;
+constexpr double kGroundWork = 30.0;
 /// Triangles of a block: some 0.05 ms of work.
 constexpr std::size_t kTriangles = 4096;
 
@@ -249,6 +253,13 @@ double SheetSolver::volumeScale(double volume) const
     return std::max(volume, 1e-6 * std::pow(linear_.mass.sum(), 1.5));
 }
 
+double SheetSolver::workOf(int factorisations, const SheetMesh& sheet) const
+{
+    const double pass = base_.ground.flat() ? kPassWork : kPassWork + kGroundWork;
+    return factorisations * factorWork(sheet.triangles.size()) +
+           static_cast<double>(passes_) * pass * static_cast<double>(sheet.triangles.size());
+}
+
 bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume, SheetIntegrals& sums)
 {
     const SheetMesh before = sheet;
@@ -273,10 +284,12 @@ bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume, 
         move(step.motion, part);
         base_.lift(sheet.places, rim_);
         SheetIntegrals now = liquidUnder(sheet);
+        ++passes_;
         for (int round = 0; round < 8 && std::abs(volume - now.volume) > 1e-13 * scale; ++round) {
             move(along, volume - now.volume);
             base_.lift(sheet.places, rim_);
             now = liquidUnder(sheet);
+            ++passes_;
         }
         if (std::abs(now.volume - volume) > 1e-10 * scale || !isGentle(before, sheet, {})) {
             continue;
@@ -305,6 +318,11 @@ void SheetSolver::describe(NewtonResult& result) const
 NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressure, const NewtonLimits& limits)
 {
     NewtonResult result;
+    passes_ = 0;
+    const auto has_work = [&] {
+        result.work = workOf(result.factorisations, sheet);
+        return result.work < limits.max_work;
+    };
     const std::vector<double> angles = limits.worn > 0.0 ? minAngles(sheet) : std::vector<double>{};
     SheetIntegrals sums = liquidUnder(sheet);
     std::vector<std::uint8_t> same_held;  // with the last factorisation, if it was that of an equilibrium, nearly
@@ -339,7 +357,7 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             }
             return result;
         }
-        if (result.steps >= limits.steps || result.factorisations >= limits.factorisations) {
+        if (result.steps >= limits.steps || result.factorisations >= limits.factorisations || !has_work()) {
             return result;
         }
         last = is_full ? result.residual : last;
@@ -354,7 +372,7 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             double shift = 0.0;
             for (++result.factorisations; !factor(shift) || negatives() != 1; ++result.factorisations) {
                 shift = shift == 0.0 ? least : 3.0 * shift;
-                if (shift > 1e12 * least) {
+                if (shift > 1e12 * least || !has_work()) {
                     return result;
                 }
             }
@@ -382,6 +400,9 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
                     has_changed = true;
                 }
             }
+            if (!has_work()) {
+                return result;
+            }
             if (has_changed && round < kGroundRounds) {
                 continue;
             }
@@ -393,7 +414,8 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
         if (is_plain && result.residual <= kSamePlace) {
             same_held = held_;
         }
-        if (shifted > limits.shifted_steps || !moveWithin(sheet, step, volume, sums)) {
+        const bool has_moved = shifted <= limits.shifted_steps && moveWithin(sheet, step, volume, sums);
+        if (!has_moved || !has_work()) {
             return result;
         }
         pressure += step.pressure;

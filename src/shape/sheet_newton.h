@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "shape/sheet_base.h"
@@ -19,6 +21,7 @@ struct NewtonLimits {
     double stagnated = 1e-7;   ///< relative residual that is good enough when steps no longer lower it
     double worn = 0.0;         ///< smallest angle of a triangle, over that at the start, below which it ends
     int factorisations = 150;  ///< after which no step begins
+    double max_work = std::numeric_limits<double>::infinity();  ///< as of SheetOptions; nothing is factorised beyond
 };
 
 /// Result of Newton's method.
@@ -26,6 +29,7 @@ struct NewtonResult {
     bool converged = false;  ///< to a minimum of the energy at the given volume
     int steps = 0;
     int factorisations = 0;
+    double work = 0.0;            ///< as SheetOptions::max_work
     double residual = 0.0;        ///< relative
     std::vector<Vec3> tangent;    ///< if converged: motion of every vertex per volume [1/m²]
     double pressure_slope = 0.0;  ///< if converged: change of the pressure per volume [1/m⁴]
@@ -75,6 +79,8 @@ private:
     [[nodiscard]] SheetIntegrals liquidUnder(const SheetMesh& sheet) const;
     /// What errors of the volume are relative to [m³].
     [[nodiscard]] double volumeScale(double volume) const;
+    /// Work so far in the current solve().
+    [[nodiscard]] double workOf(int factorisations, const SheetMesh& sheet) const;
     /// @param sums  integrals over the sheet, before and after
     bool moveWithin(SheetMesh& sheet, const Step& step, double volume, SheetIntegrals& sums);
     void describe(NewtonResult& result) const;
@@ -89,6 +95,7 @@ private:
     std::vector<std::uint8_t> held_;   ///< unknowns that the ground holds
     std::vector<double> held_motion_;  ///< their motion in the current step
     std::vector<double> damping_;      ///< of every unknown, over its diagonal entry
+    std::size_t passes_ = 0;           ///< integrations over all triangles in the current solve()
 };
 
 /// How far triangles may change.

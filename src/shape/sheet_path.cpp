@@ -18,6 +18,7 @@
 #include "shape/sheet_limits.h"
 #include "shape/sheet_newton.h"
 #include "shape/sheet_remesh.h"
+#include "shape/work.h"
 
 namespace droplet {
 namespace {
@@ -34,6 +35,8 @@ constexpr double kGrowth = 1.25;
 constexpr double kFirstPart = 0.02;
 /// Cost of new triangles, in factorisations, measured.
 constexpr double kRemeshWork = 20.0;
+/// Factorisations that a sheet on new triangles is worth at least: one with too many for its work is not solved.
+constexpr double kLeastFactorisations = 30.0;
 /// Change of the volume, over it, after which a sheet is confirmed on new triangles once one was refused on them, and
 /// number of confirmed ones that are kept.
 constexpr double kConfirmed = 0.02;
@@ -99,18 +102,23 @@ public:
         for (Vec3& place : now_.sheet.places) {
             place.z = base_.under(place).height;
         }
-        use(solverOf(now_.sheet), now_.sheet);
         const SheetMesh dry = now_.sheet;
+        if (!isSolvable(dry)) {
+            work_ = options_.max_work;
+            meshed_area_ = integrate(dry, options_.weight).area;
+            return;
+        }
+        use(solverOf(now_.sheet), now_.sheet);
         // The flat sheet is in equilibrium with no liquid, but not where gravity pulls along it, or on other ground.
         const bool is_level = base_.ground.flat() && options_.weight.x == 0.0 && options_.weight.y == 0.0;
         const double most = target_.by == FillBy::Volume ? target_.amount : std::numeric_limits<double>::infinity();
         const double first = kFirstPart * std::pow(meshed_area_ / std::numbers::pi, 1.5);
         double volume = is_level ? 0.0 : std::min(first, most);
-        for (int k = 0; k <= kWetter; ++k, volume = std::min(2.0 * volume, most)) {
+        for (int k = 0; k <= kWetter && hasWork(); ++k, volume = std::min(2.0 * volume, most)) {
             now_.sheet = dry;
             now_.volume = volume;
             now_.pressure = is_level ? 0.0 : liftingPressure(dry);
-            now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, kSettling);
+            now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, within(kSettling));
             count(now_, k == 0);
             if (now_.newton.converged || is_level || volume == most) {
                 break;
@@ -129,7 +137,7 @@ public:
           keeps_triangles_(true)
     {
         options_.min_step = kKeptStep;
-        options_.max_work = kKeptWork * std::pow(static_cast<double>(sheet.triangles.size()), 1.5);
+        options_.max_work = kKeptWork * factorWork(sheet.triangles.size());
         use(solverOf(now_.sheet), now_.sheet);
         now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, kSettling);
         count(now_, false);
@@ -169,12 +177,17 @@ private:
                 rimAngles(now_.sheet, options_.weight, now_.pressure, base_.ground).mean(),
                 end,
                 end == SheetEnd::Contact ? std::optional(contact_->place) : std::nullopt,
-                newton_steps_};
+                newton_steps_,
+                work_};
     }
 
     /// Follows the path up to the target, or to its end.
     SheetEnd follow()
     {
+        if (!now_.newton.converged && !hasWork()) {
+            now_.volume = 0.0;
+            return SheetEnd::OutOfWork;
+        }
         if (!now_.newton.converged) {
             return SheetEnd::Unstable;
         }
@@ -209,6 +222,9 @@ private:
                     const bool may_grow = now_.volume > barrier;
                     step = std::min(tried, step) * (steps > kMany ? kShrink : steps <= kFew && may_grow ? kGrow : 1.0);
                 }
+            }
+            if (is_refused && !hasWork()) {
+                break;
             }
             if (is_refused) {
                 settled = 0;
@@ -312,7 +328,7 @@ private:
         State next{now_.sheet, now_.pressure + size * now_.newton.pressure_slope, now_.volume + size, {}};
         next.sheet.places = movedPlaces(now_, size);
         base_.lift(next.sheet.places, next.sheet.rim);
-        next.newton = solver_->solve(next.sheet, next.volume, next.pressure);
+        next.newton = solver_->solve(next.sheet, next.volume, next.pressure, within({}));
         count(next, false);
         if (!next.newton.converged) {
             return false;
@@ -363,7 +379,7 @@ private:
         if (isWorn(meshed_angles_, state.sheet, kWorn)) {
             state.sheet = relax(state.sheet, kRelaxations, base_.ground.flat());
             base_.lift(state.sheet.places, state.sheet.rim);
-            state.newton = solver_->solve(state.sheet, state.volume, state.pressure, kSettling);
+            state.newton = solver_->solve(state.sheet, state.volume, state.pressure, within(kSettling));
             count(state, false);
         }
         return state.newton.converged && !isWorn(meshed_angles_, state.sheet, kKeptWorn);
@@ -484,8 +500,12 @@ private:
         // At inner corners liquid may have far to roll; there triangles wear out on the way.
         for (int round = 0; round < kRenewals && hasWork(); ++round) {
             next.sheet = newTriangles(next.sheet, edge);
+            if (!isSolvable(next.sheet)) {
+                work_ = options_.max_work;
+                return false;
+            }
             solver = solverOf(next.sheet);
-            next.newton = solver->solve(next.sheet, next.volume, next.pressure, kSettling);
+            next.newton = solver->solve(next.sheet, next.volume, next.pressure, within(kSettling));
             count(next, true);
             if (std::abs(next.pressure - state.pressure) > kSamePressure * std::abs(state.pressure)) {
                 return false;
@@ -508,7 +528,9 @@ private:
 
     [[nodiscard]] SheetMesh newTriangles(const SheetMesh& sheet, double edge) const
     {
-        SheetMesh made = remesh(sheet, {edge, edge / 8.0, base_.ground.flat()});
+        SheetMesh made = remesh(
+            sheet,
+            {.edge = edge, .min_edge = edge / 8.0, .is_ground_flat = base_.ground.flat(), .max_triangles = most()});
         base_.lift(made.places, made.rim);
         return made;
     }
@@ -535,9 +557,23 @@ private:
     void count(const State& state, bool is_remeshed)
     {
         newton_steps_ += state.newton.steps;
-        work_ += (state.newton.factorisations + (is_remeshed ? kRemeshWork : 0.0)) *
-                 std::pow(static_cast<double>(state.sheet.triangles.size()), 1.5);
+        work_ += state.newton.work + (is_remeshed ? kRemeshWork * factorWork(state.sheet.triangles.size()) : 0.0);
     }
+
+    /// Limits of Newton's method, with the work that is left.
+    [[nodiscard]] NewtonLimits within(NewtonLimits limits) const
+    {
+        limits.max_work = options_.max_work - work_;
+        return limits;
+    }
+
+    /// Most triangles that the work that is left is enough for.
+    [[nodiscard]] std::size_t most() const
+    {
+        return trianglesFor(std::max(options_.max_work - work_, 0.0), kLeastFactorisations);
+    }
+
+    [[nodiscard]] bool isSolvable(const SheetMesh& sheet) const { return sheet.triangles.size() < most(); }
 
     [[nodiscard]] bool hasWork() const { return work_ < options_.max_work; }
 

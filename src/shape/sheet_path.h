@@ -25,7 +25,8 @@ struct SheetOptions {
     double path_edge = 0.0;        ///< the same on the way; at least edge
     double min_step = 1e-3;        ///< smallest step of the volume, over the volume
     bool is_end_confirmed = true;  ///< on triangles of the final size
-    double max_work = 5e9;         ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds
+    double max_work = 5e9;         ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds.
+                                   ///< Line searches and new triangles count as well
     BaseSurface ground = {};       ///< under the footprint, and around it
     std::function<void(double)> reached = {};  ///< called with the share of the target after steps of the volume
 };
@@ -53,6 +54,7 @@ struct FilledSheet {
     SheetEnd end = SheetEnd::Reached;
     std::optional<Vec3> contact;  ///< with SheetEnd::Contact: where the sheet touches itself [m]
     int newton_steps = 0;         ///< in all
+    double work = 0.0;            ///< in all, as SheetOptions::max_work
 };
 
 /// Fills a footprint from dry ground up to a target, by steps of the volume.

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
 #include <queue>
 #include <utility>
@@ -306,7 +307,11 @@ private:
             }
         }
         std::stable_sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+        auto triangles = static_cast<std::size_t>(std::distance(mesh_.faces_sbegin(), mesh_.faces_end()));
         for (const auto& [ratio, edge] : edges) {
+            if (triangles >= options_.max_triangles) {
+                return;
+            }
             const auto [a, b] = endsOf(edge);
             const bool joins_rim = onRim(a) && onRim(b);
             if (!joins_rim && !isLongestSomewhere(edge)) {
@@ -318,6 +323,7 @@ private:
             Point normal = normals_[static_cast<std::size_t>(a.idx())] + normals_[static_cast<std::size_t>(b.idx())];
             normals_.push_back(normal.normalize_cond());
             mesh_.split(edge, v);
+            triangles += 2;
         }
     }
 

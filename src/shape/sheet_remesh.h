@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "shape/sheet_mesh.h"
@@ -13,6 +15,7 @@ struct RemeshOptions {
     double min_edge = 0.0;       ///< smallest edge that curvature may ask for [m], > 0
     bool is_ground_flat = true;  ///< vertices on the ground, z = 0, stay there
     int rounds = 4;              ///< of splitting, collapsing, flipping and smoothing
+    std::size_t max_triangles = std::numeric_limits<std::size_t>::max();  ///< number at which no edge is split any more
 };
 
 /// Gives a sheet new triangles: as long as the rim's edges at the rim, shorter where the sheet is bent, growing

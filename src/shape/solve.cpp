@@ -75,6 +75,8 @@ public:
 
     [[nodiscard]] const char* method() const override { return direct_ ? direct_->method() : multigrid_->method(); }
 
+    [[nodiscard]] double prepareWork() const override { return direct_ ? direct_->prepareWork() : 0.0; }
+
 private:
     const PlanarMesh* mesh_;
     const Operator* op_ = nullptr;
@@ -276,6 +278,7 @@ Solution solveModel(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
         report.newton_steps = std::max(report.newton_steps, outcome.newton_steps);
         report.iterations = std::max(report.iterations, outcome.iterations);
         report.residual = std::max(report.residual, outcome.residual);
+        report.work += outcome.work;
         if (outcome.termination != Termination::Converged && report.usable()) {
             report.termination = outcome.termination;
             report.failed_droplet = group.droplets[outcome.failed_member];

@@ -17,6 +17,7 @@
 #include "droplet/shape/sheet.h"
 #include "droplet/shape/solve.h"
 #include "droplet/units.h"
+#include "shape/work.h"
 #include "support/domains.h"
 #include "support/equilibrium.h"
 #include "support/young_laplace.h"
@@ -158,6 +159,45 @@ TEST(SharedSheet, DiscsAtOnePressureAreCapsOfOneSphere)
         EXPECT_EQ(sheet.contact_angle.size(), sheet.rim);
         sheet.footprint.validate();
     }
+}
+
+/// Ground that is far too steep for its triangles, as a height map in metres under a picture of millimetres.
+BaseSurface steepGround()
+{
+    constexpr double kHeight = 50.0;
+    constexpr double kWaves = 20.0;
+    return BaseSurface([](Vec2 p) {
+        return GroundPoint{kHeight * std::sin(kWaves * p.x) * std::cos(kWaves * p.y),
+                           kHeight * kWaves *
+                               Vec2{std::cos(kWaves * p.x) * std::cos(kWaves * p.y),
+                                    -std::sin(kWaves * p.x) * std::sin(kWaves * p.y)}};
+    });
+}
+
+TEST(SheetGround, WorkIsLimitedWhereTheGroundIsTooSteep)
+{
+    SolveOptions options = testing::unitOptions(Model::Exact, 0.0, 1.0);
+    options.ground = steepGround();
+    options.max_work = 1e5;
+    const SheetResult result = solveSheet(testing::discMeshes(0.1).front(), options);
+    EXPECT_EQ(result.end, SheetEnd::OutOfWork);
+    EXPECT_EQ(result.volume, 0.0);
+    EXPECT_LE(result.work, 1.5 * *options.max_work);
+    EXPECT_LE(result.sheet.triangles.size(), trianglesFor(kSheetUnits * *options.max_work, 1.0));
+}
+
+TEST(SheetGround, WorkOfTheOptionsIsItsLimit)
+{
+    SolveOptions options = testing::unitOptions(Model::Exact, 0.0, 4.0);
+    const std::vector<PlanarMesh> meshes = testing::discMeshes(0.1);
+    const SheetResult whole = solveSheet(meshes.front(), options);
+    EXPECT_EQ(whole.end, SheetEnd::Reached);
+    options.max_work = 0.3 * whole.work;
+    const SheetResult cut = solveSheet(meshes.front(), options);
+    EXPECT_EQ(cut.end, SheetEnd::OutOfWork);
+    EXPECT_GT(cut.volume, 0.0);
+    EXPECT_LT(cut.volume, whole.volume);
+    EXPECT_LT(cut.work, whole.work);
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ struct SheetResult {
     double volume = 0.0;               ///< of the sheet [m³]
     double contact_angle = 0.0;        ///< mean along the rim of the sheet [rad]
     std::size_t newton_steps = 0;      ///< in all
+    double work = 0.0;                 ///< in all, as SolveOptions::max_work
 };
 
 /// Fills a footprint up to the amount of a fill, also where liquid hangs over its rim, and beyond a contact angle of
@@ -63,8 +64,9 @@ struct SheetResult {
 /// volume, from dry ground by steps of the volume; each step is an equilibrium, and a minimum. Where liquid would lie
 /// on the ground outside of the footprint, it does, as on ground that it does not wet. Corners of the rim that point
 /// inward are rounded to half the mean edge of the footprint's triangles: no triangles can follow liquid around a sharp
-/// one. The work is limited, to about half a minute at 40 000 triangles and one and a half at any number. An end is
-/// confirmed on the final triangles, that of a footprint of up to 10 000 triangles on edges half as long.
+/// one. The work is limited, to about half a minute at 40 000 triangles and one and a half at any number, or to
+/// max_work of the options. Work is counted, not timed: the same input ends at the same place. An end is confirmed on
+/// the final triangles, that of a footprint of up to 10 000 triangles on edges half as long.
 ///
 /// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground, and does not cross itself; the same
 /// input gives the same bits.
