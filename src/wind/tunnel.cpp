@@ -165,6 +165,18 @@ std::optional<double> tearOffWind(const ForceModel& model, const CapSize& cap)
     return std::isfinite(wind) ? std::optional(wind) : std::nullopt;
 }
 
+double tearOffHeight(const ForceModel& model, double wind, double weber)
+{
+    const Air& air = model.air;
+    const double pressure = air.density * wind * wind;
+    const double outside =
+        pressure > 0.0 ? weber * model.liquid.surface_tension / pressure : std::numeric_limits<double>::infinity();
+    // Within the layer ρ_a U² (y/δ)^(2n) y / γ is the number.
+    return outside >= air.boundary_layer
+               ? outside
+               : air.boundary_layer * std::pow(outside / air.boundary_layer, 1.0 / (1.0 + 2.0 * air.profile_exponent));
+}
+
 void TunnelSweep::validate() const
 {
     model.validate();

@@ -24,6 +24,7 @@
 
 #include "blocks.h"
 #include "droplet/error.h"
+#include "droplet/wind/tunnel.h"
 #include "require.h"
 #include "union_find.h"
 #include "wind/random.h"
@@ -51,9 +52,7 @@ public:
           p_(parameters),
           dt_(dt),
           caps_(parameters.forces.wetting.contact_angle),
-          rules_{caps_.reach(), sphereVolume(parameters.still_diameter)},
-          stable_volume_(caps_.volumeOfHeight(parameters.tear_off_weber * parameters.forces.liquid.surface_tension /
-                                              parameters.forces.air.density))
+          rules_{caps_.reach(), sphereVolume(parameters.still_diameter)}
     {
     }
 
@@ -130,6 +129,7 @@ private:
                 }
             },
             kDropletsPerBlock);
+        moved_to_ = tracks_.to;
     }
 
     void moveOne(std::size_t i, double speed, double acceleration)
@@ -139,11 +139,8 @@ private:
         tracks_.reach[i] = caps_.reach(d.volume);
         if (const std::optional<GlassPlace> place = p_.glass.place(d.position)) {
             const DropletForces forces = forcesOn(p_.forces, caps_.cap(d.volume));
-            Vec2 wind = windAlong(*place, speed, p_.wind);
-            if (p_.relative_wind) {
-                wind = wind - d.velocity;
-            }
-            wind_[i] = wind;
+            wind_[i] = windAlong(*place, speed, p_.wind);
+            const Vec2 wind = p_.relative_wind ? wind_[i] - d.velocity : wind_[i];
             const Vec2 push = gravityAlong(*place, p_.forces.gravity) + inertiaAlong(*place, acceleration) +
                               fluctuationOf(d.id, s_.time + 0.5 * dt_, p_.fluctuation, p_.seed);
             const Vec2 driving = forces.mass * push + (forces.drag * sizeOf(wind)) * wind;
@@ -325,15 +322,24 @@ private:
         absorbSwept(std::move(pieces));
     }
 
-    /// Splits droplets that are too high for the wind into rows of equal ones downwind. The first part stays; each
-    /// other takes the next free place, or one beyond the edge. No part is too small to run; water and momentum are
-    /// conserved.
+    /// Splits droplets that are too high for the wind. The first part stays where the droplet itself would be, even if
+    /// it has merged in this step; the others are scattered downwind, each in the next free place or beyond the edge.
+    /// No part is too small to run; water and momentum are conserved.
     void tearOff()
     {
         std::vector<Torn> torn;
+        double fastest = 0.0;
+        for (std::size_t i = 0; i < wind_.size(); ++i) {
+            fastest = std::max(fastest, sizeOf(wind_[i] - s_.droplets[i].velocity));
+        }
+        const double least = stableVolume(fastest);
         for (std::uint32_t i = 0; i < wind_.size(); ++i) {
-            if (const double parts = partsOf(i); parts > 1.0) {
-                torn.push_back({i, s_.droplets[i].volume / parts, static_cast<std::size_t>(parts)});
+            if (s_.droplets[i].volume > least && wind_[i] != Vec2{}) {
+                if (Torn one = tornFrom(i); !one.parts.empty()) {
+                    // A merger moved it to the centre of a group that does not last.
+                    s_.droplets[i].position = moved_to_[i];
+                    torn.push_back(std::move(one));
+                }
             }
         }
         if (torn.empty()) {
@@ -347,38 +353,61 @@ private:
         }
         double margin = 0.0;
         for (const Torn& one : torn) {
-            margin = std::max(margin, caps_.reach(one.volume));
+            for (const double part : one.parts) {
+                margin = std::max(margin, caps_.reach(part));
+            }
         }
         const TrackCells cells(present, {p_.glass.width(), p_.glass.height()}, margin);
         Tracks placed;
         for (const Torn& one : torn) {
-            placeRow(one, cells, placed);
+            placeParts(one, cells, placed);
         }
     }
 
     struct Torn {
         std::uint32_t droplet = 0;
-        double volume = 0.0;  // volume of each part
-        std::size_t parts = 0;
+        Vec2 wind;                  // relative to the droplet
+        std::vector<double> parts;  // their volumes, one at least; the droplet keeps the rest
     };
 
-    double partsOf(std::size_t i) const
+    /// Largest volume that a wind along the glass does not tear off [m³].
+    double stableVolume(double wind) const
     {
-        // The critical height is proportional to wind⁻², so the critical volume is proportional to wind⁻⁶.
-        const double squared = dot(wind_[i], wind_[i]);
-        const double whole = s_.droplets[i].volume;
-        return std::min(std::ceil(whole * squared * squared * squared / stable_volume_),
-                        std::floor(whole / rules_.max));
+        return caps_.volumeOfHeight(tearOffHeight(p_.forces, wind, p_.tear_off_weber));
     }
 
-    /// Places the parts of a torn droplet in a row.
+    /// Parts that the wind tears from a droplet; none if it is not too high.
+    Torn tornFrom(std::uint32_t i) const
+    {
+        // Parts have half of the largest volume that is stable, to all of it.
+        constexpr double kSmallest = 0.5;
+        const RunningDroplet& d = s_.droplets[i];
+        Torn torn{i, wind_[i] - d.velocity, {}};
+        const double stable = stableVolume(sizeOf(torn.wind));
+        const RandomStream random(p_.seed, RandomPurpose::TornPart, d.id);
+        // An id may be torn more than once.
+        const std::uint64_t first = mix(s_.next_id);
+        double rest = d.volume;
+        while (rest > stable) {
+            const double least = std::max(rules_.max, kSmallest * stable);
+            const double most = std::min(std::max(stable, rules_.max), rest - rules_.max);
+            if (most < least) {
+                break;
+            }
+            torn.parts.push_back(least + (most - least) * random.uniform(first + torn.parts.size()));
+            rest -= torn.parts.back();
+        }
+        return torn;
+    }
+
+    /// Places the parts of a torn droplet downwind of it.
     /// @param cells   droplets before any was torn
     /// @param placed  parts that have been placed since
-    void placeRow(const Torn& torn, const TrackCells& cells, Tracks& placed)
+    void placeParts(const Torn& torn, const TrackCells& cells, Tracks& placed)
     {
-        const double reach = caps_.reach(torn.volume);
-        const Vec2 onward = (reach / sizeOf(wind_[torn.droplet])) * wind_[torn.droplet];
-        const auto is_free = [&](Vec2 place) {
+        // A part lies up to so far aside, over its distance downwind.
+        constexpr double kSpread = 0.6;
+        const auto is_free = [&](Vec2 place, double reach) {
             if (cells.touchedBy(place, reach)) {
                 return false;
             }
@@ -389,23 +418,34 @@ private:
             }
             return true;
         };
-        Vec2 place = s_.droplets[torn.droplet].position;
-        const Vec2 velocity = s_.droplets[torn.droplet].velocity;
-        s_.droplets[torn.droplet].volume = torn.volume;
-        for (std::size_t k = 1; k < torn.parts; ++k) {
+        RunningDroplet& whole = s_.droplets[torn.droplet];
+        const Vec2 velocity = whole.velocity;
+        const Vec2 downwind = (1.0 / sizeOf(torn.wind)) * torn.wind;
+        const Vec2 aside{-downwind.y, downwind.x};
+        for (const double part : torn.parts) {
+            whole.volume -= part;
+        }
+        Vec2 place = whole.position;
+        for (const double part : torn.parts) {
+            const RandomStream random(p_.seed, RandomPurpose::TornPart, s_.next_id);
+            const double reach = caps_.reach(part);
+            const double slant = kSpread * (2.0 * random.uniform(0) - 1.0);
+            const Vec2 onward = (reach * (1.0 + random.uniform(1))) * (downwind + slant * aside);
             place = place + onward;
-            while (p_.glass.holds(place) && !(p_.glass.holds(place + onward) && is_free(place))) {
+            while (p_.glass.holds(place) && !(p_.glass.holds(place + onward) && is_free(place, reach))) {
                 place = place + onward;
             }
-            addRunning(place, velocity, torn.volume);
+            addRunning(place, velocity, part);
             placed.add(place, place, reach);
             ++s_.counts.torn;
         }
     }
 
-    /// Leaves the film behind a moving droplet, as still droplets at random distances.
+    /// Leaves the film behind a moving droplet, as still droplets at random distances along the track and beside its
+    /// middle.
     void leaveStreak(std::size_t i)
     {
+        constexpr double kBeadSpread = 0.4;  // of half the track's width
         const double distance = sizeOf(tracks_.to[i] - tracks_.from[i]);
         const Vec2 direction = (1.0 / distance) * (tracks_.to[i] - tracks_.from[i]);
         const RandomStream random(p_.seed, RandomPurpose::Bead, s_.droplets[i].id);
@@ -422,7 +462,8 @@ private:
             const double bead = std::min(p_.streaks.film * 2.0 * tracks_.reach[i] * spacing, 0.5 * rules_.max);
             const double behind =
                 1.05 * (tracks_.reach[i] + rules_.reachOf(bead));  // far enough that they do not touch
-            const Vec2 place = tracks_.from[i] + (at - behind) * direction;
+            const double aside = kBeadSpread * tracks_.reach[i] * (2.0 * random.uniform(~d.beads) - 1.0);
+            const Vec2 place = tracks_.from[i] + (at - behind) * direction + aside * Vec2{-direction.y, direction.x};
             if (d.volume - bead >= rules_.max && p_.glass.holds(place)) {
                 d.volume -= bead;
                 s_.shed.add(bead);
@@ -495,11 +536,11 @@ private:
     double dt_;
     CapScale caps_;
     StillRules rules_;
-    double stable_volume_ = 0.0;         // largest volume that a wind of 1 m/s does not tear off [m³]
     std::vector<StillDroplet> drizzle_;  // small raindrops of this step
     std::size_t before_rain_ = 0;        // number of running droplets before the rain
     // One entry for each running droplet, in their order:
     Tracks tracks_;
+    std::vector<Vec2> moved_to_;        // its place after it moved, before it merged
     std::vector<Vec2> wind_;            // wind along the glass at its place before the step
     std::vector<std::uint32_t> owner_;  // droplet that has its water
     std::vector<std::uint8_t> grown_;

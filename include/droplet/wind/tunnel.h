@@ -75,6 +75,15 @@ inline constexpr double kTearOffWeber = 7.5;
 /// Wind that tears off a droplet, from its height alone [m/s]; empty if the density of air is 0.
 std::optional<double> tearOffWind(const ForceModel& model, const CapSize& cap);
 
+/// Height of the lowest droplet that a wind along the glass tears off: the Weber number with the wind at the droplet's
+/// height, as windAt() has it in the boundary layer [m]; infinity if there is none.
+///
+/// Where the layer is thinner than the droplet, as where the number was measured, the wind is that of tearOffWind().
+/// @param model  valid
+/// @param wind   outside of the boundary layer, relative to the droplet [m/s], ≥ 0
+/// @param weber  critical Weber number, > 0
+double tearOffHeight(const ForceModel& model, double wind, double weber = kTearOffWeber);
+
 /// Input of sweep(): lists of values, of which all combinations are computed.
 struct TunnelSweep {
     ForceModel model = {};           ///< model of all combinations

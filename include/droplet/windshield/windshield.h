@@ -53,8 +53,8 @@ WindshieldState startWindshield(const WindshieldParameters& parameters);
 /// - Rain arrives (Poisson).
 /// - Forces (wind/forces.h) move running droplets. The vehicle's acceleration acts as gravity does.
 /// - Running droplets absorb still ones along their tracks and merge where they touch.
-/// - Droplets that are too high for the wind break up into the smallest number of equal ones that are not, in a row
-///   along the wind.
+/// - Droplets that are too high for the wind at their height, relative to them (tearOffHeight), break up into parts of
+///   random sizes, half as large as the wind leaves whole or more, scattered downwind.
 /// - Wipers remove water. Droplets beyond the edges leave.
 ///
 /// Guarantees: the same arguments give the same bytes with any number of threads; water is conserved (balanceOf);
