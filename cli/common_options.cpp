@@ -16,6 +16,12 @@ void declareCommon(CommandLine& line, const char* group, const std::string& exam
     line.addFlag(group, "--version", "Print the version");
 }
 
+void declareFrameProgress(CommandLine& line, const char* group)
+{
+    line.add(group, "--progress", "auto|none|json",
+             "auto shows a bar on a terminal; json writes a line of JSON for each frame instead of the summary [auto]");
+}
+
 std::optional<std::string> requestedText(const CommandLine& line)
 {
     if (line.flag("--help")) {

@@ -13,6 +13,9 @@ namespace cli {
 /// @param example  line of a configuration file, for the help
 void declareCommon(CommandLine& line, const char* group, const std::string& example);
 
+/// Declares --progress of a command that makes frames; readProgress() reads it.
+void declareFrameProgress(CommandLine& line, const char* group);
+
 /// Text that --help or --version prints, if one of them is given.
 std::optional<std::string> requestedText(const CommandLine& line);
 

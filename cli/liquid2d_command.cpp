@@ -13,7 +13,6 @@
 #include "liquid2d_options.h"
 #include "liquid2d_run.h"
 #include "progress_display.h"
-#include "shape_command.h"
 
 namespace cli {
 namespace {
@@ -54,9 +53,6 @@ int runLiquid2d(int argc, const char* const* argv)
     }
     if (options.progress != ProgressMode::Json) {
         printSummary(report);
-    }
-    for (const std::string& warning : report.warnings) {
-        printWarning(warning, options.progress);
     }
     return 0;
 }

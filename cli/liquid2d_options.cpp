@@ -60,7 +60,7 @@ const CommandText& commandText()
                                   "\n"
                                   "Exit codes:\n"
                                   "  0 done; 1 internal error; 2 usage; 3 input unreadable; 4 output cannot be\n"
-                                  "  written"};
+                                  "  written; 5 the liquid is lost"};
     return text;
 }
 
@@ -77,8 +77,8 @@ void declare(CommandLine& line)
     line.add(kLiquid, "--gravity", "ACCELERATION", "Gravity instead of the scene's, downwards");
     line.add(kLiquid, "--surface-tension", "TENSION", "Surface tension instead of the scene's");
     line.add(kLiquid, "--particles", "PATH",
-             "Particles of another simulation, such as sim/%04d.vtp, instead of a scene: .csv, .vtk, .vtp, .vtu or "
-             ".bgeo");
+             "Particles of another simulation, such as sim/%04d.vtp or a single file, instead of a scene: .csv, .vtk, "
+             ".vtp, .vtu or .bgeo");
     line.add(kLiquid, "--particle-scale", "NUMBER", "Length of the unit of these files in metres [1]");
     line.add(kLiquid, "--plane", "xy|xz|yz|zx|zy|yx", "Axes of these files that become x and y [xy]");
     line.add(kLiquid, "--spacing", "LENGTH", "Distance of their particles at rest [median distance of neighbours]");
@@ -112,8 +112,7 @@ void declare(CommandLine& line)
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
     line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
-    line.add(kRun, "--progress", "auto|none|json",
-             "auto shows a bar on a terminal; json writes a line of JSON for each frame instead of the summary [auto]");
+    declareFrameProgress(line, kRun);
     declareCommon(line, kRun, "time = \"5s\"");
     line.exclude({"--resume", "--no-clobber"});
 }
@@ -128,10 +127,8 @@ void readLiquid(const CommandLine& line, Liquid2dOptions& options)
 {
     options.scene = text(line, "--scene").value_or(options.scene);
     if (const auto particles = line.value("--particles")) {
-        options.particles = NumberedPath::of(particles->text, "--particles");
-        if (!options.particles) {
-            refuse(*particles, "a path for numbered files, such as sim/%04d.vtp");
-        }
+        options.particles = particles->text;
+        options.particle_files = NumberedPath::of(particles->text, "--particles");
         for (const char* option : {"--particle-count", "--walls", "--gravity", "--surface-tension", "--time"}) {
             if (line.value(option)) {
                 refuse(std::string(option) + " needs --scene, not --particles");

@@ -34,10 +34,11 @@ struct Liquid2dOptions {
     std::optional<NumberedPath> mask_files;  ///< set unless masks go to standard output
     std::string scene = "splash";            ///< name of a preset, or path of a file
     std::optional<std::size_t> particle_count;
-    std::optional<std::string> walls;       ///< path of a mask
-    std::optional<double> gravity;          ///< [m/s²]
-    std::optional<double> surface_tension;  ///< [N/m]
-    std::optional<NumberedPath> particles;  ///< files of another simulation instead of a scene
+    std::optional<std::string> walls;            ///< path of a mask
+    std::optional<double> gravity;               ///< [m/s²]
+    std::optional<double> surface_tension;       ///< [N/m]
+    std::optional<std::string> particles;        ///< path or pattern of another simulation instead of a scene
+    std::optional<NumberedPath> particle_files;  ///< set if `particles` is a pattern
     droplet::ParticleFileOptions particle_reading;
     std::optional<std::string> style;     ///< empty: the preset's, or cartoon
     droplet::ExpressionOptions controls;  ///< of the style, with changes

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -46,6 +47,10 @@ public:
     virtual ~ParticleSource() = default;
     /// Next frame.
     virtual ParticleFrame next() = 0;
+    /// Whether all liquid has left, and none will come.
+    [[nodiscard]] virtual bool isLost() const { return false; }
+    /// Steps that the first frame of a simulation takes, about.
+    [[nodiscard]] virtual double stepsPerFrame() const { return 0.0; }
     [[nodiscard]] virtual std::size_t frames() const = 0;
     [[nodiscard]] virtual Vec2 size() const = 0;
     /// Visible walls at the time of the last frame.
@@ -105,6 +110,13 @@ public:
         ++done_;
         return frameOf(state_, scene_);
     }
+    [[nodiscard]] bool isLost() const override
+    {
+        const bool may_come = std::any_of(scene_.emitters.begin(), scene_.emitters.end(),
+                                          [&](const auto& emitter) { return emitter.end > state_.time; });
+        return state_.position.empty() && state_.counts.removed > 0 && !may_come;
+    }
+    [[nodiscard]] double stepsPerFrame() const override { return 1.0 / (fps_ * droplet::longestStep(state_, scene_)); }
     [[nodiscard]] std::size_t frames() const override { return frames_; }
     [[nodiscard]] Vec2 size() const override { return scene_.size; }
     [[nodiscard]] std::vector<droplet::Region> walls() const override
@@ -150,8 +162,12 @@ public:
     explicit FileParticles(const Liquid2dOptions& options)
         : fps_(options.frames_per_second), reading_(options.particle_reading)
     {
-        for (const auto& [number, path] : options.particles->existing()) {
-            paths_.push_back(path);
+        if (options.particle_files) {
+            for (const auto& [number, path] : options.particle_files->existing()) {
+                paths_.push_back(path);
+            }
+        } else {
+            paths_.push_back(*options.particles);
         }
         // The window shows all particles of all frames.
         Vec2 lower{1e300, 1e300};
@@ -161,13 +177,14 @@ public:
             const ParticleFrame frame = droplet::readParticles(path, reading_).frame;
             reading_.spacing = reading_.spacing.value_or(frame.spacing);
             spacing = frame.spacing;
+            addIds(frame.id);
             for (const Vec2 x : frame.position) {
                 lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
                 upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
             }
         }
         if (!(upper.x >= lower.x)) {
-            throw Error(ErrorCode::InvalidInput, options.particles->text() + ": no file has any particles");
+            throw Error(ErrorCode::InvalidInput, *options.particles + ": has no particles");
         }
         const double margin = std::max(0.05 * std::max(upper.x - lower.x, upper.y - lower.y), 4.0 * spacing);
         origin_ = lower - Vec2{margin, margin};
@@ -181,6 +198,9 @@ public:
         frame.time = static_cast<double>(done_) / fps_;
         for (Vec2& x : frame.position) {
             x = x - origin_;
+        }
+        for (std::uint32_t& id : frame.id) {
+            id = static_cast<std::uint32_t>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin());
         }
         if (!file.has_velocity && last_) {
             frame = droplet::fillVelocities(*last_, std::move(frame));
@@ -198,8 +218,17 @@ public:
     }
 
 private:
+    void addIds(std::vector<std::uint32_t> ids)
+    {
+        std::sort(ids.begin(), ids.end());
+        std::vector<std::uint32_t> all;
+        std::set_union(ids_.begin(), ids_.end(), ids.begin(), ids.end(), std::back_inserter(all));
+        ids_ = std::move(all);
+    }
+
     double fps_;
     droplet::ParticleFileOptions reading_;
+    std::vector<std::uint32_t> ids_;  ///< of all frames, ascending; their memory must not grow with the largest
     std::vector<std::string> paths_;
     Vec2 origin_;
     Vec2 size_;
@@ -229,7 +258,7 @@ public:
                                view_.width, view_.height));
         }
         report_.scene = options.particles ? std::nullopt : std::optional(options.scene);
-        report_.particles = options.particles ? std::optional(options.particles->text()) : std::nullopt;
+        report_.particles = options.particles;
         report_.output = options.output;
         report_.masks = options.masks;
         report_.style = *options.style;
@@ -253,6 +282,7 @@ public:
         if (options_.kind == LiquidOutput::Lottie) {
             lottie_.emplace(view_, options_.look, options_.frames_per_second);
         }
+        warnOfShortSteps();
         run();
         std::vector<OutputFile> files;
         if (video_) {
@@ -337,12 +367,52 @@ private:
                                            fmt::format("{}\n", particles.size()) + particles + bytesOf(surface_)});
     }
 
+    void warn(const std::string& warning)
+    {
+        report_.warnings.push_back(warning);
+        if (!options_.quiet) {
+            progress_.warn(warning);
+        }
+    }
+
+    /// Tells of liquid that is lost in a frame; it is an error if nothing is left to see.
+    void tellLoss(std::size_t number, double time)
+    {
+        const std::string said = fmt::format(
+            "from frame {} on, at {:.4g} s, there is no liquid: all {} particles have left the window and its "
+            "margin; give them walls, or a shorter time",
+            number, time, source_->removed());
+        if (number <= 2 || options_.kind == LiquidOutput::Drawing) {
+            throw Error(ErrorCode::NoSuchDroplet, said);
+        }
+        warn(said);
+    }
+
+    /// Tells of a simulation without end before it begins.
+    void warnOfShortSteps()
+    {
+        constexpr double kMany = 2000.0;
+        if (const double steps = source_->stepsPerFrame(); steps > kMany) {
+            report_.warnings.push_back(fmt::format(
+                "a frame takes about {:.2g} steps, so the run takes very long: gravity, speeds or forces are "
+                "large for the spacing of the particles",
+                steps));
+            if (!options_.quiet) {
+                progress_.warn(report_.warnings.back());
+            }
+        }
+    }
+
     void run()
     {
         const auto second = static_cast<std::size_t>(std::max(std::llround(options_.frames_per_second), 1LL));
         const std::size_t count = source_->frames();
+        bool is_lost = false;
         for (std::size_t done = report_.frames.size(); done < count; ++done) {
             const ParticleFrame frame = source_->next();
+            if (source_->isLost() && !std::exchange(is_lost, true)) {
+                tellLoss(done + 1, frame.time);
+            }
             report_.spacing = frame.spacing;
             surface_ = advanceExpression(std::move(surface_), frame, options_.controls);
             shape_ = liquidShape(surface_, frame, options_.controls);
@@ -432,6 +502,9 @@ void check(const Liquid2dOptions& options)
     }
     if (options.walls) {
         inputs.push_back({"--walls", *options.walls});
+    }
+    if (options.particles && !options.particle_files) {
+        inputs.push_back({"--particles", *options.particles});
     }
     if (!options.particles && std::filesystem::path(options.scene).extension() == ".toml") {
         inputs.push_back({"--scene", options.scene});

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "shape_command.h"
 #include "terminal.h"
 
 namespace cli {
@@ -90,6 +91,15 @@ void ProgressDisplay::report(const char* what, std::size_t done, std::size_t cou
         std::cerr << fmt::format(R"({{"{}":{},"of":{},"elapsed_s":{}}})", what, done, count, rounded(elapsed(), 3))
                   << std::endl;
     }
+}
+
+void ProgressDisplay::warn(const std::string& warning)
+{
+    const std::lock_guard lock(mutex_);
+    if (drawer_.joinable()) {
+        std::cerr << kEraseLine;
+    }
+    printWarning(warning, mode_);
 }
 
 void ProgressDisplay::finish()

@@ -38,6 +38,9 @@ public:
     /// Shows how many pictures of all items are drawn.
     void reportDrawn(std::size_t drawn, std::size_t count);
 
+    /// Writes a warning at once.
+    void warn(const std::string& warning);
+
     /// Ends the display after a successful run.
     void finish();
 

@@ -3,6 +3,8 @@
 // Computer 28, 2012: trapped air, Σ‖v_ij‖(1 − v̂_ij·x̂_ij)W.
 #include "surroundings.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +12,7 @@
 #include "blocks.h"
 #include "droplet/error.h"
 #include "liquid2d/kernel.h"
+#include "number_text.h"
 #include "union_find.h"
 
 namespace droplet {
@@ -50,7 +53,11 @@ Surroundings surroundingsOf(const ParticleFrame& frame)
     const double reach = kernel.support();
     constexpr double kMaxCells = 1e8;
     if (!(((upper.x - lower.x) / reach + 1.0) * ((upper.y - lower.y) / reach + 1.0) < kMaxCells)) {
-        throw Error(ErrorCode::InvalidInput, "the particles are spread too far for their spacing");
+        throw Error(
+            ErrorCode::InvalidInput,
+            fmt::format("the particles are spread over {} m by {} m, too far for their spacing of {} m; leave "
+                        "out those that are far away",
+                        numberText(upper.x - lower.x), numberText(upper.y - lower.y), numberText(frame.spacing)));
     }
     CellGrid cells(lower, upper, reach);
     const std::vector<std::uint32_t> order = cells.sort(frame.position);

@@ -5,6 +5,8 @@
 // them shake liquid at rest.
 #include "droplet/liquid2d/fluid.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +19,7 @@
 #include "forces.h"
 #include "kernel.h"
 #include "neighbours.h"
+#include "number_text.h"
 #include "projection.h"
 #include "region.h"
 #include "require.h"
@@ -80,7 +83,6 @@ public:
         }
     }
 
-private:
     /// Longest step that the state allows.
     [[nodiscard]] double longestStep(const FluidState& state) const
     {
@@ -108,6 +110,7 @@ private:
         return dt;
     }
 
+private:
     void step(FluidState& state, double until)
     {
         const double longest = longestStep(state);
@@ -115,7 +118,12 @@ private:
         const double parts = std::ceil(left / longest);
         const bool is_last = !(parts > 1.0);
         const double dt = is_last ? left : left / parts;
-
+        if (!(until - dt < until)) {
+            throw Error(ErrorCode::NoSuchDroplet,
+                        fmt::format("at {} s a step of {} s is too short to add up: gravity, speeds or forces are too "
+                                    "large for a spacing of {} m",
+                                    numberText(state.time), numberText(dt), numberText(scene_.spacing)));
+        }
         emit(state, dt);
         const WallSamples walls = sortAndSample(state);
         const CellGrid& cells = *cells_;
@@ -334,48 +342,116 @@ void validate(const FluidOptions& options)
 
 }  // namespace
 
-FluidState startFluid(const FluidScene& scene)
-{
-    scene.validate();
-    FluidState state;
-    state.emitted.resize(scene.emitters.size());
-    const Kernel kernel(scene.spacing);
-    WallSamples walls = WallSampler(scene, kernel).at(0.0);
-    CellGrid cells(Vec2{-scene.margin, -scene.margin}, scene.size + Vec2{scene.margin, scene.margin}, kernel.support());
-    const std::vector<std::uint32_t> order = cells.sort(walls.position);
-    const double clearance = 0.4 * scene.spacing;
-    const auto is_free = [&](Vec2 place) {
+namespace {
+
+/// Places for liquid at the start.
+class FreePlaces {
+public:
+    FreePlaces(const FluidScene& scene, const Kernel& kernel)
+        : scene_(scene),
+          walls_(WallSampler(scene, kernel).at(0.0)),
+          lower_(Vec2{-scene.margin, -scene.margin}),
+          upper_(scene.size + Vec2{scene.margin, scene.size.y + scene.margin}),
+          cells_(lower_, upper_, kernel.support()),
+          order_(cells_.sort(walls_.position)),
+          taken_(lower_, upper_, kernel.support())
+    {
         for (const Wall& wall : scene.walls) {
-            if (contains(wallAt(wall, 0.0), place)) {
-                return false;
-            }
+            regions_.push_back(wallAt(wall, 0.0));
         }
+    }
+
+    /// Calls visit(place) for the places of a body that neither walls nor earlier bodies take.
+    template <typename Visit>
+    void visit(const Region& body, const Visit& visit)
+    {
+        std::vector<Vec2> own;
+        visitLattice(body, {scene_.spacing, lower_, upper_}, [&](Vec2 place) {
+            if (isFree(place)) {
+                visit(place);
+                own.push_back(place);
+            }
+        });
+        bodies_.push_back(body);
+        places_.insert(places_.end(), own.begin(), own.end());
+        taken_order_ = taken_.sort(places_);
+    }
+
+private:
+    [[nodiscard]] bool isFree(Vec2 place) const
+    {
+        const auto holds = [place](const Region& region) { return contains(region, place); };
+        return std::none_of(regions_.begin(), regions_.end(), holds) &&
+               std::none_of(bodies_.begin(), bodies_.end(), holds) && !isAtWall(place) && !isAtParticle(place);
+    }
+
+    /// Calls meets(index) for what a grid has around a place, until it returns true.
+    template <typename Meets>
+    static bool anyAround(Vec2 place, const CellGrid& cells, const std::vector<std::uint32_t>& order,
+                          const Meets& meets)
+    {
         const int column = cells.column(place.x);
         const int row = cells.row(place.y);
         for (int r = row - 1; r <= row + 1; ++r) {
             const auto [first, last] = cells.range(r, column - 1, column + 1);
             for (std::uint32_t k = first; k < last; ++k) {
-                const Vec2 arm = place - walls.position[order[k]];
-                const Vec2 normal = walls.normal[order[k]];
-                if (std::abs(cross(normal, arm)) < scene.spacing && dot(arm, normal) > 0.0 &&
-                    dot(arm, normal) < walls.depth + clearance) {
-                    return false;
+                if (meets(order[k])) {
+                    return true;
                 }
             }
         }
-        return true;
-    };
+        return false;
+    }
+
+    [[nodiscard]] bool isAtWall(Vec2 place) const
+    {
+        const double clearance = 0.4 * scene_.spacing;
+        return anyAround(place, cells_, order_, [&](std::uint32_t k) {
+            const Vec2 arm = place - walls_.position[k];
+            const Vec2 normal = walls_.normal[k];
+            return std::abs(cross(normal, arm)) < scene_.spacing && dot(arm, normal) > 0.0 &&
+                   dot(arm, normal) < walls_.depth + clearance;
+        });
+    }
+
+    /// Beside an earlier body: particles of two bodies that share a side are at least half a spacing apart.
+    [[nodiscard]] bool isAtParticle(Vec2 place) const
+    {
+        return !places_.empty() && anyAround(place, taken_, taken_order_, [&](std::uint32_t k) {
+            return length(place - places_[k]) < 0.5 * scene_.spacing;
+        });
+    }
+
+    const FluidScene& scene_;
+    WallSamples walls_;
+    std::vector<Region> regions_;  ///< of the walls
+    Vec2 lower_;                   ///< beyond these corners particles are removed
+    Vec2 upper_;
+    CellGrid cells_;  ///< of the walls' samples
+    std::vector<std::uint32_t> order_;
+    std::vector<Region> bodies_;  ///< so far
+    std::vector<Vec2> places_;    ///< of their particles
+    CellGrid taken_;
+    std::vector<std::uint32_t> taken_order_;
+};
+
+}  // namespace
+
+FluidState startFluid(const FluidScene& scene)
+{
+    scene.validate();
+    FluidState state;
+    state.emitted.resize(scene.emitters.size());
+    FreePlaces places(scene, Kernel(scene.spacing));
     for (const LiquidBody& body : scene.liquid) {
         const Vec2 centre = momentsOf(body.region).centroid;
-        for (const Vec2 place : latticeIn(body.region, scene.spacing)) {
-            if (is_free(place)) {
-                if (state.position.size() >= scene.max_particles) {
-                    refuseValue("max_particles", scene.max_particles, "at least the number that the liquid needs");
-                }
-                const Vec2 arm = place - centre;
-                Stepper::place(state, place, body.velocity + body.spin * Vec2{-arm.y, arm.x});
+        places.visit(body.region, [&](Vec2 place) {
+            if (state.position.size() >= scene.max_particles) {
+                refuseValue("max_particles", scene.max_particles, "at least the number that the liquid needs");
             }
-        }
+            const Vec2 arm = place - centre;
+            Stepper::place(state, place, body.velocity + body.spin * Vec2{-arm.y, arm.x});
+        });
     }
     if (state.position.empty() && scene.emitters.empty()) {
         throw Error(ErrorCode::InvalidArgument,
@@ -393,6 +469,13 @@ FluidState advanceFluid(FluidState state, const FluidScene& scene, double until,
     validate(options);
     Stepper(scene, options).advance(state, until);
     return state;
+}
+
+double longestStep(const FluidState& state, const FluidScene& scene, const FluidOptions& options)
+{
+    scene.validate();
+    validate(options);
+    return Stepper(scene, options).longestStep(state);
 }
 
 ParticleFrame frameOf(const FluidState& state, const FluidScene& scene)

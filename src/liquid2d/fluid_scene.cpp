@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "require.h"
@@ -23,7 +24,10 @@ void requireFinite(Vec2 value, const std::string& field)
     }
 }
 
-void validateRegion(const Region& region, const std::string& field)
+/// Number of spacings to which places are exact enough.
+constexpr double kFarthest = 1e9;
+
+void validateRegion(const Region& region, double spacing, const std::string& field)
 {
     for (const std::vector<Vec2>& loop : region.loops) {
         if (loop.size() < 3) {
@@ -31,6 +35,11 @@ void validateRegion(const Region& region, const std::string& field)
         }
         for (const Vec2 point : loop) {
             requireFinite(point, field + ".loops");
+            if (!(std::max(std::abs(point.x), std::abs(point.y)) <= kFarthest * spacing)) {
+                throw Error(ErrorCode::InvalidArgument,
+                            fmt::format("{}.loops is ({}, {}), must be within {} m, 1e9 spacings, of the origin", field,
+                                        numberText(point.x), numberText(point.y), numberText(kFarthest * spacing)));
+            }
         }
     }
 }
@@ -60,13 +69,13 @@ void FluidScene::validate() const
             "so large that the window and its margin hold no more than 4e8 particles");
     for (std::size_t k = 0; k < liquid.size(); ++k) {
         const std::string field = fmt::format("liquid[{}]", k);
-        validateRegion(liquid[k].region, field + ".region");
+        validateRegion(liquid[k].region, spacing, field + ".region");
         requireFinite(liquid[k].velocity, field + ".velocity");
         requireFinite({liquid[k].spin, 0.0}, field + ".spin");
     }
     for (std::size_t k = 0; k < walls.size(); ++k) {
         const std::string field = fmt::format("walls[{}]", k);
-        validateRegion(walls[k].region, field + ".region");
+        validateRegion(walls[k].region, spacing, field + ".region");
         if (walls[k].motion) {
             const WallMotion& motion = *walls[k].motion;
             requireFinite(motion.amplitude, field + ".motion.amplitude");

@@ -104,7 +104,7 @@ RegionMoments momentsOf(const Region& region)
     return moments;
 }
 
-std::vector<Vec2> latticeIn(const Region& region, double spacing)
+void visitLattice(const Region& region, const LatticePart& part, const std::function<void(Vec2)>& visit)
 {
     double lowest = std::numeric_limits<double>::infinity();
     double highest = -lowest;
@@ -114,24 +114,35 @@ std::vector<Vec2> latticeIn(const Region& region, double spacing)
         highest = std::max(highest, a.y);
         left = std::min(left, a.x);
     });
-    const double step = latticeStep(spacing);
+    const double step = latticeStep(part.spacing);
     const double row_height = 0.5 * std::sqrt(3.0) * step;
-    std::vector<Vec2> points;
-    for (std::size_t row = 0;; ++row) {
-        const double y = lowest + (static_cast<double>(row) + 0.5) * row_height;
-        if (!(y < highest)) {
-            return points;
+    const double top = std::min(highest, part.upper.y);
+    for (double row = std::max(std::ceil((part.lower.y - lowest) / row_height - 0.5), 0.0);; row += 1.0) {
+        const double y = lowest + (row + 0.5) * row_height;
+        if (!(y < top)) {
+            return;
         }
-        const double begin = left + (row % 2 == 0 ? 0.5 : 1.0) * step;
+        const double begin = left + (std::fmod(row, 2.0) == 0.0 ? 0.5 : 1.0) * step;
         const std::vector<double> xs = crossings(region, y);
         for (std::size_t k = 0; k + 1 < xs.size(); k += 2) {
             // A fourth of a step of leeway, so that two sides a whole number of steps apart do not depend on rounding.
-            auto column = static_cast<long long>(std::ceil((xs[k] - begin) / step + 0.25));
-            for (; begin + static_cast<double>(column) * step < xs[k + 1] - 0.25 * step; ++column) {
-                points.push_back({begin + static_cast<double>(column) * step, y});
+            double column =
+                std::max(std::ceil((xs[k] - begin) / step + 0.25), std::ceil((part.lower.x - begin) / step));
+            const double end = std::min(xs[k + 1] - 0.25 * step, part.upper.x);
+            for (; begin + column * step < end; column += 1.0) {
+                visit({begin + column * step, y});
             }
         }
     }
+}
+
+std::vector<Vec2> latticeIn(const Region& region, double spacing)
+{
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::vector<Vec2> points;
+    visitLattice(region, {spacing, {-kInfinity, -kInfinity}, {kInfinity, kInfinity}},
+                 [&](Vec2 point) { points.push_back(point); });
+    return points;
 }
 
 }  // namespace droplet

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "droplet/liquid2d/fluid_scene.h"
@@ -18,6 +19,16 @@ struct RegionMoments {
 
 /// Area and centroid, by the even-odd rule.
 RegionMoments momentsOf(const Region& region);
+
+/// Part of a lattice.
+struct LatticePart {
+    double spacing = 0.0;  ///< the lattice has one point per spacing² [m]
+    Vec2 lower;            ///< corners of the box that holds the part [m]
+    Vec2 upper;
+};
+
+/// Calls visit(point) for the points of latticeIn() in a box; the rest of the region costs nothing.
+void visitLattice(const Region& region, const LatticePart& part, const std::function<void(Vec2)>& visit);
 
 /// Points of the hexagonal lattice with one point per spacing² that lie in a region. The lowest row is half a row above
 /// the region's lowest point.

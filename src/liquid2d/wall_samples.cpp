@@ -3,11 +3,15 @@
 // 2012. Departure: the samples lie a little below the surface, so that liquid at rest touches it.
 #include "wall_samples.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "droplet/error.h"
 #include "droplet/liquid2d/fluid.h"
+#include "number_text.h"
 #include "region.h"
 
 namespace droplet {
@@ -57,6 +61,65 @@ double restDepth(const Kernel& kernel, double spacing)
     return std::max(near - 0.5 * row, 0.0);
 }
 
+/// Part of a side, from 0 at its begin to 1 at its end.
+struct Part {
+    double from = 0.0;
+    double to = 1.0;
+};
+
+/// Part of a side in a box.
+Part partIn(Vec2 begin, Vec2 along, Vec2 lower, Vec2 upper)
+{
+    Part part;
+    const auto clip = [&](double at, double change, double low, double high) {
+        if (change == 0.0) {
+            part = at >= low && at <= high ? part : Part{1.0, 0.0};
+            return;
+        }
+        const double first = (low - at) / change;
+        const double second = (high - at) / change;
+        part = {std::max(part.from, std::min(first, second)), std::min(part.to, std::max(first, second))};
+    };
+    clip(begin.x, along.x, lower.x, upper.x);
+    clip(begin.y, along.y, lower.y, upper.y);
+    return part;
+}
+
+/// Places where liquid can meet a wall.
+class Vicinity {
+public:
+    /// @param reach  of the kernel [m]
+    Vicinity(const FluidScene& scene, double reach)
+    {
+        // Beyond the margin particles are removed; what is thrown over the upper edge comes back. Samples of the next
+        // two supports act on the liquid or on the area of those that do.
+        const double around = scene.margin + 3.0 * reach;
+        lower_ = {-around, -around};
+        upper_ = scene.size + Vec2{around, scene.size.y + around};
+    }
+
+    /// Part of a wall's side, at rest, that ever comes near liquid.
+    [[nodiscard]] Part partNear(Vec2 begin, Vec2 along, const std::optional<WallMotion>& motion) const
+    {
+        if (!motion) {
+            return partIn(begin, along, lower_, upper_);
+        }
+        // A turn keeps the distance from the pivot.
+        const Vec2 pivot = motion->pivot;
+        const Vec2 farthest{std::max(std::abs(lower_.x - pivot.x), std::abs(upper_.x - pivot.x)),
+                            std::max(std::abs(lower_.y - pivot.y), std::abs(upper_.y - pivot.y))};
+        const double radius = length(farthest) + length(motion->amplitude);
+        return partIn(begin, along, pivot - Vec2{radius, radius}, pivot + Vec2{radius, radius});
+    }
+
+private:
+    Vec2 lower_;
+    Vec2 upper_;
+};
+
+/// Limit of all samples: they take two gigabytes.
+constexpr std::size_t kMaxSamples = 20'000'000;
+
 }  // namespace
 
 WallPose poseAt(const WallMotion& motion, double time)
@@ -98,6 +161,7 @@ Region wallAt(const Wall& wall, double time)
 WallSampler::WallSampler(const FluidScene& scene, const Kernel& kernel)
 {
     rest_.depth = restDepth(kernel, scene.spacing);
+    const Vicinity vicinity(scene, kernel.support());
     for (std::size_t w = 0; w < scene.walls.size(); ++w) {
         const Wall& wall = scene.walls[w];
         walls_.push_back({{}, wall.motion, wall.visible});
@@ -113,8 +177,18 @@ WallSampler::WallSampler(const FluidScene& scene, const Kernel& kernel)
                 const Vec2 normal = (side / size) * Vec2{-along.y, along.x};
                 const auto parts =
                     static_cast<std::size_t>(std::max(std::round(size / (kSampleStep * scene.spacing)), 1.0));
-                for (std::size_t k = 0; k < parts; ++k) {
-                    const double at = (static_cast<double>(k) + 0.5) / static_cast<double>(parts);
+                const Part near = vicinity.partNear(loop[i], along, wall.motion);
+                const double all = static_cast<double>(parts);
+                const auto end = static_cast<std::size_t>(std::max(std::ceil(near.to * all), 0.0));
+                for (auto k = static_cast<std::size_t>(std::floor(near.from * all)); k < end; ++k) {
+                    if (rest_.position.size() == kMaxSamples) {
+                        throw Error(ErrorCode::InvalidArgument,
+                                    fmt::format("walls[{}].region has too long a rim near the window for a spacing of "
+                                                "{} m; all rims together may have {} m",
+                                                w, numberText(scene.spacing),
+                                                numberText(kMaxSamples * kSampleStep * scene.spacing)));
+                    }
+                    const double at = (static_cast<double>(k) + 0.5) / all;
                     rest_.position.push_back(loop[i] + at * along - rest_.depth * normal);
                     rest_.normal.push_back(normal);
                     wall_.push_back(w);

@@ -18,9 +18,10 @@ struct WallSamples {
     double depth = 0.0;          ///< at which a lattice of particles half a row above the wall is at rest [m]
 };
 
-/// Samples of all walls at a time.
+/// Samples of all walls at a time, as far as liquid can come near them.
 class WallSampler {
 public:
+    /// @throws Error InvalidArgument: the walls are too long for the spacing
     WallSampler(const FluidScene& scene, const Kernel& kernel);
 
     /// Samples at a time; they are the same at any time if no wall moves.

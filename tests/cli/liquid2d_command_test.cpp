@@ -16,6 +16,7 @@ namespace droplet {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using testing::CommandResult;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -158,10 +159,51 @@ TEST_F(Liquid2dCommand, DrawsParticlesOfOtherPrograms)
     EXPECT_NEAR(report.at("frames").at(2).at("area_m2").get<double>(), 1.0, 0.05);
     EXPECT_TRUE(fs::exists(path("out3.png")));
 
+    // A file without a number is one frame.
+    const CommandResult single = runDroplet(
+        {"liquid2d", "--particles", path("sim1.csv"), path("one.png"), "--width", "100", "--json", "-", "-q"});
+    ASSERT_EQ(single.exit_code, 0) << single.error;
+    const auto frames = nlohmann::json::parse(single.output).at("frames");
+    ASSERT_EQ(frames.size(), 1U);
+    EXPECT_NEAR(frames.at(0).at("area_m2").get<double>(), 1.0, 0.05);
+    expectRefused({"liquid2d", "--particles", path("sim1.csv"), path("x%d.png"), "--json", path("sim1.csv")}, 2,
+                  "--particles");
+
     testing::writeFile(path("sim2.csv"), "id,x,y\n1,nan,0\n2,1,1\n");
     expectRefused({"liquid2d", "--particles", path("sim%d.csv"), path("x%d.png"), "-q"}, 3, "sim2.csv");
     fs::remove(path("sim2.csv"));
     expectRefused({"liquid2d", "--particles", path("sim%d.csv"), path("x%d.png"), "-q"}, 3, "sim2.csv");
+}
+
+TEST_F(Liquid2dCommand, IdsMayBeAsLargeAsTheyLike)
+{
+    const auto drawn = [&](const std::string& name, const std::string& last) {
+        std::string rows = "id,x,y\n";
+        for (int k = 0; k < 100; ++k) {
+            rows += (k < 99 ? std::to_string(k) : last) + "," + std::to_string(0.1 * (k % 10)) + "," +
+                    std::to_string(0.1 * (k / 10)) + "\n";
+        }
+        testing::writeFile(path(name + ".csv"), rows);
+        const CommandResult run =
+            runDroplet({"liquid2d", "--particles", path(name + ".csv"), path(name + ".svg"), "--width", "100", "-q"});
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        return readFile(path(name + ".svg"));
+    };
+    EXPECT_EQ(drawn("far", "4294967295"), drawn("near", "99"));
+}
+
+TEST_F(Liquid2dCommand, TellsOfShortStepsAndOfLostLiquid)
+{
+    testing::writeFile(path("fall.toml"),
+                       "size = [\"1m\", \"1m\"]\nspacing = \"10cm\"\ngravity = [\"0m/s2\", \"-1e6m/s2\"]\n"
+                       "margin = \"1cm\"\n[[liquid]]\nbox = [[\"0m\", \"0m\"], [\"1m\", \"0.2m\"]]\n");
+    const CommandResult run =
+        runDroplet({"liquid2d", "--scene", path("fall.toml"), path("x%d.svg"), "--fps", "1", "--time", "3s"});
+    EXPECT_EQ(run.exit_code, 5) << run.error;
+    EXPECT_THAT(run.errorLines(),
+                ElementsAre(AllOf(StartsWith("warning: "), HasSubstr("steps")),
+                            AllOf(HasSubstr("from frame 2 on"), HasSubstr("all 18 particles have left"))));
+    EXPECT_FALSE(fs::exists(path("x2.svg")));
 }
 
 TEST_F(Liquid2dCommand, RefusesWhatCannotBeDrawn)
@@ -171,7 +213,7 @@ TEST_F(Liquid2dCommand, RefusesWhatCannotBeDrawn)
     expectRefused({"liquid2d"}, 2, "OUTPUT");
     expectRefused({"liquid2d", path("x.gif")}, 2, "a file for every frame such as out/%04d.svg");
     expectRefused({"liquid2d", out, "--spacing", "1mm"}, 2, "--spacing needs --particles");
-    expectRefused({"liquid2d", out, "--particles", "sim.vtk"}, 2, "a path for numbered files");
+    expectRefused({"liquid2d", out, "--particles", "none.vtk"}, 3, "none.vtk");
     expectRefused({"liquid2d", out, "--tail-slope", "2"}, 2, "--tail-slope: '2' must be a number from 0.2 to 1.2");
     expectRefused({"liquid2d", path("x.mp4"), "--resume"}, 2, "--resume needs a file for every frame");
     testing::writeFile(path("scene.toml"), "spacing = \"2cm\"\ngravitas = \"1m/s2\"\n");

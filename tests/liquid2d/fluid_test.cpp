@@ -8,9 +8,11 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <random>
 #include <vector>
 
 #include "droplet/error.h"
+#include "liquid2d/cell_grid.h"
 
 namespace {
 
@@ -256,6 +258,93 @@ TEST(Fluid, MovingWallPushesLiquidAndNoneLeaksThroughIt)
     }
     EXPECT_GT(highest, 0.45);
     EXPECT_EQ(state.counts.removed, 0U);
+}
+
+TEST(Fluid, BodiesThatOverlapHaveOneParticleInAPlace)
+{
+    const auto count = [](const std::vector<droplet::Region>& regions) {
+        FluidScene scene = tank(4.0, 1.0, 0.04);
+        for (const droplet::Region& region : regions) {
+            scene.liquid.push_back({region, {}, 0.0});
+        }
+        return startFluid(scene).position.size();
+    };
+    const droplet::Region pool = droplet::rectangle({0.0, 0.0}, {4.0, 0.5});
+    const droplet::Region left = droplet::rectangle({0.0, 0.0}, {2.0, 0.5});
+    const droplet::Region right = droplet::rectangle({2.0, 0.0}, {4.0, 0.5});
+    const std::size_t whole = count({pool});
+    EXPECT_EQ(count({pool, pool}), whole);
+    EXPECT_EQ(count({pool, droplet::rectangle({1.003, 0.107}, {3.0, 0.4})}), whole);
+    EXPECT_EQ(count({left, right}), count({left}) + count({right})) << "bodies side by side lose nothing";
+    // A disc that is half in the pool adds its other half.
+    const double added = static_cast<double>(count({pool, droplet::circle({2.0, 0.5}, 0.4)}) - whole);
+    EXPECT_NEAR(added * 0.04 * 0.04, 0.5 * std::numbers::pi * 0.4 * 0.4, 0.02);
+}
+
+TEST(Fluid, FarPartsOfWallsAndBodiesAreLeftOut)
+{
+    FluidScene scene = tank(1.0, 0.5, 0.04);
+    scene.liquid = {{droplet::rectangle({-1e7, 0.0}, {1e7, 1e7}), {}, 0.0}};
+    scene.walls.push_back({droplet::rectangle({-1e7, -5.0}, {1e7, -0.2}), {}, true});
+    droplet::WallMotion motion;
+    motion.amplitude = {0.1, 0.0};
+    motion.pivot = {0.5, -3.0};
+    motion.swing = 0.1;
+    scene.walls.push_back({droplet::rectangle({-1e7, -4.0}, {1e7, -3.0}), motion, true});
+    FluidState state = startFluid(scene);
+    // The margin of 0.1 m lies in the side walls; over the upper edge is room for another window.
+    EXPECT_NEAR(static_cast<double>(state.position.size()) * 0.04 * 0.04, 2.1, 0.1);
+    state = advanceFluid(std::move(state), scene, 0.01);
+    EXPECT_GT(state.position.size(), 1000U);
+    scene.walls[0].region.loops[0][0].x = -1e300;
+    EXPECT_THAT([&] { startFluid(scene); }, ThrowsMessage<Error>(HasSubstr("walls[0].region.loops is (-1e+300, ")));
+    scene.walls[0].region.loops[0][0].x = -1.0;
+    scene.walls[0].region.loops[0].assign(1'000'000, {0.0, 0.0});
+    for (std::size_t k = 0; k < 1'000'000; k += 2) {
+        scene.walls[0].region.loops[0][k] = {1.0, 0.5};
+    }
+    EXPECT_THAT([&] { startFluid(scene); }, ThrowsMessage<Error>(HasSubstr("walls[0].region has too long a rim")));
+}
+
+TEST(Fluid, RefusesStepsThatNeverAddUp)
+{
+    FluidScene scene = tank(1.0, 0.5, 0.04);
+    scene.liquid = {{droplet::rectangle({0.0, 0.0}, {1.0, 0.5}), {}, 0.0}};
+    const FluidState start = startFluid(scene);
+    const double usual = longestStep(start, scene);
+    scene.gravity.y *= 1e6;
+    EXPECT_NEAR(longestStep(start, scene), 1e-3 * usual, 1e-5 * usual) << "the time of a fall by a spacing";
+    scene.gravity.y = -1e300;
+    EXPECT_THAT([&] { advanceFluid(start, scene, 0.01); }, ThrowsMessage<Error>(HasSubstr("is too short to add up")));
+}
+
+TEST(CellGrid, FindsWhatIsNear)
+{
+    std::mt19937 random(5);
+    const auto coordinate = [&] { return static_cast<double>(random() >> 8U) * 0x1p-24; };
+    std::vector<Vec2> places;
+    for (int k = 0; k < 400; ++k) {
+        places.push_back({3.0 * coordinate(), coordinate()});
+    }
+    places.insert(places.end(), {{-1.0, 0.5}, {1e5, 0.5}, {1e5, 2.0}, {0.0, 3.0}, {5e4, 0.01}});
+    droplet::CellGrid cells({0.0, 0.0}, {1e5, 2.0}, 0.1);
+    const std::vector<std::uint32_t> order = cells.sort(places);
+    EXPECT_EQ(order.size(), places.size() - 2) << "two lie outside";
+    for (const Vec2 place : places) {
+        std::vector<std::uint32_t> found;
+        for (int row = cells.row(place.y) - 1; row <= cells.row(place.y) + 1; ++row) {
+            const auto [first, last] = cells.range(row, cells.column(place.x) - 1, cells.column(place.x) + 1);
+            found.insert(found.end(), order.begin() + first, order.begin() + last);
+        }
+        for (std::uint32_t k = 0; k < places.size(); ++k) {
+            const bool is_inside = places[k].x >= 0.0 && places[k].y <= 2.0;
+            const auto times = std::count(found.begin(), found.end(), k);
+            EXPECT_LE(times, 1);
+            if (is_inside && length(places[k] - place) < 0.1) {
+                EXPECT_EQ(times, 1);
+            }
+        }
+    }
 }
 
 TEST(Fluid, RefusesScenesWithoutLiquidAndValuesOutOfRange)

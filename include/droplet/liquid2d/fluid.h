@@ -51,8 +51,11 @@ struct FluidOptions {
     FluidControl control = {};       ///< further accelerations; may be empty
 };
 
-/// Fills the scene's bodies with particles on a hexagonal lattice, one per spacing².
-/// @throws Error InvalidArgument: the scene is invalid, has neither liquid nor emitters, or more than max_particles
+/// Fills the scene's bodies with particles on a hexagonal lattice, one per spacing². Where bodies overlap, the first
+/// one has the place; beyond the margin there are none.
+/// @throws Error InvalidArgument: the scene is invalid, has neither liquid nor emitters, more than max_particles, or
+/// too
+///               long walls
 FluidState startFluid(const FluidScene& scene);
 
 /// Advances a liquid by divergence-free SPH (Bender and Koschier 2017) in the plane, with steps as long as the fastest
@@ -64,8 +67,12 @@ FluidState startFluid(const FluidScene& scene);
 /// @param scene    valid
 /// @param until    time to advance to [s]; the last step ends there
 /// @param options  in their ranges: accuracy, further accelerations
-/// @throws Error   InvalidArgument
+/// @throws Error   InvalidArgument; NoSuchDroplet if steps become too short to add up
 FluidState advanceFluid(FluidState state, const FluidScene& scene, double until, const FluidOptions& options = {});
+
+/// Longest step that advanceFluid() takes from a state [s].
+/// @throws Error  InvalidArgument
+double longestStep(const FluidState& state, const FluidScene& scene, const FluidOptions& options = {});
 
 /// Particles of a state.
 ParticleFrame frameOf(const FluidState& state, const FluidScene& scene);

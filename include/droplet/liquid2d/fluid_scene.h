@@ -22,7 +22,7 @@ Region circle(Vec2 centre, double radius);
 
 /// Liquid at the start.
 struct LiquidBody {
-    Region region;      ///< filled with particles; those in walls are left out
+    Region region;      ///< filled with particles, but for walls, earlier bodies and what is beyond the margin
     Vec2 velocity{};    ///< [m/s]
     double spin = 0.0;  ///< angular velocity about the region's centroid, positive counter-clockwise [rad/s]
 };
