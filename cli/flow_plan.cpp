@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -34,9 +35,35 @@ void warnOfDefects(const droplet::FlowSurfaceReport& report, const std::string& 
     warn(report.without_area, "have no area and are left out");
     warn(report.duplicates, "are duplicates and are left out");
     warn(report.turned, "face the other way than their neighbours and are turned");
+    const std::size_t sides = 3 * (report.triangles - report.without_area - report.duplicates);
+    if (report.parts > 1 && 2 * report.boundary_edges > sides) {
+        warnings.push_back(
+            fmt::format("{}: {} of {} sides of triangles have no neighbour, in {} parts, so droplets soon fall off; "
+                        "join the corners "
+                        "that should be one (merge by distance)",
+                        path, report.boundary_edges, sides, report.parts));
+    }
 }
 
-std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowPlan& plan)
+/// Tells of droplets that lie on one another.
+void warnOfCover(const std::vector<droplet::FlowStart>& scattered, const FlowPlan& plan, double area,
+                 std::vector<std::string>& warnings)
+{
+    double covered = 0.0;
+    for (const droplet::FlowStart& start : scattered) {
+        const double radius = droplet::capOf(start.volume, plan.parameters.forces.wetting.contact_angle).contact_radius;
+        covered += std::numbers::pi * radius * radius;
+    }
+    if (plan.parameters.merges && covered > area) {
+        warnings.push_back(fmt::format(
+            "--drops: {} droplets cover {:.3g} times the {:.3g} cm2 that they start on, so they merge to fewer and "
+            "larger ones at once; give fewer, or a smaller --volume",
+            scattered.size(), covered / area, area / 1e-4));
+    }
+}
+
+std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowPlan& plan,
+                                         std::vector<std::string>& warnings)
 {
     std::vector<droplet::FlowStart> starts;
     if (options.preset) {
@@ -59,6 +86,7 @@ std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowP
                 forOption("--mask", [&] { return droplet::coverageOver(*mask, plan.object, plan.scene.surface()); });
         }
         const auto scattered = forOption("--drops", [&] { return droplet::scatterDroplets(plan.scene, scatter); });
+        warnOfCover(scattered, plan, droplet::scatterArea(plan.scene, scatter), warnings);
         starts.insert(starts.end(), scattered.begin(), scattered.end());
     }
     return starts;
@@ -110,7 +138,7 @@ FlowPlan planOf(const FlowOptions& options)
         plan.parameters.motion = droplet::readObjectMotion(*options.motion);
     }
     plan.parameters.ground = groundOf(options, plan);
-    plan.starts = startsOf(options, plan);
+    plan.starts = startsOf(options, plan, plan.warnings);
     const double duration = options.duration.value_or(options.preset ? options.preset->duration : kDefaultDuration);
     plan.frames =
         std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);

@@ -307,19 +307,19 @@ private:
                 d.has_grown = false;
             }
         }
-        const std::vector<Pair> touching = touchingPairs(balls);
-        UnionFind sets(count);
-        std::vector<std::uint32_t> members;
-        for (const auto& [i, j] : touching) {
+        const std::vector<Pair> joined = connectingPairs(balls, [&](std::uint32_t i, std::uint32_t j) {
             const FlowDroplet& a = s_.droplets[i];
             const FlowDroplet& b = s_.droplets[j];
             const double apart = length(balls[j].to - balls[i].to);
-            if (dot(normalOf(a), normalOf(b)) > 0.0 &&
-                c_.areJoined(a.face, b.face, balls[i].to, apart * (1.0 + 1e-9))) {
-                sets.join(i, j);
-                members.push_back(i);
-                members.push_back(j);
-            }
+            return dot(normalOf(a), normalOf(b)) > 0.0 &&
+                   c_.areJoined(a.face, b.face, balls[i].to, apart * (1.0 + 1e-9));
+        });
+        UnionFind sets(count);
+        std::vector<std::uint32_t> members;
+        for (const auto& [i, j] : joined) {
+            sets.join(i, j);
+            members.push_back(i);
+            members.push_back(j);
         }
         std::sort(members.begin(), members.end());
         members.erase(std::unique(members.begin(), members.end()), members.end());

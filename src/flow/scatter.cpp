@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "droplet/error.h"
@@ -32,8 +33,7 @@ public:
         start.volume = options_.volumes.at(random.uniform(0), random.uniform(1));
         for (std::uint64_t i = 0; i < kMaxTries; ++i) {
             const FlowScene::Point point = scene_.pointAt(random.uniform(2 + 3 * i), random.uniform(3 + 3 * i));
-            const bool is_covered = !options_.coverage || random.uniform(4 + 3 * i) < options_.coverage(point);
-            if (is_covered && isMet(point)) {
+            if (takes(point, random.uniform(4 + 3 * i))) {
                 start.place = point.place;
                 return start;
             }
@@ -41,7 +41,27 @@ public:
         return std::nullopt;
     }
 
+    /// Share of the surface that takes droplets.
+    [[nodiscard]] double share() const
+    {
+        constexpr std::uint64_t kSample = 4096;
+        const RandomStream random(options_.seed, RandomPurpose::Scatter, std::numeric_limits<std::uint64_t>::max());
+        std::uint64_t taken = 0;
+        for (std::uint64_t i = 0; i < kSample; ++i) {
+            const FlowScene::Point point = scene_.pointAt(random.uniform(3 * i), random.uniform(3 * i + 1));
+            taken += takes(point, random.uniform(3 * i + 2)) ? 1 : 0;
+        }
+        return static_cast<double>(taken) / static_cast<double>(kSample);
+    }
+
 private:
+    /// Whether a point takes a droplet.
+    /// @param u  uniform in [0, 1)
+    [[nodiscard]] bool takes(const FlowScene::Point& point, double u) const
+    {
+        return (!options_.coverage || u < options_.coverage(point)) && isMet(point);
+    }
+
     /// Whether rain meets a point first.
     [[nodiscard]] bool isMet(const FlowScene::Point& point) const
     {
@@ -95,6 +115,12 @@ std::vector<FlowStart> scatterDroplets(const FlowScene& scene, const ScatterOpti
         tbb::parallel_for(std::size_t{1}, options.count, put);
     }
     return starts;
+}
+
+double scatterArea(const FlowScene& scene, const ScatterOptions& options)
+{
+    options.validate();
+    return Places(scene, options).share() * scene.area();
 }
 
 }  // namespace droplet

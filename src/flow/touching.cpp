@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 #include "blocks.h"
 #include "wind/random.h"
@@ -70,10 +71,41 @@ void visitBuckets(const Box& box, double per_metre, std::uint64_t mask, const Vi
     }
 }
 
+/// Adds the pairs that connect some balls. A ball is compared with a group only until they touch, which is soon where
+/// many lie on one another.
+template <typename Joins>
+void connect(std::span<const std::uint32_t> members, const Joins& joins, std::vector<Pair>& pairs)
+{
+    std::vector<std::vector<std::uint32_t>> groups;
+    for (const std::uint32_t i : members) {
+        std::vector<std::uint32_t> own{i};
+        std::size_t kept = 0;
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            const auto met = std::find_if(groups[g].begin(), groups[g].end(),
+                                          [&](std::uint32_t j) { return joins(std::min(i, j), std::max(i, j)); });
+            if (met == groups[g].end()) {
+                std::swap(groups[kept++], groups[g]);
+                continue;
+            }
+            pairs.emplace_back(std::min(i, *met), std::max(i, *met));
+            if (own.size() < groups[g].size()) {
+                own.swap(groups[g]);
+            }
+            own.insert(own.end(), groups[g].begin(), groups[g].end());
+        }
+        groups.resize(kept);
+        groups.push_back(std::move(own));
+    }
+}
+
 }  // namespace
 
-std::vector<Pair> touchingPairs(std::span<const MovingBall> balls)
+std::vector<Pair> connectingPairs(std::span<const MovingBall> balls,
+                                  const std::function<bool(std::uint32_t, std::uint32_t)>& may_join)
 {
+    const auto joins = [&](std::uint32_t i, std::uint32_t j) {
+        return (balls[i].changed || balls[j].changed) && touch(balls[i], balls[j]) && may_join(i, j);
+    };
     std::vector<double> sizes;
     std::size_t changed = 0;
     for (const MovingBall& ball : balls) {
@@ -132,18 +164,7 @@ std::vector<Pair> touchingPairs(std::span<const MovingBall> balls)
         [&](std::size_t begin, std::size_t end) {
             std::vector<Pair> pairs;
             for (std::size_t bucket = begin; bucket < end; ++bucket) {
-                for (std::uint32_t a = first[bucket]; a < first[bucket + 1]; ++a) {
-                    const std::uint32_t i = members[a];
-                    if (!balls[i].changed) {
-                        continue;
-                    }
-                    for (std::uint32_t b = first[bucket]; b < first[bucket + 1]; ++b) {
-                        const std::uint32_t j = members[b];
-                        if (i != j && touch(balls[i], balls[j])) {
-                            pairs.emplace_back(std::min(i, j), std::max(i, j));
-                        }
-                    }
-                }
+                connect({members.data() + first[bucket], members.data() + first[bucket + 1]}, joins, pairs);
             }
             return pairs;
         },

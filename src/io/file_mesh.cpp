@@ -484,6 +484,44 @@ void readPlyFaces(const PlyElement& element, PlyNumbers& numbers, const FileMesh
     }
 }
 
+/// Reads strips of triangles, as scanners and range data have them: lists of vertices in which −1 begins another strip.
+/// Every second triangle of a strip winds the other way.
+void readPlyStrips(const PlyElement& element, PlyNumbers& numbers, FileMesh& mesh)
+{
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+        for (const PlyProperty& property : element.properties) {
+            std::uint64_t left = property.count ? numbers.nextWhole(*property.count) : 1;
+            const bool is_strip =
+                property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
+            std::vector<std::uint64_t> last;  // up to three vertices
+            for (bool is_odd = false; left > 0; --left) {
+                const double value = numbers.next(property.scalar);
+                if (!is_strip) {
+                    continue;
+                }
+                if (value == -1.0) {
+                    last.clear();
+                    is_odd = false;
+                    continue;
+                }
+                if (!(value >= 0.0 && value < 4294967296.0 && std::floor(value) == value)) {
+                    throw Damage("it has a strip with an index that is not valid");
+                }
+                last.push_back(static_cast<std::uint64_t>(value));
+                if (last.size() < 3) {
+                    continue;
+                }
+                // Strips repeat vertices where they turn.
+                if (last[0] != last[1] && last[1] != last[2] && last[2] != last[0]) {
+                    addTriangle(mesh, last[is_odd ? 1 : 0], last[is_odd ? 0 : 1], last[2]);
+                }
+                last.erase(last.begin());
+                is_odd = !is_odd;
+            }
+        }
+    }
+}
+
 FileMesh readPly(std::string_view text, const FileMeshOptions& options)
 {
     Lines lines(text);
@@ -540,6 +578,8 @@ FileMesh readPly(std::string_view text, const FileMeshOptions& options)
             readPlyVertices(element, numbers, options, mesh);
         } else if (element.name == "face") {
             readPlyFaces(element, numbers, options, mesh);
+        } else if (element.name == "tristrips") {
+            readPlyStrips(element, numbers, mesh);
         } else {
             for (std::uint64_t i = 0; i < element.count; ++i) {
                 for (const PlyProperty& property : element.properties) {

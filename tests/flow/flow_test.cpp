@@ -5,14 +5,18 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "flow/touching.h"
+#include "union_find.h"
 
 namespace droplet {
 namespace {
@@ -290,7 +294,7 @@ TEST(Flow, RejectsDropletsLargerThanTheObject)
     EXPECT_THROW(startFlow(scene, parameters, {}), Error);
 }
 
-TEST(Touching, FindsAllPairsThatSamplesFind)
+TEST(Touching, ConnectsAllThatSamplesFind)
 {
     std::vector<MovingBall> balls;
     for (int k = 0; k < 300; ++k) {
@@ -314,11 +318,56 @@ TEST(Touching, FindsAllPairsThatSamplesFind)
             }
         }
     }
-    const auto found = touchingPairs(balls);
+    // Pairs connect the same balls.
+    const auto sets_of = [&](const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+        UnionFind sets(balls.size());
+        for (const auto& [i, j] : pairs) {
+            sets.join(i, j);
+        }
+        std::vector<std::uint32_t> names;
+        for (std::uint32_t k = 0; k < balls.size(); ++k) {
+            names.push_back(sets.find(k));
+        }
+        return names;
+    };
+    const auto check = [&](const std::vector<std::pair<std::uint32_t, std::uint32_t>>& found) {
+        const std::vector<std::uint32_t> names = sets_of(found);
+        for (const auto& [i, j] : expected) {
+            EXPECT_EQ(names[i], names[j]);
+        }
+        // Samples miss grazes of less than a step.
+        const auto count = [](std::vector<std::uint32_t> of) { return std::set(of.begin(), of.end()).size(); };
+        EXPECT_GE(count(names) + 2, count(sets_of(expected)));
+        EXPECT_LE(found.size(), expected.size() + 2);
+    };
     EXPECT_GT(expected.size(), 10U);
-    // Samples miss grazes of less than a step.
-    EXPECT_LE(found.size(), expected.size() + 2);
-    EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
+    check(connectingPairs(balls, [](std::uint32_t, std::uint32_t) { return true; }));
+    EXPECT_TRUE(connectingPairs(balls, [](std::uint32_t, std::uint32_t) { return false; }).empty());
+    // Some may not join: the others are connected as if these were not there.
+    const auto odd = [](std::uint32_t i, std::uint32_t j) { return i % 2 == 1 && j % 2 == 1; };
+    std::erase_if(expected, [&](const auto& pair) { return !odd(pair.first, pair.second); });
+    check(connectingPairs(balls, odd));
+}
+
+TEST(Touching, ConnectsBallsThatLieOnOneAnotherInLinearWork)
+{
+    std::vector<MovingBall> balls;
+    for (int k = 0; k < 20000; ++k) {
+        const Vec3 place{1e-3 * std::fmod(0.618 * k, 1.0), 1e-3 * std::fmod(0.755 * k, 1.0), 0.0};
+        balls.push_back({place, place, 2e-3, true});
+    }
+    std::atomic<std::size_t> asked = 0;
+    const auto pairs = connectingPairs(balls, [&](std::uint32_t, std::uint32_t) {
+        ++asked;
+        return true;
+    });
+    EXPECT_LT(asked, 9 * balls.size()) << "all pairs are 2e8";
+    UnionFind sets(balls.size());
+    std::size_t joined = 0;
+    for (const auto& [i, j] : pairs) {
+        joined += sets.join(i, j) ? 1 : 0;
+    }
+    EXPECT_EQ(joined, balls.size() - 1);
 }
 
 }  // namespace

@@ -83,7 +83,11 @@ TEST(Scatter, FollowsTheMask)
     const auto starts = scatterDroplets(scene, options);
     // On 0.2 m² with certainty, on 1.3 m² with a quarter.
     EXPECT_NEAR(static_cast<double>(countOf(starts, [](Vec3 p) { return p.x < 0.1; })), 1000.0 * 0.2 / 0.525, 65.0);
+    EXPECT_NEAR(scatterArea(scene, options), 0.525, 0.05);
+    EXPECT_NEAR(scatterArea(scene, {.from = Vec3{0.0, 0.0, 1.0}}), 1.0, 0.08);
+    EXPECT_EQ(scatterArea(scene, {}), scene.area());
     options.coverage = [](const FlowScene::Point&) { return 0.0; };
+    EXPECT_EQ(scatterArea(scene, options), 0.0);
     try {
         (void)scatterDroplets(scene, options);
         FAIL();

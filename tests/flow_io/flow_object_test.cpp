@@ -88,6 +88,23 @@ usemtl rough
 f 1/2/1 2/1/1 4/4/1
 )";
 
+// Two strips, of three triangles and of one; the first turns where it repeats a vertex.
+TEST_F(FlowObjectFile, PlyHasStrips)
+{
+    const std::string vertices =
+        "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n";
+    const std::string places = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n";
+    const std::string list = "\nproperty list int int vertex_indices\nend_header\n";
+    const FlowObject faces =
+        read("faces.ply", vertices + "element face 4" + list + places + "3 0 1 2\n3 2 1 3\n3 2 3 4\n3 4 3 5\n");
+    const FlowObject strips =
+        read("strips.ply", vertices + "element tristrips 1" + list + places + "10 0 1 2 3 4 -1 4 3 5 5\n");
+    EXPECT_EQ(strips.positions, faces.positions);
+    EXPECT_EQ(strips.triangles, faces.triangles);
+    expectRefused("bad.ply", vertices + "element tristrips 1" + list + places + "4 0 1 2 6\n", "vertex 6 of 6");
+    expectRefused("bad.ply", vertices + "element tristrips 1" + list + places + "4 0 1 2 -2\n", "not valid");
+}
+
 TEST_F(FlowObjectFile, ObjHasUvMaterialsAndPolygons)
 {
     const FlowObject object = read("wall.obj", kObj);

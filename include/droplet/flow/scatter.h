@@ -35,4 +35,8 @@ struct ScatterOptions {
 ///                the rain, or the coverage is 0
 std::vector<FlowStart> scatterDroplets(const FlowScene& scene, const ScatterOptions& options);
 
+/// Area of the surface where scatterDroplets() puts droplets, each part times its coverage, from a sample [m²].
+/// @throws Error  InvalidArgument
+double scatterArea(const FlowScene& scene, const ScatterOptions& options);
+
 }  // namespace droplet
