@@ -147,6 +147,7 @@ public:
                     report_.frames.size() == 1 ? "it" : fmt::format("any of {} frames", report_.frames.size())));
         }
         warnOfDisagreement();
+        warnOfFlatFrames();
         progress_(Stage::Write, 0.0);
         save();
         return std::move(report_);
@@ -357,6 +358,25 @@ private:
             decided.name, decided.levels.channel == droplet::Channel::Alpha ? "alpha" : "luma",
             decided.levels.channel == droplet::Channel::Alpha ? (dark ? "transparent" : "opaque")
                                                               : (dark ? "dark" : "bright")));
+    }
+
+    /// One amount in a footprint that grows becomes a film, which few want.
+    void warnOfFlatFrames()
+    {
+        constexpr double kFlat = 0.1;  // of the first frame's height
+        const auto has_liquid = [](const droplet::FrameReport& frame) { return !frame.droplets.empty(); };
+        const auto first = std::find_if(report_.frames.begin(), report_.frames.end(), has_liquid);
+        const auto is_flat = [&](const droplet::FrameReport& frame) {
+            return has_liquid(frame) && frame.total.height_max < kFlat * first->total.height_max;
+        };
+        const auto flat = std::find_if(first, report_.frames.end(), is_flat);
+        if (report_.volume_mode == droplet::VolumeMode::Total && flat != report_.frames.end()) {
+            report_.warnings.push_back(
+                fmt::format("{}: the liquid is {:.2g} mm high, {:.2g} mm in {}, because all frames share one amount; "
+                            "--volume-mode fill gives every frame an amount of its own",
+                            flat->input, flat->total.height_max / droplet::kMillimetre,
+                            first->total.height_max / droplet::kMillimetre, first->input));
+        }
     }
 
     void save()

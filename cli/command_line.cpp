@@ -40,6 +40,26 @@ std::string wrapped(const std::string& text)
     return lines;
 }
 
+/// Names of one meaning, of which a command has one at most; other programs use the others.
+const std::vector<std::vector<std::string>>& synonyms()
+{
+    static const std::vector<std::vector<std::string>> groups{{"--time", "--duration", "--seconds"},
+                                                              {"--fps", "--frame-rate", "--framerate", "--rate"},
+                                                              {"--drops", "--particle-count", "--count", "--number"},
+                                                              {"--size", "--preview-size", "--resolution"},
+                                                              {"--codec", "--encoder"},
+                                                              {"--json", "--report"},
+                                                              {"--preview", "--render"},
+                                                              {"--rain", "--rainfall"},
+                                                              {"--seed", "--random-seed"},
+                                                              {"--speed", "--velocity"},
+                                                              {"--threads", "--jobs"},
+                                                              {"--wind", "--wind-speed"},
+                                                              {"--quiet", "--silent"},
+                                                              {"--no-clobber", "--no-overwrite"}};
+    return groups;
+}
+
 /// The long name of an option; later ones are its former names.
 std::string nameOf(const CLI::Option* option)
 {
@@ -229,8 +249,16 @@ private:
         }
     }
 
+    /// The option that an unknown name probably means, by its meaning or its letters; empty if there is none.
     [[nodiscard]] std::string nearest(const std::string& unknown) const
     {
+        for (const std::vector<std::string>& group : synonyms()) {
+            const bool is_synonym = std::find(group.begin(), group.end(), unknown) != group.end();
+            const auto known = std::find_if(group.begin(), group.end(), [&](const auto& name) { return has(name); });
+            if (is_synonym && known != group.end()) {
+                return *known;
+            }
+        }
         std::vector<std::string> names;
         for (const CLI::Option* option : app_.get_options()) {
             if (!option->get_lnames().empty()) {

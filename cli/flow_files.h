@@ -10,7 +10,7 @@
 namespace cli {
 
 /// Names of the maps of a frame.
-inline constexpr std::array kFlowMaps{"normal", "thickness", "age"};
+inline constexpr std::array kFlowMaps{"normal", "thickness", "age", "wet"};
 
 /// Path of a frame's map: its name before the extension.
 std::string flowMapPath(const NumberedPath& maps, std::size_t number, const char* map);

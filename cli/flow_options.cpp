@@ -32,6 +32,7 @@ constexpr Range kSpacing{Dimension::Length, 1e-4, 1.0, "from 0.1mm to 1m"};
 constexpr Range kTime{Dimension::Duration, 1e-3, 86400.0, "from 1ms to 24h"};
 constexpr Range kPlace{Dimension::Length, -1e3, 1e3, "from -1000m to 1000m"};
 constexpr Range kSpeed{Dimension::Speed, -150.0, 150.0, "from -150m/s to 150m/s"};
+constexpr Range kMapThickness{Dimension::Length, 1e-6, 1.0, "from 1um to 1m"};
 constexpr Range kTurn{Dimension::Angle, -1e4, 1e4, "an angle in a second, such as 30deg/s"};
 
 std::string presetNames()
@@ -143,16 +144,17 @@ void declare(CommandLine& line)
     line.add(kOut, "--streaks", "FILE",
              "Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animated .glb has them too");
     line.add(kOut, "--maps", "PATH",
-             "Textures of the water in the object's uv, such as maps/%05d.png or .exr: three files per frame, -normal, "
-             "-thickness and -age");
+             "Textures of the water in the object's uv, such as maps/%05d.png or .exr: four files per frame, -normal, "
+             "-thickness, -age and -wet, which tells where the age counts");
     line.add(kOut, "--map-width", "N", "Width and height of the textures in pixels [1024]");
+    line.add(kOut, "--map-thickness", "LENGTH", "Thickness of the water that is white in a PNG [5mm]");
+    line.add(kOut, "--map-age", "DURATION", "Greatest age in the textures, white in a PNG [10s]");
     line.add(kOut, "--droplets", "FILE", "Write a table of all droplets in every frame: .csv or .json");
     line.add(kOut, "--json", "FILE", "Write a report, with the liquid's balance every second; - is standard output");
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
     line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
-    line.add(kRun, "--progress", "auto|none|json",
-             "auto shows a bar on a terminal; json writes a line of JSON for each frame instead of the summary [auto]");
+    declareFrameProgress(line, kRun);
     declareCommon(line, kRun, "time = \"5s\"");
     line.exclude({"--resume", "--no-clobber"});
 }
@@ -515,10 +517,17 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
         }
         options.are_maps_exr = ending == ".exr";
     }
-    if (const auto width = line.value("--map-width")) {
-        if (!options.maps) {
-            refuse("--map-width needs --maps");
+    for (const char* option : {"--map-width", "--map-thickness", "--map-age"}) {
+        if (line.value(option) && !options.maps) {
+            refuse(std::string(option) + " needs --maps");
         }
+    }
+    if (line.value("--map-thickness") && options.are_maps_exr) {
+        refuse("--map-thickness needs --maps with .png: .exr has metres");
+    }
+    readQuantity(line, "--map-thickness", kMapThickness, options.full_thickness);
+    readQuantity(line, "--map-age", kTime, options.full_age);
+    if (const auto width = line.value("--map-width")) {
         options.map_width = static_cast<int>(count(*width, 8192, "8192"));
         if (options.map_width < 16) {
             refuse(*width, "a whole number from 16 to 8192");

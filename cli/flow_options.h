@@ -60,6 +60,8 @@ struct FlowOptions {
     std::optional<NumberedPath> maps;
     bool are_maps_exr = false;  ///< otherwise PNG
     int map_width = 1024;
+    double full_thickness = 5e-3;  ///< of white in PNG maps [m]
+    double full_age = 10.0;        ///< of white in PNG maps [s]
     std::optional<std::string> streaks;
     std::optional<std::string> droplets;
     std::optional<std::string> json;

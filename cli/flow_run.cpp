@@ -134,6 +134,8 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
         droplet::WetMapOptions maps;
         maps.width = options_.map_width;
         maps.height = options_.map_width;
+        maps.full_thickness = options_.full_thickness;
+        maps.full_age = options_.full_age;
         maps.drying = plan_.parameters.drying;
         if (plan_.parameters.streaks.film > 0.0) {
             maps.film = plan_.parameters.streaks.film;
@@ -158,6 +160,9 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
     report_.shape = options_.shape;
     report_.frames_per_second = options_.frames_per_second;
     report_.frames = plan_.frames;
+    if (options_.maps && !options_.are_maps_exr) {
+        report_.map_scale = {options_.full_thickness, options_.full_age};
+    }
     report_.warnings = plan_.warnings;
 }
 
@@ -410,14 +415,16 @@ void FlowRun::writeMaps(const std::vector<droplet::FlowSample>& samples, std::si
     };
     if (options_.are_maps_exr) {
         const droplet::WetFloatMaps maps = mapper_->floatMaps(state_.time, samples, surface);
-        const std::array<const droplet::FloatPicture*, kFlowMaps.size()> all{&maps.normal, &maps.thickness, &maps.age};
+        const std::array<const droplet::FloatPicture*, kFlowMaps.size()> all{&maps.normal, &maps.thickness, &maps.age,
+                                                                             &maps.wet};
         for (std::size_t k = 0; k < all.size(); ++k) {
             write(k, [&](std::ostream& out) { writeExr(*all[k], out); });
         }
         return;
     }
     const droplet::WetMaps maps = mapper_->maps(state_.time, samples, surface);
-    const std::array<const droplet::DeepPicture*, kFlowMaps.size()> all{&maps.normal, &maps.thickness, &maps.age};
+    const std::array<const droplet::DeepPicture*, kFlowMaps.size()> all{&maps.normal, &maps.thickness, &maps.age,
+                                                                        &maps.wet};
     for (std::size_t k = 0; k < all.size(); ++k) {
         write(k, [&](std::ostream& out) { writePng(*all[k], out, droplet::PngEffort::Fast); });
     }

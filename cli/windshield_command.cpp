@@ -10,7 +10,8 @@
 #include <variant>
 
 #include "files.h"
-#include "terminal.h"
+#include "progress_display.h"
+#include "shape_command.h"
 #include "windshield_files.h"
 #include "windshield_options.h"
 #include "windshield_run.h"
@@ -33,9 +34,6 @@ void printSummary(const droplet::WindshieldReport& report)
                              litres(water.on_glass_still + water.on_glass_running), litres(water.left),
                              litres(water.wiped))
               << report.output << "\n";
-    for (const std::string& warning : report.warnings) {
-        std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n";
-    }
     std::cerr << std::flush;
 }
 
@@ -54,9 +52,18 @@ int runWindshield(int argc, const char* const* argv)
     if (options.threads) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);
     }
-    const droplet::WindshieldReport report = simulateWindshield(options);
-    if (!options.quiet) {
+    const bool is_silent = options.quiet && options.progress == ProgressMode::Auto;
+    ProgressDisplay progress(is_silent ? ProgressMode::None : options.progress);
+    const droplet::WindshieldReport report = simulateWindshield(options, progress);
+    progress.finish();
+    if (options.quiet) {
+        return 0;
+    }
+    if (options.progress != ProgressMode::Json) {
         printSummary(report);
+    }
+    for (const std::string& warning : report.warnings) {
+        printWarning(warning, options.progress);
     }
     return 0;
 }

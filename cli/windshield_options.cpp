@@ -38,6 +38,7 @@ constexpr Range kPeriod{Dimension::Duration, 1.2, 60.0, "from 1.2s to 60s"};
 constexpr Range kView{Dimension::Angle, kDegree, 150.0 * kDegree, "from 1deg to 150deg"};
 constexpr Range kBlur{Dimension::Angle, 0.0, 20.0 * kDegree, "from 0deg to 20deg"};
 constexpr Range kPlace{Dimension::Length, -100.0, 100.0, "from -100m to 100m each"};
+constexpr Range kMapThickness{Dimension::Length, 1e-6, 1.0, "from 1um to 1m"};
 constexpr Range kEye{Dimension::Length, 0.01, 100.0, "from 10mm to 100m"};
 
 const CommandText& commandText()
@@ -132,6 +133,7 @@ void declare(CommandLine& line)
              "Textures of the whole glass, such as maps/%05d.png or .exr: three files per frame, -normal, -thickness "
              "and -velocity");
     line.add(kOut, "--map-width", "N", "Width of the textures in pixels [2048]");
+    line.add(kOut, "--map-thickness", "LENGTH", "Thickness of the water that is white in a PNG [5mm]");
     line.add(kOut, "--droplets", "FILE", "Write a table of all running droplets in every frame: .csv or .json");
     line.addFlag(kOut, "--moving-only", "Leave droplets at rest out of the table");
     line.add(kOut, "--model", "FILE", "Write the droplets as an animated .glb");
@@ -142,6 +144,7 @@ void declare(CommandLine& line)
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
     line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
+    declareFrameProgress(line, kRun);
     declareCommon(line, kRun, "rain = \"5mm/h\"");
     line.exclude({"--eye", "--eye-distance"});
     line.exclude({"--resume", "--no-clobber"});
@@ -345,9 +348,16 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
             refuse(*maps, "a path that ends in .png or .exr");
         }
         options.are_maps_exr = extension == ".exr";
-    } else if (line.value("--map-width")) {
-        refuse("--map-width needs --maps");
     }
+    for (const char* option : {"--map-width", "--map-thickness"}) {
+        if (line.value(option) && !options.maps) {
+            refuse(std::string(option) + " needs --maps");
+        }
+    }
+    if (line.value("--map-thickness") && options.are_maps_exr) {
+        refuse("--map-thickness needs --maps with .png: .exr has metres");
+    }
+    readQuantity(line, "--map-thickness", kMapThickness, options.map.full_thickness);
     if (const auto droplets = line.value("--droplets")) {
         const std::string extension = std::filesystem::path(droplets->text).extension().string();
         if (extension != ".csv" && extension != ".json") {
@@ -409,10 +419,11 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     options.threads = readThreads(line);
     options.output_options.no_clobber = line.flag("--no-clobber");
     options.quiet = line.flag("--quiet");
+    options.progress = readProgress(line);
     // These options do not change what a frame shows.
-    const std::set<std::string> neutral{"--time",  "--resume",      "--no-clobber",     "--threads",
-                                        "--quiet", "--config",      "--json",           "--droplets",
-                                        "--model", "--moving-only", "--model-animation"};
+    const std::set<std::string> neutral{
+        "--time", "--resume",   "--no-clobber", "--threads",     "--quiet",           "--config",
+        "--json", "--droplets", "--model",      "--moving-only", "--model-animation", "--progress"};
     options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output;
     for (const auto& [name, value] : line.given()) {
         if (neutral.count(name) == 0) {

@@ -11,6 +11,7 @@
 #include "droplet/view/view.h"
 #include "droplet/wind_io/droplet_scene.h"
 #include "droplet/windshield/windshield.h"
+#include "droplet_options.h"
 #include "numbered_path.h"
 #include "video_encoding.h"
 
@@ -50,6 +51,7 @@ struct WindshieldOptions {
     std::optional<std::string> config;
     std::optional<std::size_t> threads;
     droplet::OutputOptions output_options;
+    ProgressMode progress = ProgressMode::Auto;
     bool quiet = false;
 };
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,7 +18,6 @@
 #include "files.h"
 #include "option_values.h"
 #include "stage_clock.h"
-#include "terminal.h"
 #include "windshield_files.h"
 #include "windshield_frames.h"
 #include "windshield_plan.h"
@@ -31,7 +29,7 @@ constexpr const char* kCommand = "windshield";
 
 class WindshieldRun {
 public:
-    explicit WindshieldRun(const WindshieldOptions& options);
+    WindshieldRun(const WindshieldOptions& options, ProgressDisplay& progress);
 
     droplet::WindshieldReport execute();
 
@@ -49,9 +47,9 @@ private:
     /// Simulates and draws all remaining frames.
     void run();
     void finish();
-    void showProgress() const;
 
     const WindshieldOptions& options_;
+    ProgressDisplay& progress_;
     StageClock clock_;
     WindshieldPlan plan_;
     WindshieldFrames frames_;
@@ -66,8 +64,8 @@ private:
     droplet::WindshieldReport report_;
 };
 
-WindshieldRun::WindshieldRun(const WindshieldOptions& options)
-    : options_(options), plan_(planOf(options)), frames_(options, plan_.parameters)
+WindshieldRun::WindshieldRun(const WindshieldOptions& options, ProgressDisplay& progress)
+    : options_(options), progress_(progress), plan_(planOf(options)), frames_(options, plan_.parameters)
 {
     checkFrameFiles(options_, plan_.frames);
     if (options_.files) {
@@ -85,6 +83,9 @@ WindshieldRun::WindshieldRun(const WindshieldOptions& options)
     report_.warm_up = options_.warm_up;
     report_.step = plan_.step;
     report_.frames = plan_.frames;
+    if (options_.maps && !options_.are_maps_exr) {
+        report_.map_thickness = options_.map.full_thickness;
+    }
     report_.warnings = plan_.warnings;
 }
 
@@ -236,7 +237,7 @@ void WindshieldRun::run()
             writeCheckpoint(checkpointPath(*options_.files),
                             {kCommand, fingerprint_, done_ + 1, bytesOfRows(report_.balance), bytesOf(state_)});
         }
-        showProgress();
+        progress_.reportFrame(done_ + 1, plan_.frames);
     }
     frames_.wait();
     if (report_.balance.empty() || report_.balance.back().time != state_.time) {
@@ -251,19 +252,11 @@ void WindshieldRun::finish()
     report_.peak_memory = peakMemory();
 }
 
-void WindshieldRun::showProgress() const
-{
-    if (!options_.quiet && errorIsTerminal()) {
-        std::cerr << "\rframe " << done_ + 1 << " of " << plan_.frames << (done_ + 1 == plan_.frames ? "\n" : "")
-                  << std::flush;
-    }
-}
-
 }  // namespace
 
-droplet::WindshieldReport simulateWindshield(const WindshieldOptions& options)
+droplet::WindshieldReport simulateWindshield(const WindshieldOptions& options, ProgressDisplay& progress)
 {
-    return WindshieldRun(options).execute();
+    return WindshieldRun(options, progress).execute();
 }
 
 }  // namespace cli

@@ -86,12 +86,18 @@ CsvTable::CsvTable(std::string_view text, std::string name, std::string_view gap
 
 std::optional<std::size_t> CsvTable::columnWhere(const std::function<bool(const std::string&)>& is_it) const
 {
+    std::optional<std::size_t> found;
     for (std::size_t c = 0; header_ && c < header_->fields.size(); ++c) {
-        if (is_it(header_->fields[c])) {
-            return c;
+        if (!is_it(header_->fields[c])) {
+            continue;
         }
+        if (found) {
+            refuse(header_->number,
+                   "has both '" + header_->fields[*found] + "' and '" + header_->fields[c] + "'; one of them must go");
+        }
+        found = c;
     }
-    return std::nullopt;
+    return found;
 }
 
 std::optional<std::size_t> CsvTable::columnNamed(std::string_view heading) const

@@ -32,9 +32,9 @@ public:
     [[nodiscard]] const std::optional<Row>& header() const { return header_; }
     /// All rows below the header.
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
-    /// First column whose heading satisfies a condition.
+    /// The column whose heading satisfies a condition; two such columns are refused.
     [[nodiscard]] std::optional<std::size_t> columnWhere(const std::function<bool(const std::string&)>& is_it) const;
-    /// Column with exactly this heading.
+    /// The column with exactly this heading; two such columns are refused.
     [[nodiscard]] std::optional<std::size_t> columnNamed(std::string_view heading) const;
     /// Columns with these headings: all or none.
     /// @return  empty if there is none of them

@@ -714,6 +714,7 @@ _WINDSHIELD = {
     "quality": "number",
     "maps": "path",
     "map_width": "number",
+    "map_thickness": "m",
     "droplets": "path",
     "moving_only": "flag",
     "model": "path",
@@ -776,6 +777,7 @@ def windshield(
     quality: float | None = None,
     maps: Path | None = None,
     map_width: str | int | None = None,
+    map_thickness: str | float | None = None,
     droplets: Path | None = None,
     moving_only: bool = False,
     model: Path | None = None,
@@ -873,6 +875,7 @@ def windshield(
       maps: Textures of the whole glass, such as maps/%05d.png or .exr: three files per frame, -normal, -thickness and
         -velocity
       map_width: Width of the textures in pixels (default: 2048)
+      map_thickness [m]: Thickness of the water that is white in a PNG (default: 5mm)
       droplets: Write a table of all running droplets in every frame: .csv or .json
       moving_only: Leave droplets at rest out of the table
       model: Write the droplets as an animated .glb
@@ -944,6 +947,8 @@ _FLOW = {
     "streaks": "path",
     "maps": "path",
     "map_width": "number",
+    "map_thickness": "m",
+    "map_age": "s",
     "droplets": "path",
     "preview": "path",
     "view": "text",
@@ -1017,6 +1022,8 @@ def flow(
     streaks: Path | None = None,
     maps: Path | None = None,
     map_width: str | int | None = None,
+    map_thickness: str | float | None = None,
+    map_age: str | float | None = None,
     droplets: Path | None = None,
     preview: Path | None = None,
     view: Literal["three-quarter", "top", "side"] | None = None,
@@ -1115,9 +1122,11 @@ def flow(
         capsule a cut capsule (default: capillary)
       material: Look of the droplets: water, ink, mercury, honey or plain (default: by liquid)
       streaks: Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animated .glb has them too
-      maps: Textures of the water in the object's uv, such as maps/%05d.png or .exr: three files per frame, -normal,
-        -thickness and -age
+      maps: Textures of the water in the object's uv, such as maps/%05d.png or .exr: four files per frame, -normal,
+        -thickness, -age and -wet, which tells where the age counts
       map_width: Width and height of the textures in pixels (default: 1024)
+      map_thickness [m]: Thickness of the water that is white in a PNG (default: 5mm)
+      map_age [s]: Greatest age in the textures, white in a PNG (default: 10s)
       droplets: Write a table of all droplets in every frame: .csv or .json
 
     Picture:

@@ -658,6 +658,7 @@ class WindshieldOutput(_Report):
     frames_per_second: float  # Frames per second
     warm_up_s: float
     step_s: float
+    map_thickness_m: float | None  # Thickness that is white in maps, null without PNG maps
 
 
 @dataclass(frozen=True)
@@ -839,6 +840,8 @@ class FlowOutput(_Report):
     frames: int  # The frames
     frames_per_second: float  # Frames per second
     time_s: float  # Simulated time
+    map_thickness_m: float | None  # Thickness that is white in maps, null without PNG maps
+    map_age_s: float | None  # Age that is white in maps, null without PNG maps
 
 
 @dataclass(frozen=True)

@@ -139,7 +139,13 @@ void writeFlowReport(std::ostream& out, const FlowReport& report)
     json["output"] = {{"path", report.output},
                       {"frames", report.frames},
                       {"frames_per_second", report.frames_per_second},
-                      {"time_s", roundedTime(report.time)}};
+                      {"time_s", roundedTime(report.time)},
+                      {"map_thickness_m", nullptr},
+                      {"map_age_s", nullptr}};
+    if (report.map_scale) {
+        json["output"]["map_thickness_m"] = report.map_scale->thickness;
+        json["output"]["map_age_s"] = report.map_scale->age;
+    }
     json["model"] = {{"motion", parameters.model == FlowModel::Paper ? "paper" : "capillary"},
                      {"shape", nameOf(report.shape)},
                      {"merges", parameters.merges},

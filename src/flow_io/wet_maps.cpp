@@ -215,7 +215,14 @@ struct WetMapper::Content {
         return {dot(normal, x), dot(normal, y), dot(normal, up)};
     }
 
-    // Calls take(normal, thickness, age) for all texels.
+    struct Shown {
+        std::array<double, 3> normal;
+        double thickness = 0.0;  ///< [m]
+        double age = 0.0;        ///< [s]
+        double wet = 0.0;        ///< 0 … 1
+    };
+
+    // Calls take(shown) for all texels.
     template <typename Take>
     void draw(double time, std::span<const FlowSample> samples, const Surface& droplets, const Take& take)
     {
@@ -243,9 +250,11 @@ struct WetMapper::Content {
         }
         for (const Texel& texel : drawn) {
             const Vec3 normal = length(texel.normal) > 0.0 ? unit(texel.normal) : Vec3{0.0, 0.0, 1.0};
-            take(std::array{normal.x, normal.y, normal.z},
-                 texel.thickness > 0.0 ? texel.thickness : options.film * texel.film,
-                 std::min(texel.age, options.full_age));
+            const bool is_under = texel.thickness > 0.0;
+            take(Shown{{normal.x, normal.y, normal.z},
+                       is_under ? texel.thickness : options.film * texel.film,
+                       std::min(texel.age, options.full_age),
+                       is_under ? 1.0 : texel.film});
         }
     }
 
@@ -286,13 +295,15 @@ WetMaps WetMapper::maps(double time, std::span<const FlowSample> samples, const 
     const WetMapOptions& options = content_->options;
     WetMaps maps{{options.width, options.height, 3, {}},
                  {options.width, options.height, 1, {}},
+                 {options.width, options.height, 1, {}},
                  {options.width, options.height, 1, {}}};
-    content_->draw(time, samples, droplets, [&](const std::array<double, 3>& normal, double thickness, double age) {
-        for (const double part : normal) {
+    content_->draw(time, samples, droplets, [&](const Content::Shown& texel) {
+        for (const double part : texel.normal) {
             maps.normal.levels.push_back(level(0.5 * (part + 1.0)));
         }
-        maps.thickness.levels.push_back(level(thickness / options.full_thickness));
-        maps.age.levels.push_back(level(age / options.full_age));
+        maps.thickness.levels.push_back(level(texel.thickness / options.full_thickness));
+        maps.age.levels.push_back(level(texel.age / options.full_age));
+        maps.wet.levels.push_back(level(texel.wet));
     });
     return maps;
 }
@@ -302,13 +313,15 @@ WetFloatMaps WetMapper::floatMaps(double time, std::span<const FlowSample> sampl
     const WetMapOptions& options = content_->options;
     WetFloatMaps maps{{options.width, options.height, 3, {}},
                       {options.width, options.height, 1, {}},
+                      {options.width, options.height, 1, {}},
                       {options.width, options.height, 1, {}}};
-    content_->draw(time, samples, droplets, [&](const std::array<double, 3>& normal, double thickness, double age) {
-        for (const double part : normal) {
+    content_->draw(time, samples, droplets, [&](const Content::Shown& texel) {
+        for (const double part : texel.normal) {
             maps.normal.values.push_back(static_cast<float>(part));
         }
-        maps.thickness.values.push_back(static_cast<float>(thickness));
-        maps.age.values.push_back(static_cast<float>(age));
+        maps.thickness.values.push_back(static_cast<float>(texel.thickness));
+        maps.age.values.push_back(static_cast<float>(texel.age));
+        maps.wet.values.push_back(static_cast<float>(texel.wet));
     });
     return maps;
 }

@@ -99,10 +99,8 @@ private:
 
     double quantity(const toml::node& node, const std::string& name, Dimension dimension) const
     {
-        return at(node, name, [&] {
-            const std::string value = text(node, name, dimension == Dimension::Speed ? "2m/s" : "0.5m");
-            return parseQuantity(value, dimension);
-        });
+        const std::string value = text(node, name, dimension == Dimension::Speed ? "2m/s" : "0.5m");
+        return at(node, name, [&] { return parseQuantity(value, dimension); });
     }
 
     Vec2 pair(const toml::node& node, const std::string& name, Dimension dimension) const

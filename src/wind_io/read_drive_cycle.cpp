@@ -40,22 +40,19 @@ struct Column {
     double unit = 1.0;
 };
 
-/// First column with a known heading.
+/// The column with a known heading.
 std::optional<Column> columnOf(const CsvTable& table, const std::vector<std::pair<std::string, double>>& known)
 {
-    std::optional<Column> column;
-    const auto is_known = [&](const std::string& heading) {
+    const auto unit_of = [&](const std::string& heading) -> std::optional<double> {
         for (const auto& [name, unit] : known) {
             if (normalised(heading) == name) {
-                column = Column{0, unit};
+                return unit;
             }
         }
-        return column.has_value();
+        return std::nullopt;
     };
-    if (const std::optional<std::size_t> index = table.columnWhere(is_known)) {
-        column->index = *index;
-    }
-    return column;
+    const auto index = table.columnWhere([&](const std::string& heading) { return unit_of(heading).has_value(); });
+    return index ? std::optional(Column{*index, *unit_of(table.header()->fields[*index])}) : std::nullopt;
 }
 
 /// Reads the rows of one file; errors name the row.

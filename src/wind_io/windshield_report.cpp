@@ -67,11 +67,9 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
     json["schema"] = "droplet-shape.windshield/1";
     json["version"] = kVersion;
     json["preset"] = report.preset;
-    json["output"] = {{"path", report.output},
-                      {"frames", report.frames},
-                      {"frames_per_second", report.frames_per_second},
-                      {"warm_up_s", report.warm_up},
-                      {"step_s", report.step}};
+    json["output"] = {
+        {"path", report.output},       {"frames", report.frames}, {"frames_per_second", report.frames_per_second},
+        {"warm_up_s", report.warm_up}, {"step_s", report.step},   {"map_thickness_m", orNull(report.map_thickness)}};
     json["glass"] = glassSection(report);
     json["vehicle"] = {{"drive_cycle", orNull(report.drive_cycle)},
                        {"speed_at_start_m_per_s", parameters.vehicle.speedAt(0.0)},

@@ -29,6 +29,7 @@ using ::testing::ElementsAre;
 using testing::greymap;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using testing::readFile;
 using testing::runDroplet;
 using testing::runProgram;
@@ -152,6 +153,22 @@ TEST_F(AnimateTest, MakesAnAnimationThatKeepsTheTotalVolume)
     EXPECT_GT(result["transitions"]["vertices_kept_share"].get<double>(), 0.5);
     EXPECT_TRUE(result["frames"][1]["continues"].get<bool>());
     EXPECT_EQ(result["input"]["width_px"], 64);
+}
+
+TEST_F(AnimateTest, NamesTheModeForAFilmThatBecomesFlat)
+{
+    const auto disc = [](double radius) {
+        return greymap(64, 48, [=](int i, int j) { return std::hypot(i - 32, j - 24) < radius ? 255 : 0; });
+    };
+    writeFile(directory() / "small.pgm", disc(4.0));
+    writeFile(directory() / "large.pgm", disc(22.0));
+    const std::vector<std::string> growing{"small.pgm", "large.pgm", "film.glb"};
+    EXPECT_THAT(run(growing).error, HasSubstr("large.pgm: the liquid is"));
+    EXPECT_THAT(run(growing).error, HasSubstr("--volume-mode fill"));
+    std::vector<std::string> filled = growing;
+    filled.insert(filled.end(), {"--volume-mode", "fill"});
+    EXPECT_THAT(run(filled).error, Not(HasSubstr("--volume-mode")));
+    EXPECT_THAT(run({"frames", "film.glb"}).error, Not(HasSubstr("--volume-mode")));
 }
 
 TEST_F(AnimateTest, FillsEveryFrame)

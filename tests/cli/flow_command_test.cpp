@@ -21,9 +21,11 @@
 namespace droplet {
 namespace {
 
+using ::testing::AllOf;
 using testing::CommandResult;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::readFile;
 using testing::runDroplet;
 using ::testing::StartsWith;
@@ -136,7 +138,7 @@ TEST_F(FlowCommand, DrawsPicturesAndMaps)
                    "uv.obj")
                   .exit_code,
               0);
-    for (const char* name : {"f1.png", "f2.png", "m1-normal.png", "m2-thickness.png", "m2-age.png"}) {
+    for (const char* name : {"f1.png", "f2.png", "m1-normal.png", "m2-thickness.png", "m2-age.png", "m2-wet.png"}) {
         EXPECT_TRUE(std::filesystem::exists(path(name))) << name;
     }
     expectRefused({"--drops", "3", "--maps", path("m%d.png")}, 2, "--maps");
@@ -261,6 +263,52 @@ TEST_F(FlowCommand, ShowsPresetsWithTheirOwnObjects)
     EXPECT_THAT(preset({"tear", path("x.glb"), "--size", "3cm"}).error, HasSubstr("--size needs OBJECT"));
     EXPECT_THAT(preset({"tear"}).error, HasSubstr("OUTPUT"));
     EXPECT_FALSE(std::filesystem::exists(path("x.glb")));
+}
+
+TEST_F(FlowCommand, TellsOfFullCoverAndOfTrianglesThatDoNotJoin)
+{
+    const auto warned = [&](const std::string& object, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"flow", path(object), path("out.glb"), "--time", "40ms"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const CommandResult run = runDroplet(arguments);
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        std::vector<std::string> lines = run.errorLines();
+        std::erase_if(lines, [](const std::string& line) { return !line.starts_with("warning: "); });
+        return lines;
+    };
+    EXPECT_THAT(warned("slope.obj", {"--size", "2cm", "--drops", "10"}), IsEmpty());
+    EXPECT_THAT(warned("slope.obj", {"--size", "2cm", "--drops", "100"}),
+                ElementsAre(AllOf(HasSubstr("--drops: 100 droplets cover"), HasSubstr("cm2"))));
+    EXPECT_THAT(warned("slope.obj", {"--size", "2cm", "--drops", "100", "--no-merge"}), IsEmpty());
+    // Two triangles whose common corners differ by rounding.
+    testing::writeFile(path("soup.obj"),
+                       "v 0 0 0\nv 100 0 0\nv 100 50 -100\nv 0.001 0 0\nv 100.001 50 -100\nv 0 50 -100\n"
+                       "f 1 2 3\nf 4 5 6\n");
+    EXPECT_THAT(warned("soup.obj", {"--drops", "3"}),
+                ElementsAre(AllOf(HasSubstr("soup.obj: 6 of 6 sides of triangles have no neighbour, in 2 parts"),
+                                  HasSubstr("merge by distance"))));
+}
+
+TEST_F(FlowCommand, MapsHaveTheScaleThatIsChosen)
+{
+    testing::writeFile(path("uv.obj"), "v 0 0 0\nv 100 80 0\nv 100 80 -100\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n");
+    const std::vector<std::string> run{"--drops",     "9",      "--hysteresis", "0.02",          "--film",
+                                       "0.1mm",       "--time", "1s",           "--fps",         "2",
+                                       "--map-width", "64",     "--maps",       path("m%d.png"), "--map-thickness",
+                                       "0.2mm",       "--json", path("r.json")};
+    ASSERT_EQ(flow("f%d.obj", run, "uv.obj").exit_code, 0);
+    const Picture map = readPicture(path("m2-thickness.png"));
+    EXPECT_GT(std::count(map.rgb.begin(), map.rgb.end(), std::uint8_t{128}), 30) << "half of white";
+    const Picture wet = readPicture(path("m2-wet.png"));
+    const Picture age = readPicture(path("m2-age.png"));
+    for (std::size_t k = 0; k < wet.rgb.size(); ++k) {
+        EXPECT_EQ(wet.rgb[k], age.rgb[k] < 255 ? 255 : 0);
+    }
+    const auto output = nlohmann::json::parse(readFile(path("r.json"))).at("output");
+    EXPECT_EQ(output.at("map_thickness_m"), 2e-4);
+    EXPECT_EQ(output.at("map_age_s"), 10.0);
+    expectRefused({"--drops", "3", "--map-thickness", "1mm"}, 2, "--map-thickness needs --maps");
+    expectRefused({"--drops", "3", "--maps", path("m%d.exr"), "--map-thickness", "1mm"}, 2, ".exr has metres");
 }
 
 TEST_F(FlowCommand, RefusesWhatItCannotUse)

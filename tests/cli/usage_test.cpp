@@ -87,6 +87,10 @@ TEST_F(UsageTest, RefusesUnknownOptions)
     expectRefused({"-x"}, {"unknown option -x"});
     expectRefused({"--wind", "5m/s"}, {"unknown option --wind"});
     expectRefused({"--wid", "5mm"}, {"unknown option --wid"});
+    // Names of the same meaning that other programs have.
+    expectRefused({"--jobs", "2"}, {"unknown option --jobs, did you mean --threads?"});
+    expectRefusal({"flow", "a.obj", "b.glb", "--duration", "2s"}, 2, {"did you mean --time?"});
+    expectRefusal({"liquid2d", "b.mp4", "--framerate", "30"}, 2, {"did you mean --fps?"});
 }
 
 TEST_F(UsageTest, RefusesUnknownCommands)

@@ -550,12 +550,23 @@ TEST_F(WindshieldCommand, UsesASurfaceAsGlass)
     EXPECT_EQ(far.exit_code, 2);
 }
 
+TEST_F(WindshieldCommand, ReportsProgressOfEveryFrame)
+{
+    const CommandResult run =
+        simulate(path("%d.png"), {"--progress", "json", "--time", "100ms", "--rain", "0mm/h", "--size", "16x16"});
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.errorLines(), ElementsAre(HasSubstr(R"({"frame":1,"of":3,)"), HasSubstr(R"({"frame":2,"of":3,)"),
+                                              HasSubstr(R"({"frame":3,"of":3,)")));
+}
+
 TEST_F(WindshieldCommand, ReportsErrorsInOneLine)
 {
     expectRefused({"--rain", "-1mm/h"}, 2, "--rain: '-1mm/h' must be from 0mm/h to 1000mm/h");
     expectRefused({"--speed", "50"}, 2, "--speed: '50' has no unit");
     expectRefused({"--drive-cycle", stored("gap.csv", "time_s,speed_m_per_s\n0,1\n\n2,3\n")}, 3, "gap");
     expectRefused({"--drive-cycle", path("none.csv")}, 3, "none.csv");
+    const std::string both = "time_s,speed_m_per_s,speed_km_per_h\n0,0,0\n1,10,50\n";
+    expectRefused({"--drive-cycle", stored("both.csv", both)}, 3, "both 'speed_m_per_s' and 'speed_km_per_h'");
     expectRefused({"--background", path("none.png")}, 3, "there is no such file");
     expectRefused({"--background", stored("bad.png", "no picture")}, 3, "bad.png");
     expectRefused({"--environment", path("none.hdr")}, 3, "none.hdr");

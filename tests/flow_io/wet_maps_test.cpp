@@ -98,6 +98,8 @@ TEST(WetMaps, DropletsHaveTheirVolumeAlsoOverASeam)
     EXPECT_GT(at(maps.thickness, -15.1e-3, 15.05e-3), 0.0);
     EXPECT_EQ(at(maps.thickness, 0.0, 15e-3), 0.0);
     EXPECT_EQ(at(maps.age, 0.0, 15e-3), 10.0) << "never wet";
+    EXPECT_EQ(at(maps.wet, 0.0, 15e-3), 0.0);
+    EXPECT_EQ(at(maps.wet, 8e-3, 1e-3), 1.0);
     // The normal leans outward all around the droplet, with +Y up.
     EXPECT_GT(at(maps.normal, 9e-3, 1e-3, 0), 0.1);
     EXPECT_LT(at(maps.normal, 7e-3, 1e-3, 0), -0.1);
@@ -130,6 +132,9 @@ TEST(WetMaps, StreaksCrossSeamsAgeAndDry)
     const WetFloatMaps later = mapsOf(mapper, 3.0, {});
     EXPECT_NEAR(at(later.thickness, 1e-3, 10e-3), 25e-6, 1e-11);
     EXPECT_NEAR(at(later.age, 1e-3, 10e-3), 2.0, 1e-6);
+    EXPECT_EQ(at(fresh.wet, 1e-3, 10e-3), 1.0);
+    EXPECT_NEAR(at(later.wet, 1e-3, 10e-3), 0.5, 1e-6);
+    EXPECT_EQ(at(later.wet, 1e-3, 3e-3), 0.0);
     EXPECT_EQ(at(mapsOf(mapper, 5.5, {}).thickness, 1e-3, 10e-3), 0.0);
 }
 

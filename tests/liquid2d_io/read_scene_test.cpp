@@ -98,6 +98,9 @@ TEST(ReadScene, ErrorsNameFileLineAndFault)
     refused("spacing = \"1cm\"\ncolour = 3\n", "a.toml:2: ", "unknown key 'colour'");
     refused("[[wall]]\nbox = [[\"0m\", \"0m\"], [\"1m\", \"1m\"]]\nspeed = 1\n", "a.toml:3: ", "unknown key 'speed'");
     refused("\nspacing = 3\n", "a.toml:2: ", "spacing must be text in quotes");
+    // Each message names the place once.
+    EXPECT_THAT([] { parseFluidScene("size = [2, 1]\n", "a.toml"); },
+                ThrowsMessage<Error>("a.toml:1: size must be text in quotes, such as \"0.5m\""));
     refused("spacing = \"3s\"\n", "a.toml:1: ", "spacing: '3s'");
     refused("spacing = \"-1cm\"\n", "a.toml:1: ", "spacing is -0.01");
     refused("\ndensity = \"-1kg/m3\"\n", "a.toml:2: ", "density is -1");

@@ -28,6 +28,12 @@ struct FlowBalanceRow {
 /// Balance and numbers of droplets of a state.
 FlowBalanceRow flowBalanceRow(const FlowState& state);
 
+/// What is white in maps that are PNG.
+struct FlowMapScale {
+    double thickness = 0.0;  ///< [m]
+    double age = 0.0;        ///< [s]
+};
+
 /// Inputs and results of a run.
 struct FlowReport {
     std::string input;                       ///< path of the object
@@ -41,6 +47,7 @@ struct FlowReport {
     double frames_per_second = 30.0;         ///< > 0
     double time = 0.0;                       ///< simulated time [s]
     std::size_t frames = 0;                  ///< number of frames
+    std::optional<FlowMapScale> map_scale;   ///< empty: there are no such maps
     std::vector<FlowBalanceRow> balance;     ///< balance over time
     FlowCounts counts;                       ///< event counters since the start
     std::vector<std::string> warnings;       ///< all warnings of the run

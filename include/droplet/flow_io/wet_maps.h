@@ -41,6 +41,8 @@ struct WetMaps {
     DeepPicture thickness;
     /// Grey: time since the place was last wet, over full_age; 0: a droplet is there; 65535: longer ago, or never.
     DeepPicture age;
+    /// Grey: where `age` counts: 65535 under droplets and on fresh streaks, less as they dry; 0: dry.
+    DeepPicture wet;
 };
 
 /// The maps of WetMaps in floating point.
@@ -48,6 +50,7 @@ struct WetFloatMaps {
     FloatPicture normal;     ///< from −1 to 1; (0, 0, 1) where no droplet is
     FloatPicture thickness;  ///< [m]; not clipped
     FloatPicture age;        ///< [s], at most full_age, also where it was never wet
+    FloatPicture wet;        ///< from 0, dry, to 1
 };
 
 /// Makes maps of the water on an object, frame by frame. For every frame: advanceFlow(), add(), then maps() or

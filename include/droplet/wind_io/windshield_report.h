@@ -42,6 +42,7 @@ struct WindshieldReport {
     double warm_up = 0.0;                    ///< rain before the first frame [s]
     double step = 0.0;                       ///< time step of the simulation [s]
     std::size_t frames = 0;                  ///< number of frames
+    std::optional<double> map_thickness;     ///< of white in maps that are PNG [m]; empty: there are none
     std::vector<BalanceRow> balance;         ///< water balance over time
     WindshieldCounts counts;                 ///< event counters since the start
     std::vector<std::string> warnings;       ///< all warnings of the run
