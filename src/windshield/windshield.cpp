@@ -322,8 +322,8 @@ private:
         absorbSwept(std::move(pieces));
     }
 
-    /// Splits droplets that are too high for the wind. The first part stays where the droplet itself would be, even if
-    /// it has merged in this step; the others are scattered downwind, each in the next free place or beyond the edge.
+    /// Splits droplets that are too high for the wind. What is left stays where the droplet itself would be, even if
+    /// it has merged in this step; the parts are scattered downwind, each in the next free place or beyond the edge.
     /// No part is too small to run; water and momentum are conserved.
     void tearOff()
     {
