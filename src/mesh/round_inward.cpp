@@ -26,6 +26,11 @@ constexpr double kDropped = 0.004;
 /// Shortest edge that is kept, over the radius: where arcs meet the rim, polygons have edges of any length. Edges of
 /// arcs are 0.13 long.
 constexpr double kShortest = 0.06;
+/// Longest edge of an arc's polygon, over the radius, and the least turn of an arc whose shape is kept [rad].
+constexpr double kArcEdge = 0.25;
+constexpr double kArcTurn = 0.5;
+/// Edges of the mesh along an arc. With one or two, liquid that rolls over the arc has facets, which shine as beads.
+constexpr std::size_t kArcParts = 4;
 /// Units of Clipper's integers in a radius.
 constexpr double kUnits = 1e5;
 /// Edges over the mean edge of a mesh from which on new triangles are needed.
@@ -105,6 +110,38 @@ Loop subdivided(const std::vector<Vec2>& points, double distance)
     return loop;
 }
 
+/// Marks the points that divide the arcs of a loop into parts: as corners, they stay vertices of the mesh.
+/// @param radius  of the arcs [m]
+void keepArcs(Loop& loop, double radius)
+{
+    const std::size_t count = loop.points.size();
+    const auto is_on_arc = [&](std::size_t i) {
+        const double turn = turnAt(loop.points, i);
+        const double before = length(loop.points[i] - loop.points[(i + count - 1) % count]);
+        const double after = length(loop.points[(i + 1) % count] - loop.points[i]);
+        return turn < 0.0 && turn > -kCorner && std::min(before, after) < kArcEdge * radius;
+    };
+    const auto first = [&] {
+        std::size_t i = 0;
+        while (i < count && is_on_arc(i)) {
+            ++i;
+        }
+        return i;
+    }();
+    for (std::size_t step = 0; step < count;) {
+        std::vector<std::size_t> arc;
+        double turned = 0.0;
+        for (; step < count && is_on_arc((first + step) % count); ++step) {
+            arc.push_back((first + step) % count);
+            turned -= turnAt(loop.points, arc.back());
+        }
+        for (std::size_t part = 0; turned > kArcTurn && part <= kArcParts; ++part) {
+            loop.corner[arc[part * (arc.size() - 1) / kArcParts]] = 1;
+        }
+        step += arc.empty() ? 1 : 0;
+    }
+}
+
 /// Footprint of the loops that are more than specks.
 /// @param unit  length of Clipper's unit [m]
 Footprint footprintOf(const Paths& paths, double unit, double edge)
@@ -126,6 +163,7 @@ Footprint footprintOf(const Paths& paths, double unit, double edge)
             loop.points.pop_back();
         }
         loop = subdivided(loop.points, 0.5 * edge);
+        keepArcs(loop, kUnits * unit);
         if (ClipperLib::Orientation(path)) {
             footprint.rim = std::move(loop);
         } else {

@@ -39,6 +39,25 @@ TEST(RoundInward, AddsTheCornerBesideAnArc)
     }
 }
 
+// Liquid rolls over the arcs: with one or two edges each it had facets there.
+TEST(RoundInward, ArcsHaveFourEdges)
+{
+    const PlanarMesh mesh =
+        triangulate(domainOf(polygonLoop({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})), {.edge = 0.04}).front();
+    const std::optional<PlanarMesh> rounded = roundInward(mesh, 0.02, 0.04);
+    ASSERT_TRUE(rounded);
+    const std::size_t count = rounded->rimVertexCount();
+    std::size_t turned = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec2 in = rounded->vertices[i] - rounded->vertices[(i + count - 1) % count];
+        const Vec2 out = rounded->vertices[(i + 1) % count] - rounded->vertices[i];
+        const double turn = std::atan2(cross(in, out), dot(in, out));
+        EXPECT_GT(turn, -0.5);
+        turned += turn < -0.1 ? 1 : 0;
+    }
+    EXPECT_GE(turned, 4U) << "of 90 degrees";
+}
+
 TEST(RoundInward, ClosesSlitsAndKeepsHoles)
 {
     // A slit of 0.06 from the right, and a hole.
