@@ -33,7 +33,8 @@ void main() {
     gl_Position = projectionMatrix * viewMatrix * world;
 }`;
 
-const kGroundFragment = `
+/** groundRadiance, in GLSL: light that the ground scatters at a place. Its uniforms are those of Ground. */
+export const kGroundRadiance = `
 uniform vec3 colour;
 uniform vec3 far;
 uniform vec3 line;
@@ -50,7 +51,6 @@ uniform sampler2D picture;
 uniform vec2 picture_half;
 uniform float pictured;
 uniform vec2 sheet_half;
-varying vec3 place;
 
 // 1 on the lines of a grid, which are at least a pixel wide; 0 where the grid is finer than the pixels.
 float grid(vec2 at, float width) {
@@ -62,30 +62,39 @@ float grid(vec2 at, float width) {
     return max(on.x, on.y);
 }
 
-void main() {
+vec3 groundRadiance(vec2 place) {
     vec3 base = colour;
-    vec2 at = place.xz / step_length;
+    vec2 at = place / step_length;
     float fine = 0.34 * grid(at, 0.045);
     float coarse = 0.7 * grid(at / 5.0, 0.013);
     base = mix(base, line, lines * max(fine, coarse));
-    vec2 uv = place.xz / picture_half;
+    vec2 uv = place / picture_half;
     vec4 print = texture2D(picture, vec2(0.5, 0.5) + vec2(0.5, -0.5) * uv);
     vec2 edge = abs(uv);
     if (pictured > 0.5 && max(edge.x, edge.y) < 1.0) {
         base = mix(base, print.rgb, print.a);
     }
-    float to_edge = max(abs(place.x) - sheet_half.x, abs(place.z) - sheet_half.y);
+    vec2 beyond = abs(place) - sheet_half;
+    float to_edge = max(beyond.x, beyond.y);
     base *= 1.0 - step(0.0, sheet_half.x) * 0.28 * (1.0 - smoothstep(0.0, 1.5 * fwidth(to_edge), abs(to_edge)));
-    vec2 lamp = (place.xz - light_centre) / light_half;
+    vec2 lamp = (place - light_centre) / light_half;
     vec2 inside = step(abs(lamp), vec2(1.0));
     vec3 reached = vec3(1.0) + lit * inside.x * inside.y *
         texture2D(light, vec2(0.5, 0.5) + vec2(0.5, -0.5) * lamp).rgb;
     // In the sun's shadow, some of the sky's light is missing, too.
     vec3 shade = mix(vec3(1.0), clamp(reached, 0.0, 1.0), 0.3);
-    float away = length(place.xz);
+    float away = length(place);
     float spot = mix(1.0, exp(-0.16 * away * away), pool);
     vec3 result = base * (sky * shade + sun * spot * max(reached, 0.0));
-    gl_FragColor = vec4(mix(result, far * (sky + mix(sun, 0.0, pool)), smoothstep(2.2, 9.0, away)), 1.0);
+    return mix(result, far * (sky + mix(sun, 0.0, pool)), smoothstep(2.2, 9.0, away));
+}
+`;
+
+const kGroundFragment = `
+${kGroundRadiance}
+varying vec3 place;
+void main() {
+    gl_FragColor = vec4(groundRadiance(place.xz), 1.0);
     #include <tonemapping_fragment>
     #include <colorspace_fragment>
 }`;

@@ -2,8 +2,9 @@
 // Light on the ground, through the liquid, after E. Wallace, "Rendering realtime caustics in WebGL" (2016): the mesh is
 // drawn where its rays land, brighter by the ratio in which a bundle of rays shrinks. The same light is subtracted
 // where the rays would land without the liquid. Several points of the window make the shadow soft.
-import { AddEquation, ClampToEdgeWrapping, Color, CustomBlending, DoubleSide, HalfFloatType, LinearFilter, OneFactor,
+import { AddEquation, BufferGeometry, ClampToEdgeWrapping, Color, CustomBlending, DoubleSide, HalfFloatType, LinearFilter, OneFactor,
     OrthographicCamera, Scene, ShaderMaterial, Vector2, Vector3, WebGLRenderTarget } from 'three';
+import { liquidTriangles } from './liquid_triangles.js';
 import { kAcross, kSun, kUpward } from './room.js';
 
 const kTexels = 768;
@@ -37,8 +38,7 @@ void main() {
     facing = dot(normal, sun);
     at = uv;
     vec2 landing = refracted ? bent : straight;
-    // The base is skipped, but not the liquid's surface where it leans out over its rim.
-    gl_Position = normal.y < -0.95 || (refracted && opaque) ? vec4(2.0, 2.0, 2.0, 1.0) :
+    gl_Position = refracted && opaque ? vec4(2.0, 2.0, 2.0, 1.0) :
         projectionMatrix * viewMatrix * vec4(landing.x, ground, landing.y, 1.0) + vec4(shift, 0.0, 0.0);
 }`;
 
@@ -93,6 +93,7 @@ export class GroundLight {
             share: { value: 1 },
         };
         this.shaders = new WeakMap();
+        this.surfaces = new WeakMap();
         this.target = new WebGLRenderTarget(kTexels, kTexels, {
             type: HalfFloatType, depthBuffer: false, generateMipmaps: false, minFilter: LinearFilter,
             magFilter: LinearFilter, wrapS: ClampToEdgeWrapping, wrapT: ClampToEdgeWrapping,
@@ -102,10 +103,15 @@ export class GroundLight {
     /**
      * @param box        around the droplet at its fullest, in the scene's units
      * @param ground     height of the ground
+     * @param flat       whether the ground is flat
      * @param triangles  of the droplet; the light of many comes from fewer points of the window
      */
-    aim(box, ground, triangles) {
+    aim(box, ground, flat, triangles) {
         const { camera } = this;
+        if (this.flat !== flat) {
+            this.flat = flat;
+            this.surfaces = new WeakMap();
+        }
         const reach = (box.max.y - ground) * Math.hypot(kSun.x, kSun.z) / kSun.y + 0.12;
         const centre = box.getCenter(new Vector3());
         const half = Math.max(box.max.x - box.min.x, box.max.z - box.min.z) / 2 + reach;
@@ -152,6 +158,22 @@ export class GroundLight {
         return shader;
     }
 
+    /**
+     * The liquid's surface without its base, which would be drawn where its rays land, too. Vertices do not tell: where
+     * liquid hangs far over its rim, they face down as the base does, and half of a triangle would be missing.
+     */
+    #surface(geometry) {
+        if (!this.surfaces.has(geometry)) {
+            const surface = new BufferGeometry();
+            Object.assign(surface, { attributes: geometry.attributes, morphAttributes: geometry.morphAttributes,
+                morphTargetsRelative: geometry.morphTargetsRelative });
+            surface.setIndex(liquidTriangles(geometry, undefined, this.flat));
+            geometry.addEventListener('dispose', () => surface.dispose());
+            this.surfaces.set(geometry, surface);
+        }
+        return this.surfaces.get(geometry);
+    }
+
     /** Draws the texture for the current droplet; `coarse`: from fewer points of the window. */
     update(renderer, object, meshes, coarse) {
         const { scene, camera, target } = this;
@@ -159,15 +181,20 @@ export class GroundLight {
         const count = coarse ? Math.min(this.count, 6) : this.count;
         share.value = 1 / count;
         const parent = object.parent;
-        const worn = meshes.map((mesh) => mesh.material);
+        const worn = meshes.map(({ material, geometry }) => ({ material, geometry }));
         const colour = renderer.getClearColor(new Color());
         const alpha = renderer.getClearAlpha();
         const auto = renderer.autoClear;
 
         scene.add(object);
         // scene.overrideMaterial does not work: three.js still asks the mesh's own material whether it is transparent.
-        const shaders = worn.map((material) => this.#through(material));
-        meshes.forEach((mesh, i) => { mesh.material = shaders[i]; });
+        const shaders = worn.map(({ material }) => this.#through(material));
+        meshes.forEach((mesh, i) => {
+            mesh.material = shaders[i];
+            if (mesh.visible) {
+                mesh.geometry = this.#surface(mesh.geometry);
+            }
+        });
         const clear = shaders.some(({ uniforms }) => !uniforms.opaque.value);
         renderer.setRenderTarget(target);
         renderer.setClearColor(0x000000, 0);
@@ -190,7 +217,7 @@ export class GroundLight {
         renderer.autoClear = auto;
         renderer.setRenderTarget(null);
         renderer.setClearColor(colour, alpha);
-        meshes.forEach((mesh, i) => { mesh.material = worn[i]; });
+        meshes.forEach((mesh, i) => Object.assign(mesh, worn[i]));
         parent?.add(object);
     }
 }

@@ -2,6 +2,7 @@
 // The droplet in the page: its bytes, its mesh and its fill.
 import { AnimationMixer, Box3, TextureLoader, Vector3 } from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { liquidTriangles } from './liquid_triangles.js';
 
 export function decodeBase64(text) {
     if (Uint8Array.fromBase64) {
@@ -25,27 +26,16 @@ export async function loadDroplet(bytes) {
     return new Droplet(gltf.scene, gltf.animations[0]);
 }
 
-/**
- * Triangles of the liquid's surface, and its rim: the edges of only one such triangle. The base faces down; liquid that
- * hangs over its rim does so too, but not on flat ground itself.
- */
-function sheetOf({ index, attributes: { position } }, place, flat) {
-    const [a, b, c] = [new Vector3(), new Vector3(), new Vector3()];
-    const triangles = [];
+/** Triangles of the liquid's surface, and its rim: the edges of only one such triangle. */
+function sheetOf(geometry, place, flat) {
+    const triangles = liquidTriangles(geometry, place, flat);
+    const { count } = geometry.attributes.position;
     const edges = new Map();
-    for (let i = 0; i < index.count; i += 3) {
-        const corners = [0, 1, 2].map((k) => index.getX(i + k));
-        [a, b, c].forEach((point, k) => point.fromBufferAttribute(position, corners[k]).applyMatrix4(place));
-        const on_ground = Math.max(a.y, b.y, c.y) <= 1e-12;
-        if (b.sub(a).cross(c.sub(a)).y <= 0 && (on_ground || !flat)) {
-            continue;
-        }
-        triangles.push(...corners);
+    for (let i = 0; i < triangles.length; i += 3) {
         for (let k = 0; k < 3; ++k) {
-            const [from, to] = [corners[k], corners[(k + 1) % 3]];
-            const other = to * position.count + from;
-            if (!edges.delete(other)) {
-                edges.set(from * position.count + to, [from, to]);
+            const [from, to] = [triangles[i + k], triangles[i + (k + 1) % 3]];
+            if (!edges.delete(to * count + from)) {
+                edges.set(from * count + to, [from, to]);
             }
         }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { complain, download, drawScale, fileStem, find, offerGrounds, tabulate } from './controls.js';
+import { filledGlb } from './filled_glb.js';
 import { extent, length, refilled, rows, sides, volume } from './figures.js';
 import { decodeBase64, loadDroplet } from './model.js';
 import { Stage } from './stage.js';
@@ -29,12 +30,17 @@ function showReport() {
     find('figures').open = matchMedia('(min-width: 46.01rem) and (min-height: 40rem)').matches;
 }
 
-function offerDownload() {
-    find('download').addEventListener('click', () =>
-        download(new Blob([bytes], { type: 'model/gltf-binary' }), `${fileStem(title)}.glb`));
+/** Offers the file, or one of the fill that is shown. */
+function offerDownload(shown) {
+    find('download').addEventListener('click', () => {
+        const { fill, weights } = shown;
+        download(fill === 1 ? new Blob([bytes], { type: 'model/gltf-binary' }) : filledGlb(bytes, fill, weights),
+            `${fileStem(title)}.glb`);
+    });
 }
 
-function offerRefill(stage, droplet, flat) {
+/** @param shown  receives the fill that is shown, and the weights of its morph targets */
+function offerRefill(stage, droplet, flat, shown) {
     if (!droplet.range) {
         return;
     }
@@ -45,6 +51,7 @@ function offerRefill(stage, droplet, flat) {
     slider.value = Math.min(Math.max(1, low), high);
     const show = () => {
         const fill = Number(slider.value);
+        Object.assign(shown, { fill, weights: droplet.weights(fill) });
         const height = flat ? stage.heightAt(fill) : null;
         const parts = [`${Math.round(100 * fill)}\u2009%`];
         if (report.shape) {
@@ -130,7 +137,8 @@ async function main() {
         return;
     }
     showReport();
-    offerDownload();
+    const shown = { fill: 1 };
+    offerDownload(shown);
     try {
         const droplet = await loadDroplet(bytes);
         const flat = (report.ground?.kind ?? 'flat') === 'flat' && !report.onto;
@@ -147,7 +155,7 @@ async function main() {
         });
         stage.controls.addEventListener('start', () => { stage.touched = true; });
         offerGrounds(stage);
-        offerRefill(stage, droplet, flat);
+        offerRefill(stage, droplet, flat, shown);
         offerFilm(stage, droplet, still);
         offerStudio(droplet);
         find('reset').addEventListener('click', () => stage.reset());

@@ -2,6 +2,7 @@
 // The room that the liquid reflects: soft light and one tall window, as a formula. It is sharp at every size and ready
 // at once; drawing a texture first takes long without a graphics card.
 import { ShaderChunk, Vector3 } from 'three';
+import { kGroundRadiance } from './ground.js';
 
 /** Direction of the window: behind on the left, so that its rays come through the liquid toward the viewer. */
 export const kSun = new Vector3(-0.6, 0.62, -0.5).normalize();
@@ -53,6 +54,28 @@ vec3 roomIrradiance(vec3 normal) {
 }
 `;
 
+// A mirror shows what is around it: the ground, and a room that is dark between its bright ceiling and the horizon. In
+// the room of the liquids, which is bright everywhere, metal would be an even grey.
+const kMirror = `
+uniform float ground_level;
+
+vec3 mirroredRadiance(vec3 place, vec3 way, float roughness) {
+    vec3 room = roomRadiance(way, roughness);
+    float wall = smoothstep(0.0, 0.06, way.y) * (1.0 - smoothstep(0.45, 0.8, way.y));
+    float window = smoothstep(1.5, 4.0, max(room.r, max(room.g, room.b)));
+    room *= mix(1.0, 0.08, wall * (1.0 - window));
+    vec2 met = place.xz + way.xz * max(place.y - ground_level, 0.0) / max(-way.y, 0.02);
+    return mix(groundRadiance(met), room, smoothstep(-0.02, 0.02, way.y));
+}
+`;
+
+const kMirrorLight = `
+#if defined( RE_IndirectSpecular )
+    radiance += mirroredRadiance( cameraPosition - ( vec4( vViewPosition, 0.0 ) * viewMatrix ).xyz,
+        transformDirectionByInverseViewMatrix( reflect( - geometryViewDir, geometryNormal ), viewMatrix ), material.roughness );
+#endif
+`;
+
 const kRoomLight = `
 #if defined( RE_IndirectDiffuse )
     iblIrradiance += roomIrradiance( transformNormalByInverseViewMatrix( geometryNormal, viewMatrix ) );
@@ -70,18 +93,24 @@ const kRayToGround = 'return refractionVector * ( max( vWorldPosition.y, 0.0 ) /
 
 /**
  * Puts a material into the room.
- * @param light  {walls, lamps}: brightness, as uniforms
- * @param exact  whether the liquid stands on flat ground at height 0
+ * @param light   {walls, lamps}: brightness, as uniforms
+ * @param exact   whether the liquid stands on flat ground at height 0
+ * @param ground  {uniforms, level}, which metal mirrors: of Ground, and its height as a uniform
  */
-export function putIntoRoom(material, light, exact) {
+export function putIntoRoom(material, light, exact, ground) {
+    const is_metal = material.metalness > 0;
     material.onBeforeCompile = (shader) => {
         shader.uniforms.room_walls = light.walls;
         shader.uniforms.room_lamps = light.lamps;
+        if (is_metal) {
+            Object.assign(shader.uniforms, ground.uniforms, { ground_level: ground.level });
+        }
         const transmission = exact ? ShaderChunk.transmission_pars_fragment.replace(kRay, kRayToGround) :
             ShaderChunk.transmission_pars_fragment;
         shader.fragmentShader = shader.fragmentShader
-            .replace('#include <transmission_pars_fragment>', `${transmission}\n${kRoom}`)
-            .replace('#include <lights_fragment_maps>', kRoomLight);
+            .replace('#include <transmission_pars_fragment>',
+                [transmission, kRoom, ...is_metal ? [kGroundRadiance, kMirror] : []].join('\n'))
+            .replace('#include <lights_fragment_maps>', is_metal ? kMirrorLight : kRoomLight);
     };
-    material.customProgramCacheKey = () => `room ${exact}`;
+    material.customProgramCacheKey = () => `room ${exact} ${is_metal}`;
 }

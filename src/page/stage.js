@@ -40,6 +40,7 @@ export class Stage {
         this.holder.add(droplet.scene);
         this.scene.add(this.holder);
         this.room = { walls: { value: 1 }, lamps: { value: 1 } };
+        this.ground_level = { value: 0 };
         const { extensions } = this.renderer;
         if (extensions.has('EXT_color_buffer_half_float') || extensions.has('EXT_color_buffer_float')) {
             this.ground_light = new GroundLight();
@@ -78,6 +79,7 @@ export class Stage {
         this.box.max.multiplyScalar(this.scale);
         this.level = this.flat ? 0 : this.box.min.y;  // of the ground under it
         this.ground.position.y = this.level;
+        this.ground_level.value = this.level;
         this.ground.place(roundLength(size / 12) * this.scale, extent?.map((side) => side * this.scale) ?? [2, 2]);
     }
 
@@ -101,13 +103,14 @@ export class Stage {
                 material.userData.tint_depth ??= material.attenuationDistance;
                 material.attenuationDistance = material.userData.tint_depth * this.scale;
             }
-            putIntoRoom(material, this.room, this.flat && material.transmission > 0 && material.thickness > 0);
+            putIntoRoom(material, this.room, this.flat && material.transmission > 0 && material.thickness > 0,
+                { uniforms: this.ground.uniforms, level: this.ground_level });
         }
         if (this.ground_light && triangles > 0) {
             const fullest = droplet.box(this.filled);
             fullest.min.multiplyScalar(this.scale);
             fullest.max.multiplyScalar(this.scale);
-            this.ground_light.aim(fullest, this.level, triangles);
+            this.ground_light.aim(fullest, this.level, this.flat, triangles);
             this.ground.follow(this.ground_light);
         }
         this.light_is_old = true;
@@ -121,6 +124,7 @@ export class Stage {
         this.flat = flat;
         this.level = flat ? 0 : Math.min(0, this.droplet.box([1]).min.y * this.scale);
         this.ground.position.y = this.level;
+        this.ground_level.value = this.level;
         this.#light();
         this.#changed();
     }

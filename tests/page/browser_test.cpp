@@ -9,6 +9,7 @@
 #include <string>
 
 #include "droplet/io/page.h"
+#include "droplet/io/read_surface.h"
 #include "support/command.h"
 #include "support/paths.h"
 
@@ -38,7 +39,7 @@ void makePages(const fs::path& folder)
     const auto make = [&](const std::string& html, const std::vector<std::string>& options,
                           const std::string& volume = "40uL") {
         std::vector<std::string> arguments{(folder / "disc.pgm").string(),
-                                           (folder / "out.obj").string(),
+                                           fs::path(folder / html).replace_extension(".glb").string(),
                                            "--html",
                                            (folder / html).string(),
                                            "--triangles",
@@ -55,6 +56,7 @@ void makePages(const fs::path& folder)
     make("water.html", {"--material", "ink", "--model", "linear"});
     make("full.html", {"--json", (folder / "full.json").string(), "--model", "linear"}, "80uL");
     make("exact.html", {"--model", "exact"});
+    make("mercury.html", {"--liquid", "mercury"});
     // A disc on black, red on the left and green on the right.
     std::string halves = "P6 64 64 255\n";
     for (int i = 0; i < 64 * 64; ++i) {
@@ -131,6 +133,16 @@ TEST(PageInBrowser, ControlsWorkWithoutNetworkRequests)
 
     EXPECT_EQ(wide["download"]["name"], "disc.glb");
     EXPECT_EQ(wide["download"]["sha256"], wide["download"]["embedded"]);
+    // At another fill, the download is the droplet that is shown, without a slider.
+    const ReadSurface filled = readSurface(scratch.path() / "filled.glb");
+    const Surface full = readSurface(scratch.path() / "full.glb").surface;
+    EXPECT_THAT(filled.warnings, IsEmpty());
+    ASSERT_EQ(filled.surface.positions.size(), full.positions.size());
+    EXPECT_EQ(filled.surface.triangles, full.triangles);
+    for (std::size_t v = 0; v < full.positions.size(); ++v) {
+        ASSERT_LT(length(filled.surface.positions[v] - full.positions[v]), 1e-8);
+        ASSERT_LT(length(filled.surface.normals[v] - full.normals[v]), 1e-5);
+    }
 
     const auto& phone = seen["phone"];
     EXPECT_GT(phone["colours"], 50);
@@ -161,6 +173,10 @@ TEST(PageInBrowser, ControlsWorkWithoutNetworkRequests)
     EXPECT_THAT(film["moments"][2].get<std::string>(), HasSubstr("3 of 3 · no liquid"));
     EXPECT_EQ(film["words"], (nlohmann::json{"Play", "Pause"}));
     EXPECT_EQ(film["moved_in_pause"], 0.0);
+
+    // Metal mirrors dark walls; without them nothing in the picture is dark.
+    const auto& shades = seen["mercury"];
+    EXPECT_GT(shades[0].get<double>() + shades[1].get<double>() + shades[2].get<double>(), kSeen);
 
     EXPECT_GT(seen["pictured"]["red"], 0.5 * kSeen);
     EXPECT_GT(seen["pictured"]["green"], 0.5 * kSeen);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opens pages from disk in a real browser and operates their controls: node drive.mjs CHROMIUM FOLDER FIGURES_JS
-// FOLDER holds full.json, a report, water.html, exact.html, film.html, pictured.html, hostile.html and picture.png. Prints the
+// FOLDER holds full.json, a report, water.html, exact.html, film.html, pictured.html, mercury.html, hostile.html and picture.png. Prints the
 // observations as one JSON object; the test judges them.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
@@ -171,8 +171,24 @@ async function wide() {
         sha256: createHash('sha256').update(readFileSync(await download.path())).digest('hex'),
         embedded: createHash('sha256').update(Buffer.from(embedded, 'base64')).digest('hex'),
     };
+    await setFill(page, 2);
+    const [filled] = await Promise.all([page.waitForEvent('download'), page.locator('#download').click()]);
+    await filled.saveAs(resolve(folder, 'filled.glb'));
     await page.context().close();
     return seen;
+}
+
+/** Shades of grey where a droplet of mercury is: by tenths, from black to white. */
+async function mercury() {
+    const page = await open('mercury.html', { viewport: kWide, colorScheme: 'light' });
+    const pixels = await look(page);
+    const shares = new Array(10).fill(0);
+    const { length } = pixels;
+    for (let i = 0; i < length; i += 4) {
+        shares[Math.min(9, Math.floor(pixels[i + 1] / 25.6))] += 4 / length;
+    }
+    await page.context().close();
+    return shares;
 }
 
 async function phone() {
@@ -307,7 +323,7 @@ async function hostile() {
 
 try {
     const seen = { wide: await wide(), phone: await phone(), exact: await exact(), told_full: await told('full.json'), film: await film(),
-        pictured: await pictured() };
+        pictured: await pictured(), mercury: await mercury() };
     Object.assign(seen, { complaints: [...complaints], outside });
     complaints.length = 0;
     seen.hostile = await hostile();
