@@ -188,7 +188,7 @@ std::string refusal(const SheetResult& result, const Refused& refused)
             if (result.volume == 0.0) {
                 return which +
                        "the work that a run may take does not begin to fill this footprint: its ground is too steep or "
-                       "rough, or its rim too ragged; smooth them, or use fewer --triangles";
+                       "rough, or its rim too ragged; smooth them, or reduce the number of triangles";
             }
             return which + std::to_string(result.newton_steps) + " steps of Newton's method reached only " + at +
                    " (mean contact angle " + angle + "); ask for less, or reduce the number of triangles";
