@@ -40,49 +40,6 @@ using droplet::ErrorCode;
 using droplet::Frame;
 using droplet::Stage;
 
-/// Checks all paths before any work is done.
-void check(const AnimateOptions& options, const Frames& frames)
-{
-    std::vector<NamedFile> inputs;
-    for (const std::string& file : frames.files()) {
-        inputs.push_back({"INPUT", file});
-    }
-    if (options.run.config) {
-        inputs.push_back({"--config", *options.run.config});
-    }
-    if (options.settings.ground.path) {
-        inputs.push_back({"--surface", *options.settings.ground.path});
-    }
-    std::vector<NamedFile> outputs;
-    const auto for_frames = [&](const char* name, const std::optional<NumberedPath>& files, const std::string& path) {
-        // The number of a video's frames is not known yet; the first one represents all.
-        std::vector<std::size_t> numbers = frames.numbers();
-        if (numbers.empty() || !files) {
-            numbers = {1};
-        }
-        for (const std::size_t number : numbers) {
-            outputs.push_back({name, files ? files->at(number) : path, files.has_value()});
-            if (const auto material = materialFile(outputs.back().path, options.format); material) {
-                outputs.push_back({std::string(name) + "'s material", *material});
-            }
-        }
-    };
-    for_frames("OUTPUT", options.files, options.output);
-    if (options.preview) {
-        for_frames("--preview", options.preview_files, options.preview->path);
-    }
-    if (options.contact_sheet) {
-        outputs.push_back({"--contact-sheet", *options.contact_sheet});
-    }
-    if (options.html) {
-        outputs.push_back({"--html", *options.html});
-    }
-    if (options.json) {
-        outputs.push_back({"--json", *options.json});
-    }
-    checkFiles(inputs, outputs, options.run.files);
-}
-
 /// Short form of a list, such as `3-7, 9`. After eight parts, the rest is only counted.
 std::string compactList(const std::vector<std::size_t>& numbers)
 {
@@ -469,7 +426,7 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
     const auto& last = report.frames.back();
     if (verbose) {
         for (const droplet::FrameReport& frame : report.frames) {
-            text << frame.input << ": " << frame.droplets.size()
+            text << oneLine(frame.input) << ": " << frame.droplets.size()
                  << (frame.droplets.size() == 1 ? " droplet, " : " droplets, ") << inMicrolitres(frame.total.volume)
                  << ", " << std::setprecision(4) << frame.total.height_max / droplet::kMillimetre << " mm high"
                  << (frame.continues ? ", continues" : "") << "\n";
@@ -497,7 +454,7 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
     if (count > 1) {
         text << "; vertices kept in " << report.kept() << " of " << count - 1 << " steps";
     }
-    text << "\n" << report.output << ": " << report.bytes << " bytes\n";
+    text << "\n" << oneLine(report.output) << ": " << report.bytes << " bytes\n";
     return text.str();
 }
 
@@ -535,9 +492,31 @@ droplet::SequenceOptions beginSequence(const droplet::Mask& mask, const AnimateO
     return sequence;
 }
 
+RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers)
+{
+    RunFiles files;
+    addSettings(files, options.settings, options.run);
+    if (options.files) {
+        files.writesFrames("OUTPUT", *options.files, numbers);
+    } else {
+        files.writes("OUTPUT", options.output);
+    }
+    if (const auto material = options.files ? materialFile(options.output, options.format) : std::nullopt) {
+        files.writesFrames("OUTPUT's material", *NumberedPath::of(*material, "OUTPUT"), numbers);
+    }
+    if (options.preview_files) {
+        files.writesFrames("--preview", *options.preview_files, numbers);
+    } else if (options.preview) {
+        files.writes("--preview", options.preview->path);
+    }
+    files.writes("--contact-sheet", options.contact_sheet);
+    files.writes("--html", options.html);
+    files.writes("--json", options.json);
+    return files;
+}
+
 void makeAnimation(const AnimateOptions& options, Frames& frames)
 {
-    check(options, frames);
     if (options.preview && !options.preview_files) {
         const std::string& path = options.preview->path;
         checkCodec(codecFor(path), path);
@@ -563,6 +542,12 @@ int runAnimate(int argc, const char* const* argv)
     }
     const auto& options = std::get<AnimateOptions>(parsed);
     Frames frames(options.inputs);
+    const std::vector<std::size_t> numbers = frames.numbers();
+    RunFiles files = filesOf(options, numbers.empty() ? FrameNumbers{} : FrameNumbers{numbers.front(), numbers.back()});
+    for (const std::string& file : frames.files()) {
+        files.reads("INPUT", file);
+    }
+    checkFiles(files, options.run.files);
     makeAnimation(options, frames);
     return 0;
 }

@@ -6,6 +6,7 @@
 #include "droplet/sequence/sequence.h"
 #include "droplet/sequence/sequence_report.h"
 #include "frames.h"
+#include "run_files.h"
 #include "surroundings.h"
 
 namespace cli {
@@ -20,7 +21,11 @@ droplet::SequenceOptions beginSequence(const droplet::Mask& mask, const AnimateO
 /// @throws droplet::Error with the code that stands for the exit code in the manual page
 int runAnimate(int argc, const char* const* argv);
 
-/// Makes droplets of frames and writes them.
+/// Files that an animation reads and writes, without its frames.
+/// @param numbers  of the frames
+RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers);
+
+/// Makes droplets of frames and writes them. The files have been checked.
 /// @throws droplet::Error as runAnimate()
 void makeAnimation(const AnimateOptions& options, Frames& frames);
 

@@ -194,14 +194,12 @@ int runBatch(int argc, const char* const* argv)
     const ShapeOptions shared = readShapes(line, std::move(named), "--output");
     BatchOptions options = readBatch(line, shared.run, output->text);
     options.material = shared.settings.material;
-    for (const auto& path : {shared.settings.ground.path, shared.settings.onto}) {
-        if (path) {
-            options.read.push_back(*path);
-        }
-    }
+    RunFiles read;
+    addSettings(read, shared.settings, shared.run);
+    options.read = read.read;
     const std::vector<Picture> pictures = readInputs(line);
-    const Surroundings around = readSurroundings(shared.settings);
-    const std::string settings = settingsFingerprint(shared, options);
+    Surroundings around;   // of all items; read once their files have been checked
+    std::string settings;  // their fingerprint
 
     std::vector<BatchItem> items;
     for (std::size_t i = 0; i < pictures.size(); ++i) {
@@ -234,6 +232,9 @@ int runBatch(int argc, const char* const* argv)
         };
         items.push_back(std::move(item));
     }
+    checkItems(items, options);
+    around = readSurroundings(shared.settings);
+    settings = settingsFingerprint(shared, options);
     return makeAll(items, options);
 }
 

@@ -40,8 +40,8 @@ struct BatchItem {
     std::string output;               ///< path of the droplet's file
     std::vector<std::string> others;  ///< paths of further files, such as its report
 
-    /// Reads the input once, so that fingerprint and output come from the same bytes. Called once, from any thread,
-    /// shortly before `make`, so that waiting items take no memory. If it or `make` throws, only this item fails.
+    /// Reads the input once, so that fingerprint and output come from the same bytes. Called from any thread, shortly
+    /// before `make`, so that waiting items take no memory. If it or `make` throws, only this item fails.
     std::function<BatchWork()> open;
 };
 

@@ -106,9 +106,6 @@ BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std
         forOption("--contact-sheet", [&] { return droplet::readableFormat(output_pattern); });
     }
     options.decisive = decisiveOptions(line);
-    if (run.config) {
-        options.read.push_back(*run.config);
-    }
     options.files = run.files;
     options.threads = run.threads;
     options.verbosity = run.verbosity;

@@ -9,6 +9,7 @@
 
 #include "command_line.h"
 #include "droplet_options.h"
+#include "run_files.h"
 
 namespace cli {
 
@@ -28,7 +29,7 @@ struct BatchOptions {
     std::string manifest;  ///< path
     /// Given options that can change the output's bytes: names without dashes, and values.
     std::vector<std::pair<std::string, std::string>> decisive;
-    std::vector<std::string> read;  ///< files beside the items' inputs that no output may replace
+    std::vector<NamedFile> read;  ///< files beside the items' inputs
     droplet::OutputOptions files;
     std::vector<BatchLeftOut> left_out;  ///< listed in the manifest
     bool keep_going = false;             ///< continue after an item that failed

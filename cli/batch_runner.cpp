@@ -30,7 +30,7 @@
 #include "interruption.h"
 #include "library_message.h"
 #include "option_values.h"
-#include "output_clashes.h"
+#include "run_files.h"
 #include "seconds.h"
 #include "terminal.h"
 
@@ -63,6 +63,36 @@ public:
           has_ended_(rows_.size(), false),
           progress_(rows_.size(), options)
     {
+    }
+
+    /// Refuses to replace existing outputs that are not up to date, if they must not be replaced.
+    void refuseReplacing() const
+    {
+        if (!options_.files.no_clobber) {
+            return;
+        }
+        const auto existing = [](std::vector<std::string> paths) {
+            std::error_code ignored;
+            std::erase_if(paths, [&](const std::string& path) { return !fs::exists(path, ignored); });
+            return paths;
+        };
+        const auto check = [&](const std::vector<std::string>& paths) {
+            for (const std::string& path : paths) {
+                droplet::checkWritable(path, options_.files);
+            }
+        };
+        if (options_.contact_sheet) {
+            check(existing({*options_.contact_sheet}));
+        }
+        for (const ManifestRow& row : rows_) {
+            const BatchItem& item = items_[row.index];
+            std::vector<std::string> paths{item.output};
+            paths.insert(paths.end(), item.others.begin(), item.others.end());
+            paths = existing(std::move(paths));
+            if (!paths.empty() && !isFinished(item, row)) {
+                check(paths);
+            }
+        }
     }
 
     void run()
@@ -167,6 +197,24 @@ private:
         updateManifest();
     }
 
+    static std::string fingerprintOfWork(const BatchWork& work)
+    {
+        return fingerprintOf({droplet::kVersion, work.fingerprint});
+    }
+
+    /// Whether all files of an item are up to date; an item whose input cannot be read fails in its turn.
+    [[nodiscard]] bool isFinished(const BatchItem& item, const ManifestRow& row) const
+    {
+        if (!options_.resume || !row.file) {
+            return false;
+        }
+        try {
+            return isUpToDate(item, fingerprintOfWork(item.open()), row.file);
+        } catch (const Error&) {
+            return true;
+        }
+    }
+
     /// Makes one item. Its failure does not affect other items.
     void make(ManifestRow& row) const
     {
@@ -179,7 +227,7 @@ private:
         const BatchItem& item = items_[row.index];
         try {
             BatchWork work = item.open();
-            const std::string fingerprint = fingerprintOf({droplet::kVersion, work.fingerprint});
+            const std::string fingerprint = fingerprintOfWork(work);
             if (options_.resume && isUpToDate(item, fingerprint, row.file)) {
                 row.status = ItemStatus::Skipped;
                 return;
@@ -266,17 +314,35 @@ private:
 
 }  // namespace
 
-int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options)
+void checkItems(const std::vector<BatchItem>& items, const BatchOptions& options)
 {
     if (items.empty()) {
         refuse("there are no items to make");
     }
-    refuseClashes(items, options);
+    RunFiles files;
+    files.read = options.read;
+    files.writes("the manifest", options.manifest);
+    files.writes("the contact sheet", options.contact_sheet);
+    for (const BatchItem& item : items) {
+        if (!item.input.empty()) {
+            files.reads("input " + item.input, item.input);
+        }
+        files.writes("output of " + item.name, item.output);
+        for (const std::string& other : item.others) {
+            files.writes("output of " + item.name, other);
+        }
+    }
+    refuseClashes(files);
+}
+
+int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options)
+{
+    Batch batch(items, options, EarlierRun(options.manifest));
+    batch.refuseReplacing();
     prepare(options.manifest);
     if (options.contact_sheet) {
         prepare(*options.contact_sheet, options.files);
     }
-    Batch batch(items, options, EarlierRun(options.manifest));
     int code = 0;
     int signal = 0;
     {

@@ -11,7 +11,11 @@ namespace cli {
 /// Exit code of a batch in which some items failed.
 inline constexpr int kSomeFailed = 6;
 
-/// Makes all items, or those of one shard, in parallel, and writes the manifest.
+/// Checks the files of all items before any of them is made. They must be listed before other inputs are read.
+/// @throws droplet::Error InvalidArgument: no items, two outputs that are one file, an output that is an input
+void checkItems(const std::vector<BatchItem>& items, const BatchOptions& options);
+
+/// Makes all items, or those of one shard, in parallel, and writes the manifest. They have passed checkItems().
 ///
 /// The result does not depend on the number of threads: rows of the manifest and messages come in the order of the
 /// items. Without keep_going, no item starts after a failure, and all items behind the first failed one count as not
@@ -22,11 +26,12 @@ inline constexpr int kSomeFailed = 6;
 /// SIGINT, SIGTERM or SIGHUP, items in work are finished, the manifest is written, and the process ends by that signal;
 /// a second signal ends it at once.
 ///
-/// Missing folders of outputs are created.
+/// Missing folders of outputs are created. With no_clobber, existing outputs that are not up to date are refused before
+/// any item is made.
 /// @return                0, or kSomeFailed
-/// @throws droplet::Error InvalidArgument: no items, two files of one path, an output that is an input, a file that is
-///                        not a manifest at the manifest's path; OutputFailed: the manifest cannot be written. All
-///                        errors but a full disk are found before any work is done
+/// @throws droplet::Error InvalidArgument: a file that is not a manifest at the manifest's path; OutputFailed: the
+///                        manifest cannot be written, or an output must not be replaced. All errors but a full disk are
+///                        found before any work is done
 int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options);
 
 }  // namespace cli

@@ -13,9 +13,11 @@ namespace fs = std::filesystem;
 std::string CanonicalPaths::of(const std::string& path)
 {
     std::error_code ignored;
-    const fs::path absolute = fs::absolute(path, ignored);
-    if (fs::is_symlink(fs::symlink_status(absolute, ignored))) {
-        return fs::weakly_canonical(absolute, ignored).string();
+    fs::path absolute = fs::absolute(path, ignored);
+    // A link to a file that does not exist yet is followed, too, as writing does.
+    constexpr int kMaxLinks = 40;  // Linux's own limit
+    for (int links = 0; links < kMaxLinks && fs::is_symlink(fs::symlink_status(absolute, ignored)); ++links) {
+        absolute = absolute.parent_path() / fs::read_symlink(absolute, ignored);
     }
     auto [folder, is_new] = folders_.try_emplace(absolute.parent_path().string());
     if (is_new) {

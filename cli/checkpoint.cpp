@@ -63,6 +63,11 @@ private:
 
 }  // namespace
 
+std::string checkpointPath(const NumberedPath& frames)
+{
+    return std::filesystem::path(frames.with("checkpoint")).replace_extension(".state").string();
+}
+
 void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint)
 {
     std::string bytes = beginningOf(checkpoint.command);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "droplet/io/output.h"
+#include "numbered_path.h"
 
 namespace cli {
 
@@ -44,6 +45,9 @@ std::vector<Row> rowsFromBytes(const std::string& bytes)
     }
     return rows;
 }
+
+/// Path of the checkpoint beside a run's frames.
+std::string checkpointPath(const NumberedPath& frames);
 
 /// Writes a checkpoint, completely or not at all.
 /// @throws droplet::Error OutputFailed

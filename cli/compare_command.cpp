@@ -26,6 +26,7 @@
 #include "droplet/units.h"
 #include "files.h"
 #include "option_values.h"
+#include "run_files.h"
 #include "terminal.h"
 
 namespace cli {
@@ -56,6 +57,7 @@ struct Options {
     droplet::Tolerances tolerances;
     std::optional<std::string> json;
     std::optional<std::string> picture;
+    std::optional<std::string> config;
     std::optional<std::size_t> threads;
     droplet::OutputOptions files;
     bool quiet = false;
@@ -119,6 +121,9 @@ Options readOptions(const CommandLine& line)
     }
     options.threads = readThreads(line);
     options.files.no_clobber = line.flag("--no-clobber");
+    if (const auto config = line.value("--config")) {
+        options.config = config->text;
+    }
     options.quiet = line.flag("--quiet");
     return options;
 }
@@ -225,18 +230,13 @@ int runCompare(int argc, const char* const* argv)
         return 0;
     }
     const Options options = readOptions(line);
-    std::vector<NamedFile> outputs;
-    if (options.json) {
-        outputs.push_back({"--json", *options.json});
-    }
-    if (options.picture) {
-        outputs.push_back({"--picture", *options.picture});
-    }
-    std::vector<NamedFile> inputs{{"A", options.path_a}, {"B", options.path_b}};
-    if (const auto config = line.value("--config")) {
-        inputs.push_back({"--config", config->text});
-    }
-    checkFiles(inputs, outputs, options.files);
+    RunFiles run;
+    run.reads("A", options.path_a);
+    run.reads("B", options.path_b);
+    run.reads("--config", options.config);
+    run.writes("--json", options.json);
+    run.writes("--picture", options.picture);
+    checkFiles(run, options.files);
     std::optional<tbb::global_control> limit;
     if (options.threads) {
         limit.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "files.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,16 +10,11 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <optional>
 #include <ostream>
 #include <span>
 #include <string_view>
-#include <system_error>
-#include <utility>
 
-#include "canonical_paths.h"
 #include "droplet/error.h"
 
 namespace cli {
@@ -29,63 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using droplet::Error;
 using droplet::ErrorCode;
-
-/// Files by path and by inode, so that hard links are found, too.
-class KnownFiles {
-public:
-    explicit KnownFiles(const std::vector<NamedFile>& files = {})
-    {
-        for (const NamedFile& file : files) {
-            add(file);
-        }
-    }
-
-    void add(const NamedFile& file)
-    {
-        by_path_.try_emplace(canonicalPath(file), &file);
-        if (const auto node = nodeOf(file)) {
-            by_node_.try_emplace(*node, &file);
-        }
-    }
-
-    /// Known file that is the same; null if there is none.
-    const NamedFile* find(const NamedFile& file)
-    {
-        if (const auto known = by_path_.find(canonicalPath(file)); known != by_path_.end()) {
-            return known->second;
-        }
-        const auto node = nodeOf(file);
-        const auto known = node ? by_node_.find(*node) : by_node_.end();
-        return known == by_node_.end() ? nullptr : known->second;
-    }
-
-private:
-    std::string canonicalPath(const NamedFile& file) { return isStream(file.path) ? file.path : paths_.of(file.path); }
-
-    static std::optional<FileNode> nodeOf(const NamedFile& file)
-    {
-        return isStream(file.path) ? std::nullopt : cli::nodeOf(file.path);
-    }
-
-    CanonicalPaths paths_;
-    std::map<std::string, const NamedFile*> by_path_;
-    std::map<FileNode, const NamedFile*> by_node_;
-};
-
-/// Whether a path is the file that standard input reads, as in `program - out < out`.
-bool isStandardInput(const std::string& path)
-{
-    struct stat input = {};
-    struct stat file = {};
-    return fstat(STDIN_FILENO, &input) == 0 && stat(path.c_str(), &file) == 0 && S_ISREG(file.st_mode) &&
-           input.st_dev == file.st_dev && input.st_ino == file.st_ino;
-}
-
-[[noreturn]] void refuseClash(const std::string& written, const std::string& other, const std::string& path)
-{
-    throw Error(ErrorCode::InvalidArgument,
-                written + " and " + other + " are the same, '" + path + "'; they must be different files");
-}
 
 [[noreturn]] void refuseUnreadable(const std::string& name)
 {
@@ -133,43 +70,6 @@ void writeNested(std::span<const OutputFile> files, const droplet::OutputOptions
 bool isStream(const std::string& path)
 {
     return path == kStandardStream;
-}
-
-void checkFiles(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
-                const droplet::OutputOptions& options)
-{
-    KnownFiles read(inputs);
-    const auto stream = std::find_if(inputs.begin(), inputs.end(), [](const NamedFile& f) { return isStream(f.path); });
-    KnownFiles written;
-    for (const NamedFile& output : outputs) {
-        if (const NamedFile* other = written.find(output)) {
-            refuseClash(output.name, other->name, other->path);
-        }
-        written.add(output);
-        if (isStream(output.path)) {
-            continue;
-        }
-        if (const NamedFile* input = read.find(output)) {
-            refuseClash(output.name, input->name, output.path);
-        }
-        if (stream != inputs.end() && isStandardInput(output.path)) {
-            refuseClash(output.name, stream->name, output.path);
-        }
-        if (output.makes_folder) {
-            makeFolderOf(output.path);
-        }
-        droplet::checkWritable(output.path, options);
-    }
-}
-
-void makeFolderOf(const std::string& path)
-{
-    const fs::path folder = fs::path(path).parent_path();
-    std::error_code failure;
-    if (!folder.empty() && !fs::is_directory(folder, failure) && !fs::create_directories(folder, failure) && failure) {
-        throw droplet::Error(droplet::ErrorCode::OutputFailed,
-                             "folder " + folder.string() + " cannot be created: " + failure.message());
-    }
 }
 
 bool isPicture(const std::string& path)

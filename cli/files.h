@@ -21,23 +21,6 @@ bool isStream(const std::string& path);
 /// Whether a file has the extension of a picture format that can be read.
 bool isPicture(const std::string& path);
 
-/// File that an option or argument names.
-struct NamedFile {
-    std::string name;           ///< name of the option or argument, for messages
-    std::string path;           ///< or kStandardStream
-    bool makes_folder = false;  ///< whether the folder of this output is created: for a pattern of many files
-};
-
-/// Creates the folder of a file, if it does not exist.
-/// @throws droplet::Error OutputFailed
-void makeFolderOf(const std::string& path);
-
-/// Finds errors before any work is done: two outputs at one path, an output that would replace an input, an output that
-/// cannot be written. Creates folders of outputs that ask for it.
-/// @throws droplet::Error InvalidArgument, OutputFailed
-void checkFiles(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
-                const droplet::OutputOptions& options);
-
 /// Reads a file and calls `take` for each part of it.
 /// @throws droplet::Error InvalidInput if the file cannot be read
 void readFile(const std::string& path, const std::function<void(std::span<const std::byte>)>& take);

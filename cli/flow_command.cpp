@@ -15,6 +15,7 @@
 #include "flow_run.h"
 #include "progress_display.h"
 #include "shape_command.h"
+#include "terminal.h"
 
 namespace cli {
 namespace {
@@ -33,7 +34,7 @@ void printSummary(const droplet::FlowReport& report)
               << fmt::format("liquid: {} released = {} on the object + {} in the air + {} fallen + {} dried\n",
                              litres(liquid.released), litres(liquid.running + liquid.still + liquid.streaks),
                              litres(liquid.airborne), litres(liquid.left), litres(liquid.dried))
-              << report.output << "\n";
+              << oneLine(report.output) << "\n";
     std::cerr << std::flush;
 }
 
@@ -47,7 +48,7 @@ int runFlow(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<FlowOptions>(parsed);
-    checkFlowFiles(options);
+    checkFiles(filesOf(options), options.output_options);
     std::optional<tbb::global_control> threads;
     if (options.threads) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);

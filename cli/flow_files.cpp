@@ -7,95 +7,63 @@
 #include <utility>
 #include <vector>
 
+#include "checkpoint.h"
 #include "content_hash.h"
-#include "files.h"
-#include "option_values.h"
+#include "flow_plan.h"
 
 namespace cli {
 namespace {
 
-using NamedPath = std::pair<const char*, const std::optional<std::string>*>;
-
-std::vector<NamedPath> inputsOf(const FlowOptions& options)
+/// Path with the name of a map before its extension.
+std::string withMap(std::string path, const char* map)
 {
-    return {{"OBJECT", &options.object},
-            {"--mask", &options.mask},
-            {"--start", &options.start},
-            {"--motion", &options.motion},
-            {"--config", &options.config},
-            {"--roughness-map", &options.roughness_map},
-            {"--friction-map", &options.friction_map}};
+    return path.insert(path.size() - std::string(".png").size(), std::string("-") + map);
 }
 
-std::vector<NamedPath> outputsOf(const FlowOptions& options)
+/// Files whose content decides what the frames show.
+void addInputs(RunFiles& files, const FlowOptions& options)
 {
-    return {{"--droplets", &options.droplets}, {"--streaks", &options.streaks}, {"--json", &options.json}};
+    files.reads("OBJECT", options.object);
+    files.reads("--mask", options.mask);
+    files.reads("--start", options.start);
+    files.reads("--motion", options.motion);
+    files.reads("--roughness-map", options.roughness_map);
+    files.reads("--friction-map", options.friction_map);
 }
 
 }  // namespace
 
 std::string flowMapPath(const NumberedPath& maps, std::size_t number, const char* map)
 {
-    std::string path = maps.at(number);
-    return path.insert(path.size() - std::string(".png").size(), std::string("-") + map);
+    return withMap(maps.at(number), map);
 }
 
-std::string flowCheckpointPath(const FlowOptions& options)
+RunFiles filesOf(const FlowOptions& options)
 {
-    return std::filesystem::path(options.files->with("checkpoint")).replace_extension(".state").string();
-}
-
-void checkFlowFiles(const FlowOptions& options)
-{
-    std::vector<NamedFile> inputs;
-    for (const auto& [name, path] : inputsOf(options)) {
-        if (*path) {
-            inputs.push_back({name, **path});
-        }
-    }
-    std::vector<NamedFile> outputs{
-        {"OUTPUT", options.files ? options.files->at(1) : options.output, options.files.has_value()}};
+    RunFiles files;
+    addInputs(files, options);
+    files.reads("--config", options.config);
+    const FrameNumbers numbers{1, frameCount(options)};
     if (options.files) {
-        outputs.push_back({"OUTPUT's checkpoint", flowCheckpointPath(options)});
+        files.writesFrames("OUTPUT", *options.files, numbers);
+        files.writes("OUTPUT's checkpoint", checkpointPath(*options.files));
+    } else {
+        files.writes("OUTPUT", options.output);
     }
-    for (const auto& [name, path] : outputsOf(options)) {
-        if (*path) {
-            outputs.push_back({name, **path});
-        }
-    }
+    files.writes("--droplets", options.droplets);
+    files.writes("--streaks", options.streaks);
+    files.writes("--json", options.json);
     for (const char* map : kFlowMaps) {
         if (options.maps) {
-            outputs.push_back({"--maps", flowMapPath(*options.maps, 1, map), true});
+            files.writesFrames("--maps", *NumberedPath::of(withMap(options.maps->text(), map), "--maps"), numbers);
         }
     }
     if (options.has_preview) {
-        for (const NamedFile& file : previewPaths(options.view)) {
-            outputs.push_back(file);
+        for (const std::string& path : previewPaths(options.view)) {
+            files.writes("--preview", path);
         }
     }
-    checkFiles(inputs, outputs, options.output_options);
-}
-
-void checkFlowFrames(const FlowOptions& options, std::size_t frames)
-{
-    if (!options.files) {
-        return;
-    }
-    std::vector<NamedPath> others = inputsOf(options);
-    for (const NamedPath& output : outputsOf(options)) {
-        others.push_back(output);
-    }
-    for (const auto& [name, path] : others) {
-        const auto number = *path && !isStream(**path) ? options.files->numberOf(**path) : std::nullopt;
-        if (number && *number >= 1 && *number <= frames) {
-            refuse(std::string("OUTPUT and ") + name + " are the same, '" + **path + "'; they must be different files");
-        }
-    }
-    for (const std::size_t number : options.files->numbers()) {
-        if (options.output_options.no_clobber && number >= 1 && number <= frames) {
-            droplet::checkWritable(options.files->at(number), options.output_options);
-        }
-    }
+    return files;
 }
 
 bool hasFlowFrame(const FlowOptions& options, std::size_t number)
@@ -110,10 +78,11 @@ bool hasFlowFrame(const FlowOptions& options, std::size_t number)
 std::string flowFingerprint(const FlowOptions& options)
 {
     std::vector<std::string> parts{options.fingerprint};
-    for (const auto& [name, path] : inputsOf(options)) {
-        if (path != &options.config) {
-            parts.push_back(hashOfFile(*path));
-        }
+    RunFiles files;
+    addInputs(files, options);
+    for (const NamedFile& file : files.read) {
+        parts.push_back(file.name);
+        parts.push_back(hashOfFile(file.path));
     }
     return fingerprintOf(parts);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "flow_options.h"
+#include "run_files.h"
 
 namespace cli {
 
@@ -15,15 +16,8 @@ inline constexpr std::array kFlowMaps{"normal", "thickness", "age", "wet"};
 /// Path of a frame's map: its name before the extension.
 std::string flowMapPath(const NumberedPath& maps, std::size_t number, const char* map);
 
-/// Path of the state of an interrupted run, beside its frames.
-std::string flowCheckpointPath(const FlowOptions& options);
-
-/// Finds errors before any work is done: outputs that replace inputs or one another, or cannot be written.
-/// @throws droplet::Error InvalidArgument, OutputFailed
-void checkFlowFiles(const FlowOptions& options);
-
-/// The same for the files of all frames.
-void checkFlowFrames(const FlowOptions& options, std::size_t frames);
+/// All files that a run reads and writes.
+RunFiles filesOf(const FlowOptions& options);
 
 /// Whether all files of a frame exist.
 bool hasFlowFrame(const FlowOptions& options, std::size_t number);

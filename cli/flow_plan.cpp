@@ -122,6 +122,12 @@ std::string nameOfObject(const FlowOptions& options)
     return options.preset ? "preset " + options.preset->name : *options.object;
 }
 
+std::size_t frameCount(const FlowOptions& options)
+{
+    const double duration = options.duration.value_or(options.preset ? options.preset->duration : kDefaultDuration);
+    return std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);
+}
+
 FlowPlan planOf(const FlowOptions& options)
 {
     const std::string name = nameOfObject(options);
@@ -139,9 +145,7 @@ FlowPlan planOf(const FlowOptions& options)
     }
     plan.parameters.ground = groundOf(options, plan);
     plan.starts = startsOf(options, plan, plan.warnings);
-    const double duration = options.duration.value_or(options.preset ? options.preset->duration : kDefaultDuration);
-    plan.frames =
-        std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);
+    plan.frames = frameCount(options);
     return plan;
 }
 

@@ -24,6 +24,9 @@ struct FlowPlan {
 /// Path of the object, or name of the preset that has it.
 std::string nameOfObject(const FlowOptions& options);
 
+/// Number of frames, at least one.
+std::size_t frameCount(const FlowOptions& options);
+
 /// Reads the options' files and makes the plan.
 /// @throws droplet::Error InvalidArgument, InvalidInput
 FlowPlan planOf(const FlowOptions& options);

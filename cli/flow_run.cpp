@@ -117,7 +117,6 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
       material_(options.material.value_or(droplet::materialOf(plan_.parameters.forces.liquid))),
       ribbons_(ribbonOptions(plan_.parameters))
 {
-    checkFlowFrames(options_, plan_.frames);
     state_ = droplet::startFlow(plan_.scene, plan_.parameters, plan_.starts);
     if (options_.kind == FlowOutput::Animation) {
         droplet::FlowAnimationOptions animation;
@@ -236,7 +235,7 @@ droplet::FlowReport FlowRun::execute()
     writeTogether(files, options_.output_options);
     if (options_.files) {
         std::error_code none;
-        std::filesystem::remove(flowCheckpointPath(options_), none);
+        std::filesystem::remove(checkpointPath(*options_.files), none);
     }
     finish();
     return std::move(report_);
@@ -244,7 +243,7 @@ droplet::FlowReport FlowRun::execute()
 
 void FlowRun::resume()
 {
-    const std::string path = flowCheckpointPath(options_);
+    const std::string path = checkpointPath(*options_.files);
     const auto checkpoint = options_.resume ? readCheckpoint(path, kCommand) : std::optional<Checkpoint>();
     if (!checkpoint) {
         // The checkpoint of another run must not be used for this one.
@@ -332,7 +331,7 @@ void FlowRun::saveCheckpoint() const
     if (mapper_) {
         checkpoint.wet_maps = mapper_->bytes();
     }
-    writeCheckpoint(flowCheckpointPath(options_), checkpoint);
+    writeCheckpoint(checkpointPath(*options_.files), checkpoint);
 }
 
 void FlowRun::advance(double until)
@@ -385,8 +384,8 @@ std::vector<OutputFile> FlowRun::previewOutputs()
                  }}};
     }
     std::vector<OutputFile> files;
-    for (const NamedFile& file : previewPaths(options_.view)) {
-        files.push_back({file.path, [this, turns, k = files.size()](std::ostream& out) {
+    for (const std::string& path : previewPaths(options_.view)) {
+        files.push_back({path, [this, turns, k = files.size()](std::ostream& out) {
                              droplet::writePng(picture(shown_, turnOf(options_.view, k)), out);
                              progress_.reportDrawn(k + 1, turns);
                          }});

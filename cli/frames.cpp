@@ -121,7 +121,6 @@ Frames::Frames(const std::vector<std::string>& inputs)
                 throw Error(ErrorCode::InvalidInput, input + ": there is no such file");
             }
             video_path_ = input;
-            video_ = std::make_unique<Video>(input);
             return;
         }
     }
@@ -133,6 +132,14 @@ Frames::Frames(const std::vector<std::string>& inputs)
 Frames::Frames(std::istream& pictures, std::string name)
     : stream_(std::make_unique<PictureStream>(pictures)), stream_name_(std::move(name))
 {
+}
+
+Video& Frames::video()
+{
+    if (!video_) {
+        video_ = std::make_unique<Video>(video_path_);
+    }
+    return *video_;
 }
 
 void Frames::decide(const droplet::MaskOptions& options)
@@ -156,9 +163,7 @@ void Frames::decide(const droplet::MaskOptions& options)
     }
     done_ = 0;
     keeps_ = false;
-    if (video_) {
-        video_ = std::make_unique<Video>(video_path_);
-    }
+    video_.reset();
 }
 
 std::optional<FramePicture> Frames::next(const droplet::MaskOptions& options)
@@ -219,8 +224,8 @@ std::optional<FramePicture> Frames::read(const droplet::MaskOptions& options)
         } catch (const Error& error) {
             throw Error(error.code(), frame.name + ": " + error.what());
         }
-    } else if (video_) {
-        const auto bytes = video_->next();
+    } else if (!video_path_.empty()) {
+        const auto bytes = video().next();
         if (!bytes) {
             if (done_ == 0) {
                 throw Error(ErrorCode::InvalidInput, video_path_ + ": this video has no frames");
@@ -256,7 +261,7 @@ std::optional<FramePicture> Frames::read(const droplet::MaskOptions& options)
 
 std::optional<std::size_t> Frames::count() const
 {
-    return video_ || stream_ ? std::nullopt : std::optional(pictures_.size());
+    return !video_path_.empty() || stream_ ? std::nullopt : std::optional(pictures_.size());
 }
 
 std::vector<std::size_t> Frames::numbers() const
@@ -268,9 +273,9 @@ std::vector<std::size_t> Frames::numbers() const
     return numbers;
 }
 
-std::optional<double> Frames::framesPerSecond() const
+std::optional<double> Frames::framesPerSecond()
 {
-    return video_ ? video_->framesPerSecond() : std::nullopt;
+    return video_path_.empty() ? std::nullopt : video().framesPerSecond();
 }
 
 std::vector<std::string> Frames::files() const
@@ -279,7 +284,7 @@ std::vector<std::string> Frames::files() const
     for (const auto& [number, name] : pictures_) {
         files.push_back(name);
     }
-    if (video_) {
+    if (!video_path_.empty()) {
         files.push_back(video_path_);
     }
     if (stream_) {

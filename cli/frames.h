@@ -53,11 +53,15 @@ public:
     /// Numbers of the frames, if they are known beforehand.
     [[nodiscard]] std::vector<std::size_t> numbers() const;
     /// Frame rate of a video.
-    [[nodiscard]] std::optional<double> framesPerSecond() const;
+    /// @throws droplet::Error InvalidInput
+    [[nodiscard]] std::optional<double> framesPerSecond();
     /// Paths of all files that are read.
     [[nodiscard]] std::vector<std::string> files() const;
 
 private:
+    /// Video, which starts at the first call, after the files have been checked.
+    /// @throws droplet::Error InvalidInput
+    Video& video();
     /// @throws droplet::Error InvalidInput
     void decide(const droplet::MaskOptions& options);
     /// File of the next picture of the stream.
@@ -67,7 +71,7 @@ private:
     std::optional<Decision> decision_;
     std::optional<FramePicture> first_picture_;  ///< first frame, if it decided
     std::vector<std::pair<std::size_t, std::string>> pictures_;
-    std::string video_path_;
+    std::string video_path_;  ///< empty without a video
     std::unique_ptr<Video> video_;
     std::unique_ptr<PictureStream> stream_;
     std::string stream_name_;

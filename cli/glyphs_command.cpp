@@ -188,7 +188,6 @@ void requireInk(bool has_ink, const std::vector<char32_t>& missing, const Glyphs
 
 int makeText(const Font& font, GlyphsOptions options)
 {
-    checkShape(options.shape, "--font");
     requireColourLayers(font, options);
     makeAndReport(options.shape.run, [&](const droplet::Progress& progress) {
         progress(droplet::Stage::Read, 0.0);
@@ -302,12 +301,14 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
     for (const char32_t character : selection.missing) {
         set.batch.left_out.push_back({droplet::characterText(character), "the font has no glyph for it"});
     }
-    const Surroundings around = readSurroundings(options.shape.settings);
-    const std::string settings = settingsFingerprint(options);
+    RunFiles read;
+    addSettings(read, options.shape.settings, options.shape.run);
+    read.reads("--font", options.font);
+    read.reads("--charset", set.charset_file);
+    set.batch.read = read.read;
+    Surroundings around;   // of all items; read once their files have been checked
+    std::string settings;  // their fingerprint
     const std::vector<std::string> names = fileNames(font);
-    if (const auto& ground = options.shape.settings.ground.path) {
-        set.batch.read.push_back(*ground);
-    }
 
     std::vector<BatchItem> items;
     for (const GlyphRequest& request : selection.glyphs) {
@@ -350,6 +351,9 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
     if (items.empty()) {
         throw Error(ErrorCode::InvalidInput, options.font + ": none of the chosen glyphs has ink");
     }
+    checkItems(items, set.batch);
+    around = readSurroundings(options.shape.settings);
+    settings = settingsFingerprint(options);
     return makeAll(items, set.batch);
 }
 
@@ -401,6 +405,9 @@ int runGlyphs(int argc, const char* const* argv)
         return 0;
     }
     auto& options = std::get<GlyphsOptions>(parsed);
+    if (options.text) {
+        checkShape(options.shape, "--font");
+    }
     const Font font = droplet::readFont(options.font, options.face);
     if (options.text) {
         return makeText(font, std::move(options));

@@ -161,12 +161,19 @@ std::string unescaped(const Given& given)
     return text;
 }
 
+/// Path of the file that `--charset @FILE` names.
+std::optional<std::string> charsetFile(const Given& given)
+{
+    return given.text.size() < 2 || given.text.front() != '@' ? std::nullopt : std::optional(given.text.substr(1));
+}
+
 std::vector<char32_t> readCharset(const Given& given)
 {
-    if (given.text.size() < 2 || given.text.front() != '@') {
+    const auto file = charsetFile(given);
+    if (!file) {
         return forOption(given.subject, [&] { return droplet::parseCharset(given.text); });
     }
-    const std::string path = given.text.substr(1);
+    const std::string& path = *file;
     const std::string text = forOption(given.subject, [&] { return textOf(path); });
     std::vector<char32_t> characters = forOption(given.subject, [&] { return droplet::charactersOf(text); });
     if (characters.empty()) {
@@ -279,6 +286,7 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
         GlyphSetOptions set;
         if (charset) {
             set.choice.characters = readCharset(*charset);
+            set.charset_file = charsetFile(*charset);
         }
         set.output = *output;
         set.json = json;

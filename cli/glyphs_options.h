@@ -22,8 +22,9 @@ struct GlyphChoice {
 /// Options for one file per glyph.
 struct GlyphSetOptions {
     GlyphChoice choice;
-    Given output;               ///< pattern of the output paths
-    std::optional<Given> json;  ///< pattern of the reports' paths
+    std::optional<std::string> charset_file;  ///< path of the file of characters
+    Given output;                             ///< pattern of the output paths
+    std::optional<Given> json;                ///< pattern of the reports' paths
     BatchOptions batch;
 };
 

@@ -13,6 +13,7 @@
 #include "liquid2d_options.h"
 #include "liquid2d_run.h"
 #include "progress_display.h"
+#include "terminal.h"
 
 namespace cli {
 namespace {
@@ -24,7 +25,7 @@ void printSummary(const droplet::LiquidReport& report)
                              report.frames.size() == 1 ? "" : "s", last.time, last.particles, last.steps);
     for (const auto& path : {report.output, report.masks}) {
         if (path && !isStream(*path)) {
-            std::cerr << *path << "\n";
+            std::cerr << oneLine(*path) << "\n";
         }
     }
     std::cerr << std::flush;

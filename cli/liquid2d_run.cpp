@@ -27,6 +27,7 @@
 #include "droplet_report.h"
 #include "files.h"
 #include "option_values.h"
+#include "run_files.h"
 #include "stage_clock.h"
 #include "video_writer.h"
 
@@ -40,6 +41,39 @@ using droplet::ParticleFrame;
 using droplet::Vec2;
 
 constexpr const char* kCommand = "liquid2d";
+
+/// Whether the scene is a file, not a preset.
+bool isSceneFile(const Liquid2dOptions& options)
+{
+    return std::filesystem::path(options.scene).extension() == ".toml";
+}
+
+droplet::FluidPreset presetOf(const Liquid2dOptions& options)
+{
+    return forOption("--scene", [&] { return droplet::fluidPresetNamed(options.scene); });
+}
+
+/// Number of frames, at least one.
+std::size_t frameCount(const Liquid2dOptions& options)
+{
+    if (options.particles) {
+        const std::size_t files = options.particle_files ? options.particle_files->numbers().size() : 1;
+        return std::max<std::size_t>(files, 1);
+    }
+    constexpr double kDuration = 4.0;  // of a scene from a file [s]
+    const double duration = options.duration       ? *options.duration
+                            : isSceneFile(options) ? kDuration
+                                                   : presetOf(options).duration;
+    return std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);
+}
+
+/// Pattern that a run's checkpoint is beside, if it can be resumed.
+const std::optional<NumberedPath>& resumableFrames(const Liquid2dOptions& options)
+{
+    static const std::optional<NumberedPath> none;
+    const std::optional<NumberedPath>& frames = options.files ? options.files : options.mask_files;
+    return options.masks && !options.mask_files ? none : frames;
+}
 
 /// Frames of particles, one after another.
 class ParticleSource {
@@ -67,18 +101,8 @@ class SimulatedParticles : public ParticleSource {
 public:
     explicit SimulatedParticles(const Liquid2dOptions& options) : fps_(options.frames_per_second)
     {
-        double duration = 4.0;
-        const bool is_file = std::filesystem::path(options.scene).extension() == ".toml";
-        if (is_file) {
-            scene_ = droplet::readFluidScene(options.scene);
-        } else {
-            const droplet::FluidPreset& preset = forOption(
-                "--scene", [&]() -> const droplet::FluidPreset& { return droplet::fluidPresetNamed(options.scene); });
-            scene_ = preset.scene;
-            duration = preset.duration;
-        }
-        duration = options.duration.value_or(duration);
-        frames_ = std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * fps_)), 1);
+        scene_ = isSceneFile(options) ? droplet::readFluidScene(options.scene) : presetOf(options).scene;
+        frames_ = frameCount(options);
         if (options.gravity) {
             scene_.gravity = {0.0, -*options.gravity};
         }
@@ -270,9 +294,8 @@ public:
     droplet::LiquidReport execute()
     {
         if (hasCheckpoint()) {
-            fingerprint_ = fingerprintOf(
-                {options_.fingerprint, options_.walls ? hashOfFile(*options_.walls) : "",
-                 std::filesystem::path(options_.scene).extension() == ".toml" ? hashOfFile(options_.scene) : ""});
+            fingerprint_ = fingerprintOf({options_.fingerprint, options_.walls ? hashOfFile(*options_.walls) : "",
+                                          isSceneFile(options_) ? hashOfFile(options_.scene) : ""});
             resume();
         }
         if (options_.kind == LiquidOutput::Video) {
@@ -301,29 +324,18 @@ public:
         writeTogether(files, options_.output_options);
         if (hasCheckpoint()) {
             std::error_code none;
-            std::filesystem::remove(checkpointPath(), none);
+            std::filesystem::remove(checkpointPath(*resumableFrames(options_)), none);
         }
         finish();
         return std::move(report_);
     }
 
 private:
-    [[nodiscard]] const std::optional<NumberedPath>& numbered() const
-    {
-        return options_.files ? options_.files : options_.mask_files;
-    }
-    [[nodiscard]] bool hasCheckpoint() const
-    {
-        return numbered().has_value() && (!options_.masks || options_.mask_files);
-    }
-    [[nodiscard]] std::string checkpointPath() const
-    {
-        return std::filesystem::path(numbered()->with("checkpoint")).replace_extension(".state").string();
-    }
+    [[nodiscard]] bool hasCheckpoint() const { return resumableFrames(options_).has_value(); }
 
     void resume()
     {
-        const std::string path = checkpointPath();
+        const std::string path = checkpointPath(*resumableFrames(options_));
         const auto checkpoint = options_.resume ? readCheckpoint(path, kCommand) : std::optional<Checkpoint>();
         if (!checkpoint) {
             // The checkpoint of another run must not be used for this one.
@@ -363,8 +375,9 @@ private:
     void saveCheckpoint(std::size_t frames) const
     {
         const std::string particles = source_->bytes();
-        writeCheckpoint(checkpointPath(), {kCommand, fingerprint_, frames, bytesOfRows(report_.frames),
-                                           fmt::format("{}\n", particles.size()) + particles + bytesOf(surface_)});
+        writeCheckpoint(checkpointPath(*resumableFrames(options_)),
+                        {kCommand, fingerprint_, frames, bytesOfRows(report_.frames),
+                         fmt::format("{}\n", particles.size()) + particles + bytesOf(surface_)});
     }
 
     void warn(const std::string& warning)
@@ -493,42 +506,47 @@ private:
     droplet::LiquidReport report_;
 };
 
-/// Checks all paths before any work is done.
-void check(const Liquid2dOptions& options)
+/// All files that a run reads and writes.
+RunFiles filesOf(const Liquid2dOptions& options)
 {
-    std::vector<NamedFile> inputs;
-    if (options.config) {
-        inputs.push_back({"--config", *options.config});
+    RunFiles files;
+    files.reads("--config", options.config);
+    files.reads("--walls", options.walls);
+    if (options.particle_files) {
+        for (const std::size_t number : options.particle_files->numbers()) {
+            files.reads("--particles", options.particle_files->at(number));
+        }
+    } else if (options.particles) {
+        files.reads("--particles", options.particles);
+    } else if (isSceneFile(options)) {
+        files.reads("--scene", options.scene);
+        for (const std::filesystem::path& mask : droplet::masksOfScene(options.scene)) {
+            files.reads("a mask of --scene", mask.string());
+        }
     }
-    if (options.walls) {
-        inputs.push_back({"--walls", *options.walls});
+    const FrameNumbers numbers{1, frameCount(options)};
+    if (options.files) {
+        files.writesFrames("OUTPUT", *options.files, numbers);
+    } else {
+        files.writes("OUTPUT", options.output);
     }
-    if (options.particles && !options.particle_files) {
-        inputs.push_back({"--particles", *options.particles});
+    if (options.mask_files) {
+        files.writesFrames("--masks", *options.mask_files, numbers);
+    } else {
+        files.writes("--masks", options.masks);
     }
-    if (!options.particles && std::filesystem::path(options.scene).extension() == ".toml") {
-        inputs.push_back({"--scene", options.scene});
+    if (const auto& frames = resumableFrames(options)) {
+        files.writes("the checkpoint", checkpointPath(*frames));
     }
-    std::vector<NamedFile> outputs;
-    if (options.output) {
-        outputs.push_back(
-            {"OUTPUT", options.files ? options.files->at(1) : *options.output, options.files.has_value()});
-    }
-    if (options.masks) {
-        outputs.push_back({"--masks", options.mask_files ? options.mask_files->at(1) : *options.masks,
-                           options.mask_files.has_value()});
-    }
-    if (options.json) {
-        outputs.push_back({"--json", *options.json});
-    }
-    checkFiles(inputs, outputs, options.output_options);
+    files.writes("--json", options.json);
+    return files;
 }
 
 }  // namespace
 
 droplet::LiquidReport drawLiquid2d(const Liquid2dOptions& options, ProgressDisplay& progress)
 {
-    check(options);
+    checkFiles(filesOf(options), options.output_options);
     return LiquidRun(options, progress).execute();
 }
 

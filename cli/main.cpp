@@ -6,30 +6,16 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
 #include <string_view>
-#include <system_error>
-#include <vector>
 
-#include "animate_command.h"
-#include "batch_command.h"
-#include "compare_command.h"
+#include "commands.h"
 #include "droplet/error.h"
 #include "exit_code.h"
-#include "flow_command.h"
-#include "glyphs_command.h"
 #include "interruption.h"
-#include "liquid2d_command.h"
-#include "morph_command.h"
-#include "option_values.h"
-#include "shape_command.h"
-#include "studio_command.h"
 #include "terminal.h"
-#include "wind_tunnel_command.h"
-#include "windshield_command.h"
 
 namespace {
 
@@ -64,56 +50,10 @@ void keepFreedMemory()
     mallopt(M_TOP_PAD, kAtOnce);
 }
 
-/// Command, selected by the first argument.
-struct Command {
-    std::string_view name;
-    int (*run)(int argc, const char* const* argv);
-};
-
-const std::vector<Command>& commands()
-{
-    static const std::vector<Command> all{{"animate", cli::runAnimate},
-                                          {"batch", cli::runBatch},
-                                          {"compare", cli::runCompare},
-                                          {"flow", cli::runFlow},
-                                          {"glyphs", cli::runGlyphs},
-                                          {"liquid2d", cli::runLiquid2d},
-                                          {"morph", cli::runMorph},
-                                          {"studio", cli::runStudio},
-                                          {"wind-tunnel", cli::runWindTunnel},
-                                          {"windshield", cli::runWindshield}};
-    return all;
-}
-
-/// Refuses a word that is almost a command's name, and not an existing file.
-void refuseMisspelt(const std::string& word)
-{
-    std::vector<std::string> names;
-    for (const Command& command : commands()) {
-        names.emplace_back(command.name);
-    }
-    std::error_code ignored;
-    const std::string name = std::filesystem::exists(word, ignored) ? "" : cli::nearestName(word, names);
-    if (!name.empty()) {
-        cli::refuse("unknown command '" + word + "', did you mean " + name + "?");
-    }
-}
-
-int run(int argc, const char* const* argv)
-{
-    for (const Command& command : commands()) {
-        if (argc > 1 && argv[1] == command.name) {
-            return command.run(argc - 1, argv + 1);
-        }
-    }
-    refuseMisspelt(argc > 1 ? argv[1] : "");
-    return cli::runShape(argc, argv);
-}
-
 int guardedRun(int argc, const char* const* argv)
 {
     try {
-        return run(argc, argv);
+        return cli::runCommand(argc, argv);
     } catch (const droplet::Error& error) {
         return fail(error.what(), exitCodeOf(error.code()));
     } catch (const std::bad_alloc&) {

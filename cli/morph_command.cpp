@@ -228,18 +228,25 @@ private:
     std::stringstream masks_;  ///< for droplets
 };
 
-/// Checks all paths before any work is done; those of droplets are checked with their frames.
-void check(const MorphCommandOptions& options)
+/// All files that a run reads and writes.
+RunFiles filesOf(const MorphCommandOptions& options)
 {
-    std::vector<NamedFile> inputs;
+    const FrameNumbers numbers{1, options.frames};
+    RunFiles files;
+    if (options.kind == MorphOutput::Model) {
+        files = filesOf(options.animation, numbers);
+    } else {
+        files.reads("--config", options.animation.run.config);
+        if (options.files) {
+            files.writesFrames("OUTPUT", *options.files, numbers);
+        } else {
+            files.writes("OUTPUT", options.output);
+        }
+    }
     for (const std::string& input : options.inputs) {
-        inputs.push_back({"INPUT", input});
+        files.reads("INPUT", input);
     }
-    if (options.animation.run.config) {
-        inputs.push_back({"--config", *options.animation.run.config});
-    }
-    const std::string output = options.files ? options.files->at(1) : options.output;
-    checkFiles(inputs, {{"OUTPUT", output, options.files.has_value()}}, options.animation.run.files);
+    return files;
 }
 
 }  // namespace
@@ -252,8 +259,8 @@ int runMorph(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<MorphCommandOptions>(parsed);
-    check(options);
     const RunOptions& run = options.animation.run;
+    checkFiles(filesOf(options), run.files);
     std::optional<tbb::global_control> threads;
     if (run.threads) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, *run.threads);

@@ -80,19 +80,6 @@ std::optional<std::size_t> NumberedPath::numberIn(const std::string& name) const
     return number;
 }
 
-std::optional<std::size_t> NumberedPath::numberOf(const std::string& path) const
-{
-    const auto canonical = [](const fs::path& folder) {
-        std::error_code ignored;
-        return fs::weakly_canonical(fs::absolute(folder.empty() ? "." : folder, ignored), ignored);
-    };
-    const fs::path own(path);
-    // "a/" and "a" are one folder.
-    return canonical(own.parent_path()) == canonical(fs::path(folder_ + "x").parent_path())
-               ? numberIn(own.filename().string())
-               : std::nullopt;
-}
-
 std::vector<std::size_t> NumberedPath::numbers() const
 {
     std::vector<std::size_t> numbers;

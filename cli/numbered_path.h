@@ -22,8 +22,10 @@ public:
     [[nodiscard]] std::string at(std::size_t number) const;
     /// Pattern as given.
     [[nodiscard]] const std::string& text() const { return text_; }
-    /// Number of a path, if it matches the pattern.
-    [[nodiscard]] std::optional<std::size_t> numberOf(const std::string& path) const;
+    /// Name of one file, without its folder.
+    [[nodiscard]] std::string nameAt(std::size_t number) const;
+    /// Number in a file's name, if it matches the pattern.
+    [[nodiscard]] std::optional<std::size_t> numberIn(const std::string& name) const;
     /// Numbers of the existing files, in order; empty if the folder does not exist.
     [[nodiscard]] std::vector<std::size_t> numbers() const;
     /// Path with a word instead of the number.
@@ -34,10 +36,6 @@ public:
     [[nodiscard]] std::vector<std::pair<std::size_t, std::string>> existing() const;
 
 private:
-    /// Number in a file's name.
-    [[nodiscard]] std::optional<std::size_t> numberIn(const std::string& name) const;
-    [[nodiscard]] std::string nameAt(std::size_t number) const;
-
     std::string text_;        ///< as given
     std::string folder_;      ///< with a trailing slash, or empty
     std::string before_;      ///< part of the file's name before the number

@@ -12,9 +12,12 @@ namespace cli {
 /// Values of placeholders, by their names.
 using PatternValues = std::map<std::string, std::string, std::less<>>;
 
-/// Replaces the placeholders of a pattern such as 'out/{stem}.glb'; {{ and }} are braces.
+/// Replaces the placeholders of a pattern such as 'out/{stem}.glb'; {{ and }} are braces. No value leads out of the
+/// folder that the pattern names.
 /// @param allowed         allowed placeholders, for messages: `{stem} or {index}`
-/// @throws droplet::Error InvalidArgument: an unknown placeholder, or a single brace
+/// @throws droplet::Error InvalidArgument: an unknown placeholder, a single brace, a value that makes a folder `..`, or
+/// an
+///                        absolute path of a relative one
 std::string fillPattern(const Given& pattern, const PatternValues& values, const std::string& allowed);
 
 }  // namespace cli

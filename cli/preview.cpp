@@ -66,18 +66,6 @@ std::string numbered(const std::string& path, std::size_t number, std::size_t co
                        whole.extension().string());
 }
 
-std::vector<std::string> paths(const PreviewOptions& options)
-{
-    if (!options.turns || isVideo(options.path)) {
-        return {options.path};
-    }
-    std::vector<std::string> found;
-    for (std::size_t k = 1; k <= *options.turns; ++k) {
-        found.push_back(numbered(options.path, k, *options.turns));
-    }
-    return found;
-}
-
 /// Height at which a surface seen from the camera's place fills the picture as far as in width [px].
 int fittedHeight(const PreviewOptions& options, const droplet::Surface& surface)
 {
@@ -316,13 +304,16 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
     return options;
 }
 
-std::vector<NamedFile> previewPaths(const PreviewOptions& options)
+std::vector<std::string> previewPaths(const PreviewOptions& options)
 {
-    std::vector<NamedFile> files;
-    for (const std::string& path : paths(options)) {
-        files.push_back({"--preview", path});
+    if (!options.turns || isVideo(options.path)) {
+        return {options.path};
     }
-    return files;
+    std::vector<std::string> found;
+    for (std::size_t k = 1; k <= *options.turns; ++k) {
+        found.push_back(numbered(options.path, k, *options.turns));
+    }
+    return found;
 }
 
 std::vector<OutputFile> previewFiles(const PreviewOptions& options, const PreviewSubject& subject)
@@ -339,7 +330,7 @@ std::vector<OutputFile> previewFiles(const PreviewOptions& options, const Previe
                  }}};
     }
     std::vector<OutputFile> files;
-    const std::vector<std::string> names = paths(options);
+    const std::vector<std::string> names = previewPaths(options);
     for (std::size_t k = 0; k < names.size(); ++k) {
         files.push_back({names[k], [&options, &subject, k](std::ostream& out) {
                              const auto render = renderOptions(options, subject, k);

@@ -92,7 +92,7 @@ double turnOf(const PreviewOptions& options, std::size_t index);
 std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<std::string>& warnings);
 
 /// Paths of all files that will be written; a turntable in a video is one file.
-std::vector<NamedFile> previewPaths(const PreviewOptions& options);
+std::vector<std::string> previewPaths(const PreviewOptions& options);
 
 /// Output files of the pictures, which are drawn when they are written; `options` and `subject` must live until then.
 std::vector<OutputFile> previewFiles(const PreviewOptions& options, const PreviewSubject& subject);

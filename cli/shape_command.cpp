@@ -446,49 +446,40 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
     return finish(std::move(droplet), settings, {footprint.input}, around, options, stages);
 }
 
-void checkShape(const ShapeOptions& options, const std::string& input_name)
+void addSettings(RunFiles& files, const DropletSettings& settings, const RunOptions& run)
 {
-    std::vector<NamedFile> outputs{{"OUTPUT", options.output}};
-    if (const auto material = materialFile(options.output, options.format)) {
-        outputs.push_back({"OUTPUT's material", *material});
+    files.reads("--config", run.config);
+    files.reads("--surface", settings.ground.path);
+    files.reads("--onto", settings.onto);
+    if (settings.materials) {
+        files.reads("--materials", settings.materials->path);
     }
-    if (options.json) {
-        outputs.push_back({"--json", *options.json});
-    }
-    if (options.footprint.mask_out) {
-        outputs.push_back({"--mask-out", *options.footprint.mask_out});
-    }
-    if (options.evolver) {
-        outputs.push_back({"--export-evolver", *options.evolver});
-    }
-    if (options.html) {
-        outputs.push_back({"--html", *options.html});
-    }
+}
+
+RunFiles filesOf(const ShapeOptions& options, const std::string& input_name)
+{
+    RunFiles files;
+    files.reads(input_name, options.input);
+    addSettings(files, options.settings, options.run);
+    files.reads("--ground", groundPicture(options));
+    files.reads("--environment", environmentPicture(options));
+    files.writes("OUTPUT", options.output);
+    files.writes("OUTPUT's material", materialFile(options.output, options.format));
+    files.writes("--json", options.json);
+    files.writes("--mask-out", options.footprint.mask_out);
+    files.writes("--export-evolver", options.evolver);
+    files.writes("--html", options.html);
     if (options.preview) {
-        for (NamedFile& file : previewPaths(*options.preview)) {
-            outputs.push_back(std::move(file));
+        for (const std::string& path : previewPaths(*options.preview)) {
+            files.writes("--preview", path);
         }
     }
-    std::vector<NamedFile> inputs{{input_name, options.input}};
-    if (options.run.config) {
-        inputs.push_back({"--config", *options.run.config});
-    }
-    if (options.settings.ground.path) {
-        inputs.push_back({"--surface", *options.settings.ground.path});
-    }
-    if (options.settings.onto) {
-        inputs.push_back({"--onto", *options.settings.onto});
-    }
-    if (options.settings.materials) {
-        inputs.push_back({"--materials", options.settings.materials->path});
-    }
-    if (const auto picture = groundPicture(options)) {
-        inputs.push_back({"--ground", *picture});
-    }
-    if (const auto picture = environmentPicture(options)) {
-        inputs.push_back({"--environment", *picture});
-    }
-    checkFiles(inputs, outputs, options.run.files);
+    return files;
+}
+
+void checkShape(const ShapeOptions& options, const std::string& input_name)
+{
+    checkFiles(filesOf(options, input_name), options.run.files);
     if (options.preview) {
         checkVideo(*options.preview);
     }

@@ -11,6 +11,7 @@
 #include "droplet/footprint/outline.h"
 #include "droplet/io/report.h"
 #include "droplet/progress.h"
+#include "run_files.h"
 #include "shape_options.h"
 #include "surroundings.h"
 
@@ -61,10 +62,16 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
 droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, DrawnFootprint footprint,
                           const droplet::Progress& progress);
 
-/// Checks all paths before any work is done.
-/// @param input_name      name of the input in messages
+/// Files that one droplet's options name, and that its outputs bring with them.
+/// @param input_name  name of the input in messages
+RunFiles filesOf(const ShapeOptions& options, const std::string& input_name);
+
+/// Checks one droplet's files, and that a video can be written, before any work is done.
 /// @throws droplet::Error InvalidArgument, OutputFailed
 void checkShape(const ShapeOptions& options, const std::string& input_name);
+
+/// Adds the files that the options of every command that makes droplets read.
+void addSettings(RunFiles& files, const DropletSettings& settings, const RunOptions& run);
 
 /// Writes a warning to standard error.
 void printWarning(const std::string& warning, ProgressMode progress);

@@ -12,6 +12,7 @@
 #include "files.h"
 #include "option_values.h"
 #include "process.h"
+#include "run_files.h"
 #include "terminal.h"
 
 namespace cli {
@@ -96,7 +97,10 @@ int runStudio(int argc, const char* const* argv)
         return 0;
     }
     const std::string& path = paths[0].text;
-    checkFiles({}, {{"FILE", path}}, options);
+    RunFiles files;
+    files.reads("the page of Studio", page.string());
+    files.writes("FILE", path);
+    checkFiles(files, options);
     writeTogether({{path, [&](std::ostream& out) { out << textOf(page.string()); }}}, options);
     return 0;
 }

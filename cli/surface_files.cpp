@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "droplet/printable.h"
+#include "option_values.h"
+
 namespace cli {
 
 std::optional<std::string> materialFile(const std::string& path, droplet::Format format)
@@ -12,7 +15,11 @@ std::optional<std::string> materialFile(const std::string& path, droplet::Format
     if (format != droplet::Format::Obj || (file.extension() != ".obj" && file.extension() != ".OBJ")) {
         return std::nullopt;
     }
-    return file.replace_extension(".mtl").string();
+    const std::string name = file.replace_extension(".mtl").filename().string();
+    if (!droplet::isPrintable(name)) {
+        refuse("'" + path + "' names '" + name + "' in a line of its text: use UTF-8 without control characters");
+    }
+    return file.string();
 }
 
 droplet::Surface lowered(droplet::Surface surface, double depth)

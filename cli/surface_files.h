@@ -13,6 +13,7 @@
 namespace cli {
 
 /// Path of the .mtl file beside an .obj file; nothing for other names, formats and standard output.
+/// @throws droplet::Error InvalidArgument: the .obj cannot hold its name
 std::optional<std::string> materialFile(const std::string& path, droplet::Format format);
 
 /// Surface that lies deeper in the ground.

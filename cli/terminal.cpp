@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "droplet/printable.h"
 #include "library_message.h"
 
 namespace cli {
@@ -42,12 +43,7 @@ std::string paint(std::string_view text, Colour colour)
 
 std::string oneLine(std::string_view text)
 {
-    std::string line;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        line += byte < 0x20 || byte == 0x7f ? '?' : c;
-    }
-    return line;
+    return droplet::printable(text);
 }
 
 void printError(std::string_view message)

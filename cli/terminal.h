@@ -20,7 +20,7 @@ bool hasDisplay();
 /// Text in a colour, if standard error is a terminal and NO_COLOR is unset or empty.
 std::string paint(std::string_view text, Colour colour);
 
-/// Text with line breaks and other control characters replaced by '?': file names may contain them.
+/// Text in one line of valid UTF-8, by droplet::printable(): file names may hold any bytes.
 std::string oneLine(std::string_view text);
 
 /// Prints a failure in one line on standard error.

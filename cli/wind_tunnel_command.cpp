@@ -19,6 +19,7 @@
 #include "droplet/wind_io/chart.h"
 #include "droplet/wind_io/tunnel_report.h"
 #include "files.h"
+#include "run_files.h"
 #include "wind_tunnel_options.h"
 
 namespace cli {
@@ -123,7 +124,7 @@ droplet::TraceRun traced(const WindTunnelOptions& options)
 
 OutputFile fileOf(const TunnelOutput& output, const WindTunnelOptions& options)
 {
-    const auto with = [&](auto write) { return OutputFile{output.file.path, std::move(write)}; };
+    const auto with = [&](auto write) { return OutputFile{output.path, std::move(write)}; };
     const std::vector<droplet::TunnelRun>& runs = options.runs;
     const auto svg = [&](bool is_map) {
         return with([&runs, is_map](std::ostream& out) { writeSvg(drawn(runs, is_map), out); });
@@ -164,15 +165,12 @@ int runWindTunnel(int argc, const char* const* argv)
         return 0;
     }
     auto& options = std::get<WindTunnelOptions>(parsed);
-    std::vector<NamedFile> outputs;
+    RunFiles run_files;
+    run_files.reads("--config", options.config);
     for (const TunnelOutput& output : options.outputs) {
-        outputs.push_back(output.file);
+        run_files.writes(output.name, output.path);
     }
-    std::vector<NamedFile> inputs;
-    if (options.config) {
-        inputs.push_back({"--config", *options.config});
-    }
-    checkFiles(inputs, outputs, options.files);
+    checkFiles(run_files, options.files);
     std::optional<tbb::global_control> limit;
     if (options.threads) {
         limit.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);

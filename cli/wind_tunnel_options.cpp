@@ -8,6 +8,7 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "droplet/wind_io/chart.h"
+#include "files.h"
 #include "force_options.h"
 #include "option_values.h"
 #include "value_list.h"
@@ -96,7 +97,7 @@ void readOutputs(const CommandLine& line, WindTunnelOptions& options)
         std::string known;
         for (const auto& [extension, kind] : kinds) {
             if (extensionOf(given.text) == extension) {
-                options.outputs.push_back({{given.subject, given.text}, kind});
+                options.outputs.push_back({given.subject, given.text, kind});
                 return;
             }
             known += std::string(known.empty() ? "" : ", ") + extension;
@@ -105,7 +106,7 @@ void readOutputs(const CommandLine& line, WindTunnelOptions& options)
     };
     for (const Given& given : line.values("OUTPUT")) {
         if (isStream(given.text)) {
-            options.outputs.push_back({{given.subject, given.text}, TunnelFile::Csv});
+            options.outputs.push_back({given.subject, given.text, TunnelFile::Csv});
             continue;
         }
         add(given, {{".csv", TunnelFile::Csv},
@@ -114,7 +115,7 @@ void readOutputs(const CommandLine& line, WindTunnelOptions& options)
                     {".png", TunnelFile::ChartPng}});
     }
     if (const auto json = line.value("--json")) {
-        options.outputs.push_back({{"--json", json->text}, TunnelFile::Json});
+        options.outputs.push_back({"--json", json->text, TunnelFile::Json});
     }
     if (const auto chart = line.value("--chart")) {
         add(*chart, {{".svg", TunnelFile::ChartSvg}, {".png", TunnelFile::ChartPng}});
@@ -125,7 +126,7 @@ void readOutputs(const CommandLine& line, WindTunnelOptions& options)
     if (const auto trace = line.value("--trace")) {
         options.traces = true;
         if (isStream(trace->text)) {
-            options.outputs.push_back({{"--trace", trace->text}, TunnelFile::TraceCsv});
+            options.outputs.push_back({"--trace", trace->text, TunnelFile::TraceCsv});
         } else {
             add(*trace, {{".csv", TunnelFile::TraceCsv}, {".json", TunnelFile::TraceJson}});
         }

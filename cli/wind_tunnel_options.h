@@ -9,7 +9,6 @@
 #include "droplet/io/output.h"
 #include "droplet/wind/trace.h"
 #include "droplet/wind_io/tunnel_report.h"
-#include "files.h"
 
 namespace cli {
 
@@ -17,7 +16,8 @@ namespace cli {
 enum class TunnelFile { Csv, Json, ChartSvg, ChartPng, MapSvg, MapPng, TraceCsv, TraceJson };
 
 struct TunnelOutput {
-    NamedFile file;
+    std::string name;  ///< name of the option, for messages
+    std::string path;  ///< or kStandardStream
     TunnelFile kind = TunnelFile::Csv;
 };
 

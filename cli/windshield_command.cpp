@@ -12,6 +12,7 @@
 #include "files.h"
 #include "progress_display.h"
 #include "shape_command.h"
+#include "terminal.h"
 #include "windshield_files.h"
 #include "windshield_options.h"
 #include "windshield_run.h"
@@ -33,7 +34,7 @@ void printSummary(const droplet::WindshieldReport& report)
               << fmt::format("water: {} rained = {} on the glass + {} run off + {} wiped off\n", litres(water.rained),
                              litres(water.on_glass_still + water.on_glass_running), litres(water.left),
                              litres(water.wiped))
-              << report.output << "\n";
+              << oneLine(report.output) << "\n";
     std::cerr << std::flush;
 }
 
@@ -47,7 +48,7 @@ int runWindshield(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<WindshieldOptions>(parsed);
-    checkWindshieldFiles(options);
+    checkFiles(filesOf(options), options.output_options);
     std::optional<tbb::global_control> threads;
     if (options.threads) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "checkpoint.h"
 #include "content_hash.h"
-#include "files.h"
-#include "option_values.h"
+#include "windshield_plan.h"
 
 namespace cli {
 namespace {
@@ -18,12 +18,6 @@ std::string beforeExtension(std::string path, const char* map)
     return path.insert(path.size() - std::string(".png").size(), std::string("-") + map);
 }
 
-/// Pattern of a map's paths, with the placeholder for the number.
-std::string mapPattern(const NumberedPath& maps, const char* map)
-{
-    return beforeExtension(maps.text(), map);
-}
-
 }  // namespace
 
 std::string mapPath(const NumberedPath& maps, std::size_t number, const char* map)
@@ -31,77 +25,31 @@ std::string mapPath(const NumberedPath& maps, std::size_t number, const char* ma
     return beforeExtension(maps.at(number), map);
 }
 
-std::string checkpointPath(const NumberedPath& files)
+RunFiles filesOf(const WindshieldOptions& options)
 {
-    return std::filesystem::path(files.with("checkpoint")).replace_extension(".state").string();
-}
-
-void checkWindshieldFiles(const WindshieldOptions& options)
-{
-    std::vector<NamedFile> inputs;
-    const auto input = [&](const char* name, const std::optional<std::string>& path) {
-        if (path) {
-            inputs.push_back({name, *path});
-        }
-    };
-    input("--background", options.background);
-    input("--environment", options.environment);
-    input("--drive-cycle", options.drive_cycle);
-    input("--surface", options.surface);
-    input("--config", options.config);
-    std::vector<NamedFile> outputs{
-        {"OUTPUT", options.files ? options.files->at(1) : options.output, options.files.has_value()}};
-    if (options.maps) {
-        for (const char* map : kMapNames) {
-            outputs.push_back({"--maps", mapPath(*options.maps, 1, map), true});
-        }
-    }
+    RunFiles files;
+    files.reads("--background", options.background);
+    files.reads("--environment", options.environment);
+    files.reads("--drive-cycle", options.drive_cycle);
+    files.reads("--surface", options.surface);
+    files.reads("--config", options.config);
+    const FrameNumbers numbers{1, frameCount(options)};
     if (options.files) {
-        outputs.push_back({"OUTPUT's checkpoint", checkpointPath(*options.files)});
+        files.writesFrames("OUTPUT", *options.files, numbers);
+        files.writes("OUTPUT's checkpoint", checkpointPath(*options.files));
+    } else {
+        files.writes("OUTPUT", options.output);
     }
-    const auto output = [&](const char* name, const std::optional<std::string>& path) {
-        if (path) {
-            outputs.push_back({name, *path});
-        }
-    };
-    output("--droplets", options.droplets);
-    output("--model", options.model);
-    output("--json", options.json);
-    checkFiles(inputs, outputs, options.output_options);
-}
-
-void checkFrameFiles(const WindshieldOptions& options, std::size_t frames)
-{
-    const auto check_pattern = [&](const char* name, const NumberedPath& pattern) {
-        const auto clash = [&](const char* other, const std::optional<std::string>& path) {
-            const auto number = path && !isStream(*path) ? pattern.numberOf(*path) : std::nullopt;
-            if (number && *number >= 1 && *number <= frames) {
-                refuse(std::string(name) + " and " + other + " are the same, '" + *path +
-                       "'; they must be different files");
-            }
-        };
-        clash("--background", options.background);
-        clash("--environment", options.environment);
-        clash("--drive-cycle", options.drive_cycle);
-        clash("--surface", options.surface);
-        clash("--config", options.config);
-        clash("--droplets", options.droplets);
-        clash("--model", options.model);
-        clash("--json", options.json);
-        for (const std::size_t number : pattern.numbers()) {
-            if (options.output_options.no_clobber && number >= 1 && number <= frames) {
-                droplet::checkWritable(pattern.at(number), options.output_options);
-            }
-        }
-    };
-    if (options.files) {
-        check_pattern("OUTPUT", *options.files);
-    }
-    if (options.maps) {
-        for (const char* map : kMapNames) {
-            check_pattern("--maps", *NumberedPath::of(mapPattern(*options.maps, map), "--maps"));
+    for (const char* map : kMapNames) {
+        if (options.maps) {
+            files.writesFrames("--maps", *NumberedPath::of(beforeExtension(options.maps->text(), map), "--maps"),
+                               numbers);
         }
     }
+    files.writes("--droplets", options.droplets);
+    files.writes("--model", options.model);
+    files.writes("--json", options.json);
+    return files;
 }
 
 bool hasFrame(const WindshieldOptions& options, std::size_t number)

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 
+#include "run_files.h"
 #include "windshield_options.h"
 
 namespace cli {
@@ -15,17 +16,8 @@ inline constexpr std::array<const char*, 3> kMapNames{"normal", "thickness", "ve
 /// Path of one map of a frame, such as `maps/00001-normal.png`.
 std::string mapPath(const NumberedPath& maps, std::size_t number, const char* map);
 
-/// Path of the checkpoint beside the frames.
-std::string checkpointPath(const NumberedPath& files);
-
-/// Checks all paths before any work is done.
-/// @throws droplet::Error InvalidArgument, InvalidInput, OutputFailed
-void checkWindshieldFiles(const WindshieldOptions& options);
-
-/// Checks that frames replace no other input or output and, with --no-clobber, no existing file.
-/// @param frames          number of frames
-/// @throws droplet::Error InvalidArgument, OutputFailed
-void checkFrameFiles(const WindshieldOptions& options, std::size_t frames);
+/// All files that a run reads and writes.
+RunFiles filesOf(const WindshieldOptions& options);
 
 /// Whether all files of a frame exist.
 bool hasFrame(const WindshieldOptions& options, std::size_t number);

@@ -76,7 +76,20 @@ void requireRain(const std::string& surface, const droplet::WindshieldParameters
             ": rain cannot reach it: its triangles face downward, backward or inward; normals must point outward");
 }
 
+std::size_t framesIn(double duration, const WindshieldOptions& options)
+{
+    return std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);
+}
+
 }  // namespace
+
+std::optional<std::size_t> frameCount(const WindshieldOptions& options)
+{
+    constexpr double kDefault = 10.0;  // [s]
+    return options.drive_cycle && !options.duration
+               ? std::nullopt
+               : std::optional(framesIn(options.duration.value_or(kDefault), options));
+}
 
 WindshieldPlan planOf(const WindshieldOptions& options)
 {
@@ -92,7 +105,7 @@ WindshieldPlan planOf(const WindshieldOptions& options)
     if (options.wiper) {
         parameters.wipers = droplet::tandemWipers(parameters.glass, *options.wiper);
     }
-    const double duration = options.duration.value_or(options.drive_cycle ? parameters.vehicle.times.back() : 10.0);
+    const double duration = options.drive_cycle ? parameters.vehicle.times.back() : 0.0;
     // The cycle begins at the first frame.
     for (double& time : parameters.vehicle.times) {
         time += options.warm_up;
@@ -101,8 +114,7 @@ WindshieldPlan planOf(const WindshieldOptions& options)
     if (options.surface) {
         requireRain(*options.surface, parameters);
     }
-    plan.frames =
-        std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);
+    plan.frames = frameCount(options).value_or(framesIn(duration, options));
     // A frame is a whole number of steps of at most a sixtieth of a second.
     constexpr double kLongest = 1.0 / 60.0;
     plan.steps = static_cast<std::size_t>(std::ceil(1.0 / (kLongest * options.frames_per_second) - 1e-9));

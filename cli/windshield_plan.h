@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct WindshieldPlan {
     double step = 0.0;      ///< time step [s]
     std::vector<std::string> warnings;
 };
+
+/// Number of frames, at least one; empty if the drive cycle decides it.
+std::optional<std::size_t> frameCount(const WindshieldOptions& options);
 
 /// Reads the options' files and makes the plan.
 /// @throws droplet::Error InvalidArgument, InvalidInput

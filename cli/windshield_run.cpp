@@ -67,7 +67,6 @@ private:
 WindshieldRun::WindshieldRun(const WindshieldOptions& options, ProgressDisplay& progress)
     : options_(options), progress_(progress), plan_(planOf(options)), frames_(options, plan_.parameters)
 {
-    checkFrameFiles(options_, plan_.frames);
     if (options_.files) {
         fingerprint_ = fingerprintOf(options_);
     }

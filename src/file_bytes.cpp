@@ -12,22 +12,13 @@
 #include <system_error>
 
 #include "droplet/error.h"
+#include "droplet/printable.h"
 
 namespace droplet {
-namespace {
-
-std::string oneLine(std::string text)
-{
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-    return text;
-}
-
-}  // namespace
 
 std::string shown(const std::filesystem::path& path)
 {
-    return oneLine(path.string());
+    return printable(path.string());
 }
 
 Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::function<bool(const Bytes&)>& expected)
@@ -68,7 +59,7 @@ Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::f
 void readFile(const std::filesystem::path& path, const std::function<void()>& read)
 {
     const auto refuse = [&path](const std::string& why) {
-        throw Error(ErrorCode::InvalidInput, "cannot use " + shown(path) + ": " + oneLine(why));
+        throw Error(ErrorCode::InvalidInput, "cannot use " + shown(path) + ": " + printable(why));
     };
     try {
         read();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/units.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "droplet/error.h"
 #include "droplet/liquid.h"
+#include "droplet/printable.h"
 
 namespace droplet {
 namespace {
@@ -95,12 +97,11 @@ std::string plainUnit(std::string_view unit)
 std::string quoted(std::string_view text)
 {
     constexpr std::size_t kLongest = 40;  // a quantity takes about twelve characters
-    std::string result = "'";
-    for (const char c : text.substr(0, kLongest)) {
-        const auto byte = static_cast<unsigned char>(c);
-        result += byte < 0x20 || byte == 0x7f ? '?' : c;
+    std::size_t end = std::min(text.size(), kLongest);
+    while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) {
+        --end;  // no part of a character
     }
-    return result + (text.size() > kLongest ? "…'" : "'");
+    return "'" + printable(text.substr(0, end)) + (end < text.size() ? "…'" : "'");
 }
 
 [[noreturn]] void refuse(std::string_view text, const std::string& reason, Dimension dimension)

@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <cstddef>
 #include <cstdint>
 
 #include "droplet/error.h"
@@ -30,26 +29,36 @@ bool isScalarValue(char32_t c)
 
 }  // namespace
 
+std::optional<Utf8Character> characterAt(std::string_view text, std::size_t begin)
+{
+    const auto first = static_cast<unsigned char>(text[begin]);
+    const std::size_t count = following(first);
+    if (count == 4 || count >= text.size() - begin) {
+        return std::nullopt;
+    }
+    char32_t c = count == 0 ? first : static_cast<char32_t>(first & (0x3fU >> count));
+    for (std::size_t k = 1; k <= count; ++k) {
+        const auto next = static_cast<unsigned char>(text[begin + k]);
+        if ((next & 0xc0U) != 0x80U) {
+            return std::nullopt;
+        }
+        c = (c << 6U) | (next & 0x3fU);
+    }
+    // Only the shortest form is valid.
+    constexpr char32_t kMin[] = {0, 0x80, 0x800, 0x10000};
+    return c < kMin[count] || !isScalarValue(c) ? std::nullopt : std::optional(Utf8Character{c, count + 1});
+}
+
 std::u32string decodeUtf8(std::string_view text, const std::string& subject)
 {
     std::u32string characters;
     for (std::size_t i = 0; i < text.size();) {
-        const auto first = static_cast<unsigned char>(text[i]);
-        const std::size_t count = following(first);
-        bool good = count < 4 && i + count < text.size();
-        char32_t c = count == 0 ? first : static_cast<char32_t>(first & (0x3fU >> count));
-        for (std::size_t k = 1; good && k <= count; ++k) {
-            const auto next = static_cast<unsigned char>(text[i + k]);
-            good = (next & 0xc0U) == 0x80U;
-            c = (c << 6U) | (next & 0x3fU);
-        }
-        // Only the shortest form is valid.
-        constexpr char32_t kMin[] = {0, 0x80, 0x800, 0x10000};
-        if (!good || c < kMin[count] || !isScalarValue(c)) {
+        const auto character = characterAt(text, i);
+        if (!character) {
             throw Error(ErrorCode::InvalidArgument, subject + " is not UTF-8 at byte " + std::to_string(i + 1));
         }
-        characters.push_back(c);
-        i += count + 1;
+        characters.push_back(character->value);
+        i += character->bytes;
     }
     return characters;
 }

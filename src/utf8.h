@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace droplet {
+
+/// Character of a text in UTF-8.
+struct Utf8Character {
+    char32_t value;     ///< a Unicode scalar value
+    std::size_t bytes;  ///< 1 to 4
+};
+
+/// Character that begins at a byte of a text; nothing if the bytes there are not valid.
+/// @param begin  less than the text's size
+std::optional<Utf8Character> characterAt(std::string_view text, std::size_t begin);
 
 /// Decodes UTF-8.
 /// @param subject  start of the error message

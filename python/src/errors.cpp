@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "droplet/printable.h"
 
 namespace binding {
 namespace {
@@ -22,8 +23,8 @@ void registerErrors()
         try {
             std::rethrow_exception(std::move(thrown));
         } catch (const droplet::Error& error) {
-            const py::object made =
-                py::module_::import("droplet_shape._errors").attr("made")(name(error.code()), error.what());
+            const py::object made = py::module_::import("droplet_shape._errors")
+                                        .attr("made")(name(error.code()), droplet::printable(error.what()));
             PyErr_SetObject(py::type::of(made).ptr(), made.ptr());
         }
     });

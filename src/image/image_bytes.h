@@ -8,20 +8,17 @@
 #include <string_view>
 
 #include "droplet/error.h"
+#include "droplet/printable.h"
 #include "image/image_header.h"
 
 namespace droplet {
 
-/// Throws the error for an image that breaks its format's rules or ends before its pixels do. Control characters in
-/// `detail`, which may quote the file, become `?`.
+/// Throws the error for an image that breaks its format's rules or ends before its pixels do. `detail` may
+/// quote the file.
 [[noreturn]] inline void throwDamaged(ImageFormat format, std::string_view detail,
                                       std::string_view judgement = "truncated or damaged")
 {
-    std::string message = std::string(judgement) + " " + name(format) + " image: ";
-    for (const char c : detail) {
-        message += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-    }
-    throw Error(ErrorCode::InvalidInput, message);
+    throw Error(ErrorCode::InvalidInput, std::string(judgement) + " " + name(format) + " image: " + printable(detail));
 }
 
 /// Throws the error for an intact image of a kind that is not supported.

@@ -26,6 +26,7 @@
 #include <optional>
 #include <string>
 
+#include "droplet/printable.h"
 #include "image/codecs.h"
 #include "image/image_bytes.h"
 #include "image/installed.h"
@@ -42,7 +43,7 @@ constexpr std::size_t kMaxTags = 250'000;
 
 [[noreturn]] void throwRefused(const std::string& detail)
 {
-    throw Error(ErrorCode::InvalidInput, "SVG image " + detail);
+    throw Error(ErrorCode::InvalidInput, "SVG image " + printable(detail));
 }
 
 [[noreturn]] void throwSystem(int failure)

@@ -17,6 +17,7 @@
 #include <string_view>
 
 #include "droplet/error.h"
+#include "droplet/printable.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
 #include "io/axes.h"
@@ -25,6 +26,7 @@
 #include "io/length_unit.h"
 #include "io/preview_opacity.h"
 #include "io/welded_vertices.h"
+#include "require.h"
 
 namespace droplet {
 namespace {
@@ -57,6 +59,15 @@ Vec3 facetNormal(Vec3 a, Vec3 b, Vec3 c)
     return size > 0.0 ? (1.0 / size) * normal : Vec3{};
 }
 
+/// Refuses a name that OBJ and MTL cannot hold. They have no escapes: a line break would end the name and begin a line
+/// of its own.
+void requireName(const char* field, const std::string& name)
+{
+    if (!isPrintable(name)) {
+        refuseValue(field, "'" + printable(name) + "'", "UTF-8 without control characters");
+    }
+}
+
 std::string signature()
 {
     return std::string("droplet-shape ") + kVersion;
@@ -73,6 +84,12 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptio
                                               [&](const SurfacePart& part) { return part.droplet >= looks.size(); }))) {
         throw Error(ErrorCode::InvalidArgument, "options.looks has " + std::to_string(looks.size()) +
                                                     " entries; the surface must have parts, for these droplets alone");
+    }
+    if (options.material_file) {
+        requireName("options.material_file", *options.material_file);
+    }
+    for (const Look& look : looks) {
+        requireName("options.looks' name", look.name);
     }
     const NamedUnit& unit = namedUnit(options.unit);
     const WeldedVertices welded = weldVertices(surface);
@@ -148,6 +165,9 @@ std::uint64_t writeMtl(Material material, std::ostream& out)
 
 std::uint64_t writeMtl(const std::vector<Look>& looks, std::ostream& out)
 {
+    for (const Look& look : looks) {
+        requireName("look.name", look.name);
+    }
     ByteStream bytes(out);
     bytes.text("# " + signature() + "\n");
     for (auto look = looks.begin(); look != looks.end(); ++look) {

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -24,6 +23,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "droplet/printable.h"
 
 namespace droplet {
 namespace {
@@ -42,13 +42,9 @@ constexpr std::uint64_t kWriteBack = std::uint64_t{1} << 22;
 
 constexpr const char* kMustNotBeReplaced = "exists and must not be replaced";
 
-// A name may hold line breaks; a message must not.
 std::string quoted(const fs::path& path)
 {
-    std::string text = path.string();
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
-    return '"' + text + '"';
+    return '"' + printable(path.string()) + '"';
 }
 
 [[noreturn]] void fail(const fs::path& path, const std::string& cause)

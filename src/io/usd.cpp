@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/printable.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
 #include "io/axes.h"
@@ -80,9 +81,8 @@ std::string displayName(const PrimName& name)
         return {};
     }
     std::string text = "displayName = \"";
-    for (const char c : name.display) {
-        const bool is_control = static_cast<unsigned char>(c) < 0x20;
-        text += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, is_control ? ' ' : c);
+    for (const char c : printable(name.display)) {
+        text += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
     }
     return text + "\"";
 }

@@ -11,6 +11,7 @@
 
 #include "droplet/error.h"
 #include "droplet/footprint/mask.h"
+#include "droplet/printable.h"
 #include "droplet/units.h"
 #include "file_bytes.h"
 #include "liquid2d/region.h"
@@ -18,13 +19,6 @@
 
 namespace droplet {
 namespace {
-
-std::string onOneLine(std::string text)
-{
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
-    return text;
-}
 
 class SceneFile {
 public:
@@ -45,7 +39,7 @@ private:
 
     [[noreturn]] void refuse(std::size_t line, const std::string& what) const
     {
-        throw Error(ErrorCode::InvalidInput, onOneLine(fmt::format("{}:{}: {}", shown(path_), line, what)));
+        throw Error(ErrorCode::InvalidInput, printable(fmt::format("{}:{}: {}", path_.string(), line, what)));
     }
 
     static std::size_t lineOf(const toml::node& node) { return node.source().begin.line; }
@@ -364,6 +358,39 @@ private:
     const std::filesystem::path& path_;
 };
 
+/// Text of a scene's file.
+/// @throws Error InvalidInput
+std::string textOf(const std::filesystem::path& path)
+{
+    constexpr std::size_t kMaxBytes = std::size_t{1} << 24U;
+    Bytes bytes;
+    readFile(path, [&] {
+        bytes = readBytes(path, kMaxBytes, [](std::byte) { return true; });
+        if (bytes.size() == kMaxBytes) {
+            throw Damage("a scene has less than 16 MiB");
+        }
+    });
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// Adds the values of all keys `mask` in a table, as paths below a folder.
+void addMasks(const toml::table& table, const std::filesystem::path& folder, std::vector<std::filesystem::path>& masks)
+{
+    for (const auto& [key, node] : table) {
+        if (const auto mask = key == "mask" ? node.value<std::string>() : std::nullopt) {
+            masks.push_back(folder / *mask);
+        } else if (const toml::table* inner = node.as_table()) {
+            addMasks(*inner, folder, masks);
+        } else if (const toml::array* list = node.as_array()) {
+            for (const toml::node& item : *list) {
+                if (const toml::table* of_list = item.as_table()) {
+                    addMasks(*of_list, folder, masks);
+                }
+            }
+        }
+    }
+}
+
 }  // namespace
 
 Region regionOf(const Outline& outline, Vec2 centre)
@@ -409,17 +436,26 @@ FluidScene parseFluidScene(std::string_view text, const std::filesystem::path& p
     return SceneFile(path).read(text);
 }
 
+std::vector<std::filesystem::path> masksOfScene(const std::filesystem::path& path)
+{
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) {
+        return {};  // a pipe can be read only once
+    }
+    try {
+        std::vector<std::filesystem::path> masks;
+        addMasks(toml::parse(textOf(path)), path.parent_path(), masks);
+        return masks;
+    } catch (const toml::parse_error&) {
+        return {};
+    } catch (const Error&) {
+        return {};
+    }
+}
+
 FluidScene readFluidScene(const std::filesystem::path& path)
 {
-    constexpr std::size_t kMaxBytes = std::size_t{1} << 24U;
-    Bytes bytes;
-    readFile(path, [&] {
-        bytes = readBytes(path, kMaxBytes, [](std::byte) { return true; });
-        if (bytes.size() == kMaxBytes) {
-            throw Damage("a scene has less than 16 MiB");
-        }
-    });
-    return parseFluidScene({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
+    return parseFluidScene(textOf(path), path);
 }
 
 }  // namespace droplet

@@ -372,11 +372,11 @@ TEST_F(BatchTest, FindsErrorsBeforeAnyWork)
     expect_refused({"batch", "masks", "-o", "out/{stm}.glb"}, 2, "{stem}, {name}");
     expect_refused({"batch", "masks", "-o", "out/{stem.glb"}, 2, "{stem}, {name}");
     expect_refused({"batch", "masks", "-o", "out/}.glb"}, 2, "{stem}, {name}");
-    expect_refused({"batch", "masks", "-o", "out/one.glb"}, 2, "same output");
-    expect_refused({"batch", "masks/a.pgm", "masks/../masks/a.pgm", "-o", "out/{stem}.glb"}, 2, "same output");
-    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--json", "out/{stem}.glb"}, 2, "same output");
-    expect_refused({"batch", "masks", "-o", "masks/{name}", "--format", "stl"}, 2, "which is an input");
-    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--manifest", "masks/a.pgm"}, 2, "which is an input");
+    expect_refused({"batch", "masks", "-o", "out/one.glb"}, 2, "are the same");
+    expect_refused({"batch", "masks/a.pgm", "masks/../masks/a.pgm", "-o", "out/{stem}.glb"}, 2, "are the same");
+    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--json", "out/{stem}.glb"}, 2, "are the same");
+    expect_refused({"batch", "masks", "-o", "masks/{name}", "--format", "stl"}, 2, "are the same");
+    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--manifest", "masks/a.pgm"}, 2, "are the same");
     expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--manifest", "masks/notes.txt"}, 2,
                    "is not a droplet-shape.manifest/1");
     for (const char* share : {"0/3", "4/3", "1", "1/", "/3", "a/b", "1/0", "-1/3"}) {
@@ -396,12 +396,48 @@ TEST_F(BatchTest, OutputThatCannotBeWrittenFailsAlone)
     EXPECT_THAT(statuses(), ElementsAre("made", "failed", "made"));
     EXPECT_EQ(manifest()["items"][1]["exit_code"], 4);
     EXPECT_THAT(result.error, HasSubstr("out/b.glb"));
-    // --no-clobber protects a foreign file; files of this batch are skipped.
-    fs::remove(directory() / "out/b.glb");
+}
+
+TEST_F(BatchTest, PlaceholdersStayInTheirFolder)
+{
+    const auto refused = [&](const std::string& picture, const std::string& output, const std::string& word) {
+        fs::create_directories(directory() / fs::path(picture).parent_path());
+        writeFile(directory() / picture, discPicture(64, 24.0));
+        const auto result = run({"batch", picture, "-o", output});
+        EXPECT_EQ(result.exit_code, 2) << output;
+        EXPECT_THAT(result.error, HasSubstr(word));
+        EXPECT_FALSE(fs::exists(directory() / "out"));
+        fs::remove(directory() / picture);
+    };
+    refused("...png", "out/sub/{stem}/x.glb", "'out/sub/../x.glb', outside of its folder");
+    refused("..png", "out/sub/.{stem}/x.glb", "'out/sub/../x.glb', outside of its folder");
+    refused("..png", "out/sub/{stem}{stem}/x.glb", "'out/sub/../x.glb', outside of its folder");
+    refused("bare", "{ext}/x.glb", "'/x.glb', outside of its folder");
+}
+
+TEST_F(BatchTest, NamesInTextFilesHaveNoLineBreaks)
+{
+    writeFile(directory() / "two\nlines.pgm", discPicture(64, 24.0));
+    const auto refused = run({"batch", "two\nlines.pgm", "-o", "out/{stem}.obj"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.error, HasSubstr("two\\nlines.mtl"));
+    EXPECT_FALSE(fs::exists(directory() / "out"));
+    EXPECT_EQ(run({"batch", "two\nlines.pgm", "-o", "out/{stem}.glb"}).exit_code, 0);
+}
+
+TEST_F(BatchTest, NoClobberProtectsForeignFiles)
+{
+    ASSERT_EQ(batch({}).exit_code, 0);
+    EXPECT_EQ(batch({"--no-clobber"}).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("skipped", "skipped", "skipped")) << "files of this batch";
+    fs::remove(directory() / "out/a.glb");
     writeFile(directory() / "out/b.glb", "old");
-    EXPECT_EQ(batch({"--keep-going", "--no-clobber"}).exit_code, 6);
-    EXPECT_THAT(statuses(), ElementsAre("skipped", "failed", "skipped"));
+    const auto refused = batch({"--keep-going", "--no-clobber"});
+    EXPECT_EQ(refused.exit_code, 4);
+    EXPECT_THAT(refused.error, HasSubstr("out/b.glb\": exists and must not be replaced"));
     EXPECT_EQ(readFile(directory() / "out/b.glb"), "old");
+    EXPECT_FALSE(fs::exists(directory() / "out/a.glb")) << "refused before any work";
+    EXPECT_EQ(batch({"--no-clobber", "--no-resume"}).exit_code, 4);
 }
 
 TEST_F(BatchTest, ManifestOnAFullDiskFails)
@@ -498,7 +534,7 @@ TEST_F(BatchTest, EveryShareHasItsContactSheet)
 TEST_F(BatchTest, RefusesWrongContactSheets)
 {
     for (const auto& [name, words] :
-         {std::pair{"sheet.jpg", "a file that ends in .png"}, {"masks/a.png", "which is an input"}}) {
+         {std::pair{"sheet.jpg", "a file that ends in .png"}, {"masks/a.png", "are the same"}}) {
         writeFile(directory() / "masks/a.png", "a picture");
         const CommandResult result = batch({"--contact-sheet", name});
         EXPECT_EQ(result.exit_code, 2);

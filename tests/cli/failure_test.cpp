@@ -287,6 +287,19 @@ TEST_F(FailureTest, PrintsNamesWithLineBreaksOnOneLine)
     expectRefusal({"disc.pgm", "old.glb", "--width", "4\nmm"}, 2, {"--width"});
 }
 
+TEST_F(FailureTest, EscapesBytesOfNamesThatAreNotUtf8)
+{
+    expectRefusal({"bad\xff.png", "old.glb"}, 3, {"bad\\xff.png"});
+    expectRefusal({"two\nlines.png", "old.glb"}, 3, {"two\\nlines.png"});
+    expectRefusal({"disc.pgm", "old.glb", "--width", "4\xe6\xb0mm"}, 2, {"--width", "4\\xe6\\xb0mm"});
+    expectRefusal({"disc.pgm", "old.glb", "--bad\xff"}, 2, {"--bad\\xff"});
+    writeFile(directory() / "options.toml", "wid\xffth = 3\n");
+    expectRefusal({"disc.pgm", "old.glb", "--config", "options.toml"}, 2, {"options.toml"});
+    const auto result = run({"disc.pgm", "made\xff.glb", "--triangles", "500"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.error, HasSubstr("made\\xff.glb"));
+}
+
 TEST_F(FailureTest, RefusesEdgeTooShortForTheFootprint)
 {
     expectRefusal({"disc.pgm", "old.glb", "--edge", "1nm", "--json", "old.json"}, 2,

@@ -341,6 +341,20 @@ TEST(MeshFiles, ObjMaterialsHaveTheirProperties)
     EXPECT_THAT(out.str().substr(0, 200), HasSubstr("\nmtllib drop.mtl\nusemtl ink\n"));
 }
 
+TEST(MeshFiles, NamesAreLinesOfText)
+{
+    std::ostringstream out;
+    for (const char* name : {"a\nf 1 2 3.mtl", "a\xff.mtl", "a\tb.mtl"}) {
+        EXPECT_THROW(writeObj(roundDroplet(), out, {.material_file = name}), Error) << name;
+    }
+    Look look = lookOf(Material::Ink);
+    look.name = "ink\nnewmtl water";
+    EXPECT_THROW(writeMtl({look}, out), Error);
+    EXPECT_EQ(out.str(), "");
+    writeObj(roundDroplet(), out, {.material_file = "größer b.mtl"});
+    EXPECT_THAT(out.str().substr(0, 200), HasSubstr("\nmtllib größer b.mtl\n"));
+}
+
 TEST(MeshFiles, ObjDropletsHaveTheirMaterials)
 {
     ObjOptions options;

@@ -547,7 +547,7 @@ TEST_F(Output, TheLongestNameIsAccepted)
 
 TEST_F(Output, ALineBreakInANameDoesNotBreakTheMessage)
 {
-    EXPECT_THAT(complaint([&] { checkWritable(folder / "a\nb" / "c"); }), HasSubstr("a?b/c"));
+    EXPECT_THAT(complaint([&] { checkWritable(folder / "a\nb" / "c"); }), HasSubstr("a\\nb/c"));
 }
 
 TEST_F(Output, APipeGetsEverything)

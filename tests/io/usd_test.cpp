@@ -397,7 +397,7 @@ TEST(Usda, NamesArePrimsIdentifiersAndStayApart)
     const UsdPrim droplet = parsed(written(writeUsda, pairOfDroplets(), options));
     ASSERT_THAT(droplet.order, ElementsAre("surface", "surface_2", "ior_1_4____"));
     EXPECT_EQ(droplet.child("surface_2").metadata.at("displayName"), "surface");
-    EXPECT_EQ(droplet.child("ior_1_4____").metadata.at("displayName"), "ior 1.4 \"\\ ");
+    EXPECT_EQ(droplet.child("ior_1_4____").metadata.at("displayName"), "ior 1.4 \"\\\\n");
     options.nodes = Nodes::Each;
     options.droplets[0].name = options.droplets[1].name = "";
     options.droplets[0].look.name = "a.b";

@@ -19,7 +19,7 @@ enum class LengthUnit { Millimetre, Centimetre, Metre };
 struct ObjOptions {
     LengthUnit unit = LengthUnit::Millimetre;       ///< of the coordinates
     Material material = Material::Water;            ///< used with material_file, without `looks`
-    std::optional<std::string> material_file = {};  ///< name of the file from writeMtl; empty: no material
+    std::optional<std::string> material_file = {};  ///< name of the file from writeMtl, a line of UTF-8; empty: none
     std::vector<Look> looks = {};                   ///< by SurfacePart::droplet, with material_file; empty: `material`
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "droplet/surface/textured_mesh.h"
 
@@ -19,5 +20,9 @@ namespace droplet {
 /// @throws Error InvalidInput, naming the file: it cannot be read, is damaged, has no triangles, triangles without uv,
 ///               compressed or sparse data, numbers that are not finite, or more than 2²⁶ triangles
 TexturedMesh readObject(const std::filesystem::path& path);
+
+/// Paths of the buffers that a .gltf has beside it, so that a run can protect them. Other files, and files that
+/// readObject() would refuse, have none.
+std::vector<std::filesystem::path> buffersBeside(const std::filesystem::path& path);
 
 }  // namespace droplet

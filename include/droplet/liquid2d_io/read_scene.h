@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "droplet/footprint/outline.h"
 #include "droplet/liquid2d/fluid_scene.h"
@@ -23,6 +24,10 @@ FluidScene readFluidScene(const std::filesystem::path& path);
 /// @param path   of the file, for messages and as the place of masks
 /// @throws Error as readFluidScene()
 FluidScene parseFluidScene(std::string_view text, const std::filesystem::path& path);
+
+/// Paths of the masks that a scene's file names, so that a run can protect them. A file that readFluidScene() would
+/// refuse has none.
+std::vector<std::filesystem::path> masksOfScene(const std::filesystem::path& path);
 
 /// Region that an outline bounds.
 /// @param outline  as trace() makes it: the origin is the middle of the picture
