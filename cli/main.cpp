@@ -15,6 +15,7 @@
 #include "droplet/error.h"
 #include "exit_code.h"
 #include "interruption.h"
+#include "shortage.h"
 #include "terminal.h"
 
 namespace {
@@ -59,6 +60,10 @@ int guardedRun(int argc, const char* const* argv)
     } catch (const std::bad_alloc&) {
         return fail("out of memory; use fewer --triangles or a smaller picture", ExitCode::InternalError);
     } catch (const std::exception& error) {
+        if (cli::isThreadShortage(error)) {
+            return fail("out of threads or memory: no further thread can be started; use fewer --threads",
+                        ExitCode::InternalError);
+        }
         return fail(std::string("internal error: ") + error.what(), ExitCode::InternalError);
     }
 }
@@ -71,6 +76,7 @@ int main(int argc, char** argv)
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);  // likewise for the limit of file sizes
     cli::cleanUpOnSignals();
+    cli::reportShortages();
     occupyStandardStreams();
     keepFreedMemory();
     const int code = guardedRun(argc, argv);

@@ -3,12 +3,16 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
+#include <regex>
 #include <stdexcept>
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX headers do not declare it
@@ -57,6 +61,28 @@ Started start(const std::vector<std::string>& command, Piped piped, std::optiona
     return started;
 }
 
+void limitMemory(pid_t id, std::size_t bytes)
+{
+    const rlimit memory{bytes, bytes};
+    ::prlimit(id, RLIMIT_DATA, &memory, nullptr);
+    const rlimit no_core{0, 0};
+    ::prlimit(id, RLIMIT_CORE, &no_core, nullptr);
+}
+
+void limitTime(pid_t id, std::size_t seconds)
+{
+    clockid_t clock{};
+    timespec used{};
+    rlimit time{};
+    // A program that has ended has no clock.
+    if (::clock_getcpuclockid(id, &clock) != 0 || ::clock_gettime(clock, &used) != 0 ||
+        ::prlimit(id, RLIMIT_CPU, nullptr, &time) != 0) {
+        return;
+    }
+    time.rlim_cur = std::min(static_cast<rlim_t>(used.tv_sec) + 1 + seconds, time.rlim_max);
+    ::prlimit(id, RLIMIT_CPU, &time, nullptr);
+}
+
 int waitFor(pid_t id)
 {
     int status = 0;
@@ -75,7 +101,7 @@ std::string logText(std::FILE* log)
 std::string firstLine(std::FILE* log)
 {
     const std::string text = logText(log);
-    return text.substr(0, text.find_first_of("\r\n"));
+    return std::regex_replace(text.substr(0, text.find_first_of("\r\n")), std::regex(" @ 0x[0-9a-f]+"), "");
 }
 
 std::string plainName(const std::string& path)

@@ -2,6 +2,7 @@
 #include "video.h"
 
 #include <fmt/core.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
@@ -20,20 +21,59 @@ namespace {
 using droplet::Error;
 using droplet::ErrorCode;
 
-/// Starts a program that reads a video.
-/// @throws Error InvalidInput if the program cannot be run
-Process startReading(const std::vector<std::string>& command, const std::string& path)
+/// Containers that hold their pictures themselves, by ffmpeg's names. Lists of other files, such as HLS, DASH, ffconcat
+/// and SDP, are not among them, so that a video makes ffmpeg read no other file.
+constexpr const char* kContainers =
+    "mov,matroska,avi,flv,asf,mpeg,mpegts,mpegvideo,ogg,mxf,nut,gif,apng,ivf,obu,h264,hevc,m4v,mjpeg,dv,yuv4mpegpipe";
+/// A picture may be as large as one in a file; ffmpeg decodes a few at a time.
+constexpr const char* kMaxPixels = "268435456";
+constexpr std::size_t kMemory = std::size_t{8} << 30U;
+/// Processor time that the description of a video, or a frame, may take [s]. All cores share it.
+constexpr std::size_t kSeconds = 120;
+
+/// Starts a program that reads a video, with limits: it may be damaged, or made to do harm.
+/// @param program    ffmpeg or ffprobe
+/// @param before     options of the program and of the input
+/// @param after      options after the input
+/// @throws Error     InvalidInput if the program cannot be run
+Process startReading(const std::string& path, const std::string& program, const std::vector<std::string>& before,
+                     const std::vector<std::string>& after)
 {
+    std::vector<std::string> command{program};
+    command.insert(command.end(), before.begin(), before.end());
+    command.insert(command.end(), {"-format_whitelist", kContainers, "-protocol_whitelist", "file,pipe", "-max_pixels",
+                                   kMaxPixels, "-i", plainName(path)});
+    command.insert(command.end(), after.begin(), after.end());
     const Started started = start(command, Piped::Output);
     if (started.failure != 0) {
-        throw Error(ErrorCode::InvalidInput, path + ": videos are read through the program " + command[0] +
+        throw Error(ErrorCode::InvalidInput, path + ": videos are read through the program " + program +
                                                  ", which cannot be run: " + std::strerror(started.failure));
     }
+    limitMemory(started.process.id, kMemory);
+    limitTime(started.process.id, kSeconds);
     return started.process;
+}
+
+/// Refuses a video that ffmpeg gave up for lack of time.
+void refuseSlow(const std::string& path, int status)
+{
+    // ffprobe ends by the signal; ffmpeg by itself with 255, or with 123 after the fourth.
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
+    if ((WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) || code == 255 || code == 123) {
+        throw Error(ErrorCode::InvalidInput,
+                    fmt::format("{}: a frame takes more than {} s of processor time", path, kSeconds));
+    }
 }
 
 [[noreturn]] void throwReadError(const std::string& path, const std::string& program, std::FILE* log)
 {
+    if (logText(log).find("not on whitelist") != std::string::npos) {
+        throw Error(
+            ErrorCode::InvalidInput,
+            path +
+                ": is a list of other files, or of a kind that is not read; MP4, MOV, Matroska, WebM, AVI, FLV, "
+                "WMV, MPEG, Ogg, MXF, NUT, GIF and APNG are");
+    }
     const std::string line = firstLine(log);
     throw Error(ErrorCode::InvalidInput, path + ": " + program + " cannot read it" + (line.empty() ? "" : ": " + line));
 }
@@ -76,10 +116,10 @@ std::optional<double> shownFrames(std::string_view lines)
 
 Video::Metadata readMetadata(const std::string& path)
 {
-    const Process process =
-        startReading({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
-                      "stream=avg_frame_rate,duration,nb_frames", "-of", "default=nw=1", "-i", plainName(path)},
-                     path);
+    const Process process = startReading(path, "ffprobe",
+                                         {"-v", "error", "-select_streams", "v:0", "-show_entries",
+                                          "stream=avg_frame_rate,duration,nb_frames", "-of", "default=nw=1"},
+                                         {});
     std::array<char, 512> text{};
     const std::size_t count = std::fread(text.data(), 1, text.size() - 1, process.output);
     std::fclose(process.output);
@@ -87,6 +127,7 @@ Video::Metadata readMetadata(const std::string& path)
     std::FILE* const log = process.log;
     if (status != 0 || count == 0) {
         try {
+            refuseSlow(path, status);
             throwReadError(path, "ffprobe", log);
         } catch (...) {
             std::fclose(log);
@@ -102,15 +143,14 @@ Video::Metadata readMetadata(const std::string& path)
 
 Video::Video(const std::string& path, std::optional<double> played_at) : path_(path), metadata_(readMetadata(path))
 {
-    std::vector<std::string> command{"ffmpeg",        "-nostdin", "-v",    "error",     "-xerror",    "-i",
-                                     plainName(path), "-map",     "0:v:0", "-fps_mode", "passthrough"};
+    std::vector<std::string> output{"-map", "0:v:0", "-fps_mode", "passthrough"};
     if (played_at) {
         // round=up: each output frame is the last input frame that is not after it.
         metadata_.frames.reset();  // the number of output frames differs
-        command.insert(command.end(), {"-vf", fmt::format("fps={:.12g}:round=up", *played_at)});
+        output.insert(output.end(), {"-vf", fmt::format("fps={:.12g}:round=up", *played_at)});
     }
-    command.insert(command.end(), {"-f", "image2pipe", "-c:v", "ppm", "-pix_fmt", "rgb24", "-"});
-    const Process process = startReading(command, path);
+    output.insert(output.end(), {"-f", "image2pipe", "-c:v", "ppm", "-pix_fmt", "rgb24", "-"});
+    const Process process = startReading(path, "ffmpeg", {"-nostdin", "-v", "error", "-xerror"}, output);
     process_ = process.id;
     frames_ = process.output;
     log_ = process.log;
@@ -134,6 +174,7 @@ void Video::finish()
     frames_ = nullptr;
     const int status = waitFor(process_);
     process_ = -1;
+    refuseSlow(path_, status);
     // ffmpeg reads a Matroska file that ends too early without an error status.
     const bool is_cut = logText(log_).find("ended prematurely") != std::string::npos;
     const bool is_short = metadata_.frames && static_cast<double>(done_) + 1.0 < *metadata_.frames;
@@ -182,6 +223,7 @@ std::optional<std::vector<std::byte>> Video::next()
         throwReadError(path_, "ffmpeg", log_);
     }
     ++done_;
+    limitTime(process_, kSeconds);  // of the next frame
     return frame;
 }
 

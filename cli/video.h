@@ -11,7 +11,8 @@
 
 namespace cli {
 
-/// Frames of a video, decoded one by one by the program ffmpeg.
+/// Frames of a video, decoded one by one by the program ffmpeg, with limits of memory and of time for each frame. Only
+/// containers are read that hold their pictures themselves, so that ffmpeg opens no other file.
 class Video {
 public:
     /// Starts ffmpeg, and gets the frame rate and the number of frames from ffprobe.

@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <initializer_list>
 #include <ostream>
-#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -187,8 +186,7 @@ int VideoWriter::end()
 
 void VideoWriter::throwWriteError()
 {
-    // ffmpeg's messages contain addresses, which differ from run to run: [mp4 @ 0x55d0c0de].
-    const std::string line = std::regex_replace(firstLine(process_.log), std::regex(" @ 0x[0-9a-f]+"), "");
+    const std::string line = firstLine(process_.log);
     throw Error(ErrorCode::OutputFailed, path_ + ": ffmpeg cannot write it" + (line.empty() ? "" : ": " + line));
 }
 

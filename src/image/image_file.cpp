@@ -10,7 +10,8 @@ namespace droplet {
 
 void throwOutOfMemory()
 {
-    throw Error(ErrorCode::InvalidInput, "the image needs more memory than is available");
+    // The image is not to blame, so it is no Error; OpenCV's exception for lack of memory becomes that of the language.
+    throw std::bad_alloc();
 }
 
 std::vector<std::byte> readImageFile(const std::filesystem::path& path)
