@@ -118,7 +118,10 @@ double uprightVolume(const std::array<Waypoint, 4>& way)
 
 class Search {
 public:
-    Search(const std::vector<Member>& members, const SolveOptions& options) : members_(&members), options_(&options) {}
+    Search(const std::vector<Member>& members, const SolveOptions& options, const std::function<void(double)>& reached)
+        : members_(&members), options_(&options), report_(&reached)
+    {
+    }
 
     Outcome run()
     {
@@ -317,11 +320,12 @@ private:
         bool upright = false;
         for (int k = 0; k < kMaxTries && !isOutOfSteps(); ++k) {
             reached_ = here;
-            if (by_volume && here >= wanted.amount) {
-                return true;
+            const double share = (by_volume ? here : amountOf(*members_, wanted.by)) / wanted.amount;
+            if (*report_) {
+                (*report_)(std::clamp(share, 0.0, 1.0));
             }
-            if (!by_volume && amountOf(*members_, wanted.by) >= wanted.amount) {
-                return settleExact(wanted) || searchVolume(before, here);
+            if (share >= 1.0) {
+                return by_volume || settleExact(wanted) || searchVolume(before, here);
             }
             if (too_much && *too_much - here <= kCloseEnough * here) {
                 break;
@@ -406,6 +410,7 @@ private:
 
     const std::vector<Member>* members_;
     const SolveOptions* options_;
+    const std::function<void(double)>* report_;
     Outcome outcome_;
     double work_ = 0.0;      ///< work done by the exact model
     double max_work_ = 0.0;  ///< limit for it at present
@@ -414,9 +419,10 @@ private:
 
 }  // namespace
 
-Outcome findEquilibrium(const std::vector<Member>& members, const SolveOptions& options)
+Outcome findEquilibrium(const std::vector<Member>& members, const SolveOptions& options,
+                        const std::function<void(double)>& reached)
 {
-    return Search(members, options).run();
+    return Search(members, options, reached).run();
 }
 
 }  // namespace droplet

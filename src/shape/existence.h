@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "droplet/shape/solve.h"
@@ -27,6 +28,8 @@ struct Outcome {
 /// The exact model starts from the linear solution. If that fails, or gives a sheet that is upright along a part of its
 /// rim, the volume is raised from small values, up to the fill or to the largest volume that exists.
 /// @param members  with empty sheets and energies of the linear model
-Outcome findEquilibrium(const std::vector<Member>& members, const SolveOptions& options);
+/// @param reached  called with the share of the fill while the volume is raised, which does not fall; may be empty
+Outcome findEquilibrium(const std::vector<Member>& members, const SolveOptions& options,
+                        const std::function<void(double)>& reached = {});
 
 }  // namespace droplet

@@ -248,9 +248,15 @@ std::vector<double> sharesOf(const std::vector<PlanarMesh>& meshes, const std::v
 }
 
 /// Height fields of droplets, and how they were found.
-Shape solveFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
+Shape solveFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& options,
+                  const std::function<void(double)>& reached = {})
 {
-    Solution solution = findFields(meshes, options, {});
+    const auto report = [&](Stage stage, double share) {
+        if (stage == Stage::Solve) {
+            reached(share);
+        }
+    };
+    Solution solution = findFields(meshes, options, reached ? Progress(report) : Progress{});
     Shape shape{.report = solution.report, .work = solution.report.work};
     if (solution.report.usable()) {
         shape.fields = std::move(solution.droplets);
@@ -317,7 +323,7 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
         // Where a mask full of holes takes too many triangles for a sheet, height fields are all there is.
         const bool is_lost = shape.sheet->end == SheetEnd::OutOfWork && shape.sheet->volume == 0.0;
         limited.max_work = std::clamp(is_lost ? field_work : kMaxWork, 0.0, std::max(most - shape.work, 0.0));
-        Shape upright = solveFields(meshes, limited);
+        Shape upright = solveFields(meshes, limited, reached);
         upright.sheet = std::move(shape.sheet);
         upright.work += shape.work;
         return upright.fields.empty() && reachesFurther(upright) && effort == SheetEffort::Modest

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -265,8 +266,12 @@ Solution solveModel(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
     if (progress) {
         progress(Stage::Solve, 0.0);
     }
+    // The share of several would have to wait for each other.
+    const auto reached = [&](double share) { progress(Stage::Solve, share); };
+    const bool tells = progress && groups.size() == 1;
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-        groups[g].outcome = findEquilibrium(groups[g].members, ownOptions(options, g));
+        groups[g].outcome = findEquilibrium(groups[g].members, ownOptions(options, g),
+                                            tells ? std::function<void(double)>(reached) : nullptr);
     });
 
     Solution solution;
@@ -326,7 +331,15 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
         }
     }
     own.model = Model::Exact;
-    return solveModel(meshes, own, is_steep ? progress : Progress{});
+    if (is_steep || !progress) {
+        return solveModel(meshes, own, progress);
+    }
+    // The stages have been called already.
+    return solveModel(meshes, own, [&](Stage stage, double share) {
+        if (share > 0.0) {
+            progress(stage, share);
+        }
+    });
 }
 
 }  // namespace droplet

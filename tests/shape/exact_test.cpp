@@ -667,6 +667,24 @@ TEST(Exact, StepsAreLimited)
     EXPECT_TRUE(cut.droplets.empty());
 }
 
+TEST(Exact, TellsTheShareThatIsReached)
+{
+    const double max = dropletOfAngle(0.0, kPi / 2).volume;
+    const SolveOptions options = unitOptions(Model::Exact, 0.0, 2.0 * max);
+    std::vector<double> shares;
+    const auto progress = [&](Stage stage, double share) {
+        if (stage == Stage::Solve) {
+            shares.push_back(share);
+        }
+    };
+    EXPECT_EQ(solve(spread(discMeshes(0.2), options), options, progress).report.termination,
+              Termination::NoHeightField);
+    EXPECT_GT(shares.size(), 4U);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_GT(shares.back(), 0.4);
+    EXPECT_LT(shares.back(), 0.55);
+}
+
 TEST(Exact, WorkIsLimited)
 {
     const double max = dropletOfAngle(0.0, kPi / 2).volume;
