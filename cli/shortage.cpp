@@ -34,6 +34,10 @@ constexpr std::string_view kGaveUp = "droplet-shape: internal error: a library h
 /// Ends the process as an internal error does, by functions that a signal handler may call.
 [[noreturn]] void endWith(std::string_view line)
 {
+    static std::atomic<bool> is_ending{false};
+    while (is_ending.exchange(true)) {
+        ::pause();  // another thread ends the process, with the same line
+    }
     droplet::removeUnfinished();
     // A line that cannot be written changes nothing.
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());

@@ -48,7 +48,9 @@ std::string oneLine(std::string_view text)
 
 void printError(std::string_view message)
 {
-    std::cerr << paint("droplet-shape: ", Colour::Red) << oneLine(withOptions(std::string(message))) << std::endl;
+    // In one piece, as another thread may end the process meanwhile.
+    std::cerr << paint("droplet-shape: ", Colour::Red) + oneLine(withOptions(std::string(message))) + "\n"
+              << std::flush;
 }
 
 }  // namespace cli
