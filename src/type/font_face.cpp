@@ -26,11 +26,13 @@
 #include "droplet/error.h"
 #include "file_bytes.h"
 #include "number_text.h"
+#include "type/bitmap_glyph.h"
 
 namespace droplet {
 namespace {
 
 constexpr FT_Int32 kLoadFlags = FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP;
+constexpr FT_Int32 kLoadBitmapFlags = FT_LOAD_NO_HINTING | FT_LOAD_COLOR;
 
 /// Largest distance of a point from its origin [em]; only damaged data exceed it.
 constexpr double kFarthest = 256.0;
@@ -214,19 +216,9 @@ FontFace::FontFace(std::vector<std::byte> encoded, const FontOptions& options) :
     if (!open(static_cast<FT_Long>(options.face_index))) {
         throw Error(ErrorCode::InvalidInput, "its font " + std::to_string(options.face_index) + " is damaged");
     }
-    if (!FT_IS_SCALABLE(face_.get()) || face_->units_per_EM == 0 || face_->num_glyphs <= 0) {
-        const std::string table = otherColoursOf(face_.get());
-        throw Error(ErrorCode::InvalidInput, "the font has bitmaps of its glyphs" +
-                                                 (table.empty() ? table : " (" + table + ")") + ", not outlines");
-    }
     setAxes(options.axes);
     setPalette(options.palette);
-    if (FT_Set_Pixel_Sizes(face_.get(), 0, face_->units_per_EM) != 0) {
-        throw Error(ErrorCode::InvalidInput, "the font cannot be scaled");
-    }
-    const double em = face_->units_per_EM;
-    unit_ = 1.0 / (64.0 * em);
-    lines_ = {face_->ascender / em, face_->descender / em, face_->height / em};
+    setSize();
     constexpr double kMinLine = 0.1;
     if (!(lines_.ascender - lines_.descender > kMinLine && isNear({{lines_.ascender, lines_.descender}}))) {
         lines_ = {0.8, -0.2, 1.2};
@@ -244,10 +236,40 @@ FontFace::FontFace(std::vector<std::byte> encoded, const FontOptions& options) :
         }
     }
     shaper_.reset(hb_ft_font_create_referenced(face_.get()));
-    hb_ft_font_set_load_flags(shaper_.get(), kLoadFlags);
+    hb_ft_font_set_load_flags(shaper_.get(), has_bitmaps_ ? kLoadBitmapFlags : kLoadFlags);
 }
 
 FontFace::~FontFace() = default;
+
+void FontFace::setSize()
+{
+    FT_FaceRec_& face = *face_;
+    if (FT_IS_SCALABLE(&face) && face.units_per_EM > 0 && face.num_glyphs > 0) {
+        if (FT_Set_Pixel_Sizes(&face, 0, face.units_per_EM) != 0) {
+            throw Error(ErrorCode::InvalidInput, "the font cannot be scaled");
+        }
+        const double em = face.units_per_EM;
+        unit_ = 1.0 / (64.0 * em);
+        lines_ = {face.ascender / em, face.descender / em, face.height / em};
+        return;
+    }
+    const std::string table = otherColoursOf(&face);
+    int largest = -1;
+    for (int k = 0; k < face.num_fixed_sizes; ++k) {
+        const bool is_larger = largest < 0 || face.available_sizes[k].y_ppem > face.available_sizes[largest].y_ppem;
+        largest = is_larger ? k : largest;
+    }
+    if (table != "CBDT" || largest < 0 || FT_Select_Size(&face, largest) != 0 || face.size->metrics.y_ppem == 0) {
+        throw Error(ErrorCode::InvalidInput, "the font has bitmaps of its glyphs" +
+                                                 (table.empty() ? table : " (" + table + ")") +
+                                                 ", not outlines; a picture of the text can be read instead");
+    }
+    has_bitmaps_ = true;
+    const FT_Size_Metrics& size = face.size->metrics;
+    unit_ = 1.0 / (64.0 * size.y_ppem);
+    lines_ = {unit_ * static_cast<double>(size.ascender), unit_ * static_cast<double>(size.descender),
+              unit_ * static_cast<double>(size.height)};
+}
 
 void FontFace::setAxes(const std::vector<AxisSetting>& settings)
 {
@@ -342,8 +364,32 @@ std::string FontFace::nameOf(GlyphId glyph) const
     return named ? name.data() : "glyph" + std::to_string(glyph);
 }
 
+DrawnGlyph FontFace::drawBitmap(GlyphId glyph) const
+{
+    DrawnGlyph drawn;
+    GlyphBitmap bitmap;
+    bool good = false;
+    {
+        const std::lock_guard lock(mutex_);
+        if (FT_Load_Glyph(face_.get(), glyph, kLoadBitmapFlags) == 0 &&
+            face_->glyph->format == FT_GLYPH_FORMAT_BITMAP) {
+            drawn.advance = unit_ * static_cast<double>(face_->glyph->advance.x);
+            bitmap = bitmapOf(*face_->glyph);
+            good = isNear({{drawn.advance, 0.0}, 64.0 * unit_ * bitmap.middle});
+        }
+    }
+    if (!good) {
+        throw glyphError(glyph, "has no bitmap in the font's largest size, or a damaged one");
+    }
+    drawn.contours = tracedContours(bitmap, 64.0 * unit_);
+    return drawn;
+}
+
 DrawnGlyph FontFace::draw(GlyphId glyph, const Flatness& flatness) const
 {
+    if (has_bitmaps_) {
+        return drawBitmap(glyph);
+    }
     Drawing drawing;
     drawing.flatness = flatness;
     drawing.unit = unit_;

@@ -92,6 +92,9 @@ private:
         void operator()(hb_font_t* font) const;
     };
 
+    /// Selects the size at which glyphs are loaded, and the heights of lines.
+    void setSize();
+    [[nodiscard]] DrawnGlyph drawBitmap(GlyphId glyph) const;
     void setAxes(const std::vector<AxisSetting>& settings);
     void setPalette(std::size_t palette);
     /// Name of a glyph in messages, and what is wrong with it.
@@ -104,7 +107,8 @@ private:
     std::vector<FontAxis> axes_;
     LineMetrics lines_;
     std::vector<PaletteEntry> palette_;
-    double unit_ = 0.0;  ///< unit of FreeType's 26.6 fixed-point numbers in ems
+    double unit_ = 0.0;         ///< unit of FreeType's 26.6 fixed-point numbers in ems
+    bool has_bitmaps_ = false;  ///< whether glyphs are colour bitmaps, not outlines
     std::map<char32_t, GlyphId> glyph_of_;
     std::map<GlyphId, char32_t> character_of_;
     mutable std::mutex mutex_;

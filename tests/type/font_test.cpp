@@ -155,17 +155,43 @@ TEST(Font, FilesThatAreNotFontsAreRefused)
                 [] { readFont(testing::inSource("CMakeLists.txt")); });
 }
 
-TEST(Font, BitmapFontsAreRefused)
+/// Font of two sizes of colour bitmaps; see make_bitmap_font.py.
+Font bitmapFont()
 {
-    // The smallest font in the Glyph Bitmap Distribution Format: one glyph, of pixels.
-    const std::string text =
-        "STARTFONT 2.1\nFONT -x-Dots-Medium-R-Normal--8-80-75-75-C-80-ISO10646-1\nSIZE 8 75 75\n"
-        "FONTBOUNDINGBOX 8 8 0 0\nSTARTPROPERTIES 2\nFONT_ASCENT 8\nFONT_DESCENT 0\nENDPROPERTIES\nCHARS 1\n"
-        "STARTCHAR A\nENCODING 65\nSWIDTH 1000 0\nDWIDTH 8 0\nBBX 8 1 0 0\nBITMAP\nFF\nENDCHAR\nENDFONT\n";
-    const auto* first = reinterpret_cast<const std::byte*>(text.data());
-    expectError(ErrorCode::InvalidInput, {"bitmaps of its glyphs, not outlines"}, [&] {
-        decodeFont({first, text.size()});
-    });
+    return readFont(testing::inSource("tests/type/bitmap.ttf"));
+}
+
+TEST(Font, ColourBitmapsAreDrawnAtTheLargestSize)
+{
+    // Pictures of 64 pixels for an em of 50; a small size has other pictures. D is a disc of radius 20 pixels around
+    // (32, 12) above the base line, O the same with a hole of radius 10.
+    const Font font = bitmapFont();
+    EXPECT_EQ(font.otherColours(), "CBDT");
+    GlyphOptions options;
+    options.em = 50.0;  // a metre for a pixel
+    const auto area = [](const Outline& outline) {
+        return std::accumulate(outline.loops.begin(), outline.loops.end(), 0.0,
+                               [](double sum, const Loop& loop) { return sum + signedArea(loop); });
+    };
+    const Outline disc = glyphOutline(font, font.glyphOf(U'D').value(), options);
+    ASSERT_EQ(disc.loops.size(), 1U);
+    EXPECT_NEAR(area(disc) / (std::numbers::pi * 400.0), 1.0, 5e-3);
+    EXPECT_NEAR(disc.extent.x, 64.0, 1e-6);
+    EXPECT_NEAR(disc.extent.y, 60.0, 1e-6);
+    for (const Vec2 p : disc.loops[0].points) {
+        // The line reaches from -10 to 50, so its middle is 20 above the base line.
+        ASSERT_NEAR(std::hypot(p.x, p.y + 8.0), 20.0, 0.2);
+    }
+    const Outline ring = glyphOutline(font, font.glyphOf(U'O').value(), options);
+    ASSERT_EQ(ring.loops.size(), 2U);
+    EXPECT_NEAR(area(ring) / (std::numbers::pi * 300.0), 1.0, 5e-3);
+    EXPECT_FALSE(hasInk(font, font.glyphOf(U' ').value(), options));
+
+    TextOptions text;
+    text.glyph = options;
+    const TextLayout line = layOutText(font, "DO", text);
+    EXPECT_EQ(line.outline.loops.size(), 3U);
+    EXPECT_NEAR(line.outline.extent.x, 128.0, 1e-6);
 }
 
 /// Opens, measures and draws everything; only an Error is allowed.
@@ -184,6 +210,29 @@ void useAll(std::span<const std::byte> encoded)
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::InvalidInput) << error.what();
     }
+}
+
+TEST(Font, DamagedBitmapsCauseOnlyErrors)
+{
+    const std::vector<std::byte> whole = bytesOf(testing::inSource("tests/type/bitmap.ttf").c_str());
+    for (std::size_t at = 0; at < whole.size(); at += 3) {
+        std::vector<std::byte> damaged = whole;
+        damaged[at] ^= std::byte{0x81};
+        useAll(damaged);
+    }
+}
+
+TEST(Font, BitmapFontsAreRefused)
+{
+    // The smallest font in the Glyph Bitmap Distribution Format: one glyph, of pixels.
+    const std::string text =
+        "STARTFONT 2.1\nFONT -x-Dots-Medium-R-Normal--8-80-75-75-C-80-ISO10646-1\nSIZE 8 75 75\n"
+        "FONTBOUNDINGBOX 8 8 0 0\nSTARTPROPERTIES 2\nFONT_ASCENT 8\nFONT_DESCENT 0\nENDPROPERTIES\nCHARS 1\n"
+        "STARTCHAR A\nENCODING 65\nSWIDTH 1000 0\nDWIDTH 8 0\nBBX 8 1 0 0\nBITMAP\nFF\nENDCHAR\nENDFONT\n";
+    const auto* first = reinterpret_cast<const std::byte*>(text.data());
+    expectError(ErrorCode::InvalidInput, {"bitmaps of its glyphs, not outlines; a picture of the text"}, [&] {
+        decodeFont({first, text.size()});
+    });
 }
 
 TEST(Font, CutOffFilesCauseOnlyErrors)

@@ -74,10 +74,10 @@ private:
     std::shared_ptr<const FontFace> face_;
 };
 
-/// Opens a font with outlines: TrueType, OpenType, collections of them, WOFF, Type 1.
+/// Opens a font with outlines, or with colour bitmaps (CBDT): TrueType, OpenType, collections, WOFF, Type 1.
 /// @param encoded  bytes of a font file
 /// @param options  font of a collection, values of axes, palette
-/// @throws Error   InvalidInput: not such a font, or a bitmap font; InvalidArgument: a face, axis or palette that the
+/// @throws Error   InvalidInput: not such a font, or other bitmaps; InvalidArgument: a face, axis or palette that the
 ///                 font does not have, or a value out of range; the message lists what exists
 Font decodeFont(std::span<const std::byte> encoded, const FontOptions& options = {});
 
