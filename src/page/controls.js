@@ -2,9 +2,8 @@
 // Controls of the view that the page and Studio share; both have the elements that are named here.
 import { length } from './figures.js';
 import { kGrounds } from './ground.js';
+import { readPicture } from './read_picture.js';
 import { roundLength } from './stage.js';
-
-const kLargestPicture = 2048;
 
 export const find = (id) => document.getElementById(id);
 
@@ -34,27 +33,6 @@ export function download(blob, name) {
     link.download = name;
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
-}
-
-/**
- * Draws a picture's file on a canvas, which is shrunk if it is too large.
- * @param svg_side  longer side of a picture that is SVG [pixels]; undefined: its own
- */
-export async function readPicture(file, svg_side) {
-    const image = new Image();
-    image.src = URL.createObjectURL(file);
-    try {
-        await image.decode();
-        const longer = Math.max(image.naturalWidth, image.naturalHeight);
-        const scale = svg_side && file.type === 'image/svg+xml' ? svg_side / longer : Math.min(1, kLargestPicture / longer);
-        const canvas = document.createElement('canvas');
-        canvas.width = Math.max(1, Math.round(scale * image.naturalWidth));
-        canvas.height = Math.max(1, Math.round(scale * image.naturalHeight));
-        canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
-        return canvas;
-    } finally {
-        URL.revokeObjectURL(image.src);
-    }
 }
 
 function thumbnail(picture) {

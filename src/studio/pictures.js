@@ -27,12 +27,24 @@ export function levelsOf(canvas) {
     for (let y = 0; y < height; ++y) {
         border += levels[y * width] + levels[y * width + width - 1];
     }
+    const inverted = transparent === 0 && border / (2 * width + 2 * height) > 127;
+    spreadTwo(levels, histogram);
     const middle = histogram.subarray(48, 208).reduce((sum, count) => sum + count, 0);
     const photo = transparent === 0 && middle > 0.15 * levels.length;
     return {
-        width, height, levels, photo, inverted: transparent === 0 && border / (2 * width + 2 * height) > 127,
+        width, height, levels, photo, inverted,
         threshold: photo ? otsu(histogram) : 0.5,
     };
+}
+
+/** Spreads the levels of a picture that has just two, such as a mask of 0 and 1, over the whole range. */
+function spreadTwo(levels, histogram) {
+    const used = [...histogram.keys()].filter((level) => histogram[level] > 0);
+    if (used.length === 2) {
+        levels.forEach((level, i) => { levels[i] = level === used[1] ? 255 : 0; });
+        [histogram[0], histogram[255]] = used.map((level) => histogram[level]);
+        histogram.fill(0, 1, 255);
+    }
 }
 
 /** N. Otsu, "A threshold selection method from gray-level histograms" (1979): the classes' means are farthest apart. */

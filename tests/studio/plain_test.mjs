@@ -12,6 +12,7 @@ const { blank, drawPiece, flood, isDry, overlap, shifted } = await module('studi
 const { History } = await module('studio/history.js');
 const { kLooks } = await module('studio/looks.js');
 const { commandOf, kLayerFields, kSceneFields, optionsOf, settingsOf } = await module('studio/physics.js');
+const { levelsOf, maskOfLevels } = await module('studio/pictures.js');
 const { kTools } = await module('studio/tools.js');
 
 const area = ({ data }) => data.reduce((sum, value) => sum + value, 0) / 255;
@@ -57,6 +58,19 @@ test('a flood fills a ring\'s inside and not its outside', () => {
     assert.ok(Math.abs(area(mask) - disc) < 1, `${area(mask)} ${disc}`);
     flood(mask, 50, 50, true);
     assert.ok(isDry(mask));
+});
+
+test('masks of two levels are read, whatever these are', () => {
+    for (const [dry, liquid] of [[0, 255], [0, 1], [0, 20], [255, 0], [255, 220]]) {
+        const data = Uint8ClampedArray.from({ length: 4 * 64 }, (_, i) => {
+            const [x, y] = [(i >> 2) % 8, i >> 5];
+            return i % 4 === 3 ? 255 : x > 1 && x < 6 && y > 1 && y < 6 ? liquid : dry;
+        });
+        const canvas = { width: 8, height: 8, getContext: () => ({ getImageData: () => ({ data }) }) };
+        const levels = levelsOf(canvas);
+        const mask = maskOfLevels(levels, levels.threshold, levels.inverted);
+        assert.ok(Math.abs(area(mask) - 16) < 0.1, `${dry} ${liquid}: ${area(mask)}`);
+    }
 });
 
 test('shifting there and back keeps what stays on the sheet', () => {
