@@ -128,6 +128,9 @@ private:
         if (picture.disagrees) {
             disagreeing_.push_back(picture.number);
         }
+        if (const auto warning = drawingWarning(picture.mask)) {
+            warn(picture.name, *warning, false);
+        }
         progress_(Stage::Trace, 0.0);
         droplet::Outline outline = droplet::trace(picture.mask, sequence_.droplet.trace);
         if (!outline.loops.empty()) {

@@ -6,12 +6,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "batch_runner.h"
 #include "common_options.h"
 #include "content_hash.h"
 #include "droplet/error.h"
+#include "droplet/image/picture_format.h"
 #include "files.h"
 #include "option_values.h"
 #include "output_pattern.h"
@@ -64,10 +66,40 @@ struct Picture {
     fs::path below;  ///< its folder, relative to the folder on the command line
 };
 
-/// Adds the pictures of a folder in alphabetical order, then those of its subfolders. Hidden files are left out.
-void addFolder(const fs::path& folder, const fs::path& below, bool recursive, std::vector<Picture>& pictures)
+/// Whether a path looks like an output: it has a placeholder or the extension of a droplet's file.
+bool namesDroplets(const std::string& path)
+{
+    if (path.find('{') != std::string::npos) {
+        return true;
+    }
+    try {
+        (void)droplet::formatNamed(fs::path(path).extension().string());
+        return true;
+    } catch (const droplet::Error&) {
+        return false;
+    }
+}
+
+/// Pictures to read, and what lies beside them.
+struct Inputs {
+    std::vector<Picture> pictures;
+    std::vector<BatchLeftOut> left_out;
+};
+
+/// Whether a name is that of a droplet's file, or of a file that is written beside it.
+bool isOutput(const std::string& name)
+{
+    const std::string extension = lowerExtension(name);
+    return namesDroplets(name) || extension == ".json" || extension == ".mtl" || extension == ".bin" ||
+           extension == ".html";
+}
+
+/// Adds the pictures of a folder in alphabetical order, then those of its subfolders. Hidden files and outputs are
+/// ignored.
+void addFolder(const fs::path& folder, const fs::path& below, bool recursive, Inputs& inputs)
 {
     std::vector<fs::path> files;
+    std::vector<fs::path> others;
     std::vector<fs::path> folders;
     try {
         for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -81,6 +113,8 @@ void addFolder(const fs::path& folder, const fs::path& below, bool recursive, st
                 }
             } else if (isPicture(name)) {
                 files.push_back(name);
+            } else if (!isOutput(name)) {
+                others.push_back(name);
             }
         }
     } catch (const fs::filesystem_error& error) {
@@ -88,18 +122,25 @@ void addFolder(const fs::path& folder, const fs::path& below, bool recursive, st
                              folder.string() + " cannot be read: " + error.code().message());
     }
     std::sort(files.begin(), files.end());
+    std::sort(others.begin(), others.end());
     std::sort(folders.begin(), folders.end());
     for (const fs::path& name : files) {
-        pictures.push_back({folder / name, below});
+        inputs.pictures.push_back({folder / name, below});
+    }
+    for (const fs::path& name : others) {
+        inputs.left_out.push_back(
+            {(folder / name).string(),
+             droplet::whyNoPicture(folder / name).value_or("its name has no extension of pictures")});
     }
     for (const fs::path& name : folders) {
-        addFolder(folder / name, below / name, recursive, pictures);
+        addFolder(folder / name, below / name, recursive, inputs);
     }
 }
 
-std::vector<Picture> readInputs(const CommandLine& line)
+Inputs readInputs(const CommandLine& line)
 {
-    std::vector<Picture> pictures;
+    Inputs inputs;
+    std::vector<Picture>& pictures = inputs.pictures;
     for (const Given& given : line.values("INPUT")) {
         if (given.text.empty() || isStream(given.text)) {
             refuse(given, "a picture's file or a folder");
@@ -110,17 +151,20 @@ std::vector<Picture> readInputs(const CommandLine& line)
             continue;
         }
         const std::size_t before = pictures.size();
-        addFolder(given.text, {}, line.flag("--recursive"), pictures);
+        addFolder(given.text, {}, line.flag("--recursive"), inputs);
         if (pictures.size() == before) {
             throw droplet::Error(droplet::ErrorCode::InvalidInput,
                                  given.text + " holds no pictures" +
-                                     (line.flag("--recursive") ? "" : "; --recursive reads subfolders, too"));
+                                     (line.flag("--recursive") ? "" : "; --recursive reads subfolders, too") +
+                                     (inputs.left_out.empty() ? ""
+                                                              : "; left out: " + inputs.left_out.front().name + ", " +
+                                                                    inputs.left_out.front().reason));
         }
     }
     if (pictures.empty()) {
         refuse("INPUT is missing; usage: droplet-shape batch [OPTIONS] INPUT... -o OUTPUT, more with --help");
     }
-    return pictures;
+    return inputs;
 }
 
 PatternValues valuesOf(const Picture& picture, std::size_t index, std::size_t count)
@@ -155,20 +199,6 @@ std::string settingsFingerprint(const ShapeOptions& options, const BatchOptions&
     return fingerprintOf(parts);
 }
 
-/// Whether a path looks like an output: it has a placeholder or the extension of a droplet's file.
-bool namesDroplets(const std::string& path)
-{
-    if (path.find('{') != std::string::npos) {
-        return true;
-    }
-    try {
-        (void)droplet::formatNamed(fs::path(path).extension().string());
-        return true;
-    } catch (const droplet::Error&) {
-        return false;
-    }
-}
-
 }  // namespace
 
 int runBatch(int argc, const char* const* argv)
@@ -197,7 +227,9 @@ int runBatch(int argc, const char* const* argv)
     RunFiles read;
     addSettings(read, shared.settings, shared.run);
     options.read = read.read;
-    const std::vector<Picture> pictures = readInputs(line);
+    Inputs inputs = readInputs(line);
+    const std::vector<Picture>& pictures = inputs.pictures;
+    options.left_out = std::move(inputs.left_out);
     Surroundings around;   // of all items; read once their files have been checked
     std::string settings;  // their fingerprint
 

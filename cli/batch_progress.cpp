@@ -120,8 +120,16 @@ void BatchProgress::summarise(const std::vector<ManifestRow>& rows)
         text << paint("warnings", Colour::Yellow) << "   on " << warned << (warned == 1 ? " item" : " items") << "\n";
     }
     if (!options_.left_out.empty()) {
-        text << paint("left out", Colour::Bold) << "   " << options_.left_out.size()
-             << "; the manifest lists the reasons\n";
+        constexpr std::size_t kNamed = 3;
+        const std::size_t count = options_.left_out.size();
+        text << paint("left out", Colour::Bold) << "   ";
+        for (std::size_t k = 0; k < std::min(count, kNamed); ++k) {
+            text << (k == 0 ? "" : ", ") << oneLine(options_.left_out[k].name);
+        }
+        if (count > kNamed) {
+            text << " and " << count - kNamed << " more";
+        }
+        text << "; the manifest lists the reasons\n";
     }
     if (drawn_tiles_ > 0) {
         text << paint("sheet", Colour::Bold) << "      " << oneLine(*options_.contact_sheet) << ": " << drawn_tiles_

@@ -63,6 +63,7 @@ droplet::Mask maskOf(const droplet::ColourRegions& regions)
     mask.height = regions.height;
     mask.raster_scale = regions.raster_scale;
     mask.physical_width = regions.physical_width;
+    mask.lacking = regions.lacking;
     for (const std::uint8_t label : regions.label) {
         mask.coverage.push_back(label == 0 ? 0 : std::numeric_limits<std::uint16_t>::max());
     }

@@ -74,13 +74,18 @@ bool isStream(const std::string& path)
 
 bool isPicture(const std::string& path)
 {
-    constexpr std::array<std::string_view, 16> kExtensions{".png",  ".jpg", ".jpeg", ".bmp", ".tif", ".tiff",
-                                                           ".webp", ".pbm", ".pgm",  ".ppm", ".pnm", ".svg",
-                                                           ".svgz", ".jp2", ".exr",  ".hdr"};
+    constexpr std::array<std::string_view, 19> kExtensions{".png", ".jpg",  ".jpeg", ".bmp", ".gif", ".ico", ".tga",
+                                                           ".tif", ".tiff", ".webp", ".pbm", ".pgm", ".ppm", ".pnm",
+                                                           ".svg", ".svgz", ".jp2",  ".exr", ".hdr"};
+    return std::find(kExtensions.begin(), kExtensions.end(), lowerExtension(path)) != kExtensions.end();
+}
+
+std::string lowerExtension(const std::string& path)
+{
     std::string extension = fs::path(path).extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+    return extension;
 }
 
 void readFile(const std::string& path, const std::function<void(std::span<const std::byte>)>& take)

@@ -21,6 +21,9 @@ bool isStream(const std::string& path);
 /// Whether a file has the extension of a picture format that can be read.
 bool isPicture(const std::string& path);
 
+/// Extension of a file with its dot, in lower case.
+std::string lowerExtension(const std::string& path);
+
 /// Reads a file and calls `take` for each part of it.
 /// @throws droplet::Error InvalidInput if the file cannot be read
 void readFile(const std::string& path, const std::function<void(std::span<const std::byte>)>& take);

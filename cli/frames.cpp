@@ -116,7 +116,7 @@ Frames::Frames(const std::vector<std::string>& inputs)
         }
         if (fs::is_directory(input, ignored)) {
             names = picturesIn(input);
-        } else if (!isPicture(input)) {
+        } else if (!isPicture(input) || lowerExtension(input) == ".gif") {  // an animation, perhaps
             if (!fs::exists(input, ignored)) {
                 throw Error(ErrorCode::InvalidInput, input + ": there is no such file");
             }

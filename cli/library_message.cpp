@@ -7,7 +7,7 @@ namespace cli {
 
 std::span<const NamedOption> namedOptions()
 {
-    static constexpr std::array<NamedOption, 13> kAll{
+    static constexpr std::array<NamedOption, 14> kAll{
         {{"number of triangles", "--triangles"},
          {"shorten the edges", "--edge"},
          {"a smaller contact angle", "--contact-angle"},
@@ -17,6 +17,7 @@ std::span<const NamedOption> namedOptions()
          {"a segmentation method or a threshold", "--segment, --threshold"},
          {"the segmentation method", "--segment"},
          {"reaches the threshold", "--threshold"},
+         {"or a colour", "--colour"},
          {"the speck size", "--speck-size"},
          {"use the exact model", "--model exact"},
          {"use the linear model", "--model linear"},

@@ -107,6 +107,13 @@ MaskShape makeOfMask(const droplet::Mask& mask, const DropletSettings& settings,
     return made;
 }
 
+std::optional<std::string> drawingWarning(const droplet::Mask& mask)
+{
+    return mask.lacking.empty()
+               ? std::nullopt
+               : std::optional("parts of the drawing are not drawn as they are meant: " + mask.lacking);
+}
+
 std::optional<std::string> maskWarning(const droplet::Mask& mask, const std::string& advice)
 {
     constexpr double kMinConfidence = 0.5;

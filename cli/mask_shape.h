@@ -50,6 +50,9 @@ struct MaskShape {
 MaskShape makeOfMask(const droplet::Mask& mask, const DropletSettings& settings, const ShapeOptions& options,
                      const droplet::Progress& progress);
 
+/// Warning about parts of an SVG image that are not drawn.
+std::optional<std::string> drawingWarning(const droplet::Mask& mask);
+
 /// Warning about a mask that may be wrong.
 /// @param advice  how to look at the mask
 std::optional<std::string> maskWarning(const droplet::Mask& mask, const std::string& advice);

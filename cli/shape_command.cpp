@@ -23,6 +23,7 @@
 #include "droplet/io/evolver.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/page.h"
+#include "droplet/picture/grey_picture.h"
 #include "droplet/picture/picture.h"
 #include "droplet/surface/onto.h"
 #include "droplet/units.h"
@@ -81,11 +82,11 @@ std::optional<int> finerSide(const droplet::Mask& mask, const droplet::DropletOp
     return static_cast<int>(std::min<double>(kLongest, std::ceil(side * kPixelsPerEdge / edge)));
 }
 
-/// Writes the mask as it was traced, with 16 bits.
+/// Writes the mask as it was traced.
 void writeMask(std::ostream& out, const droplet::Mask& mask, const droplet::TraceOptions& trace)
 {
     const droplet::Mask used = droplet::clean(mask, trace.clean, droplet::pixelSize(mask, trace), trace.threshold);
-    droplet::writePng(droplet::DeepPicture{used.width, used.height, 1, used.coverage}, out);
+    droplet::writeShortestPng({used.width, used.height, 1, used.coverage}, out);
 }
 
 /// Whether only the page's droplet gets a slider: without --fill-range, if a slider is possible.
@@ -298,8 +299,10 @@ droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& ar
     if (hidden) {
         settings.warnings.push_back(*hidden);
     }
-    if (auto warning = maskWarning(mask, "look at it with --mask-out")) {
-        settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
+    for (auto& warning : {maskWarning(mask, "look at it with --mask-out"), drawingWarning(mask)}) {
+        if (warning) {
+            settings.warnings.insert(settings.warnings.begin(), *warning);
+        }
     }
     std::optional<OutputFile> mask_file;
     if (options.footprint.mask_out) {
@@ -340,6 +343,9 @@ droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& ar
     ColourShape made = forInput(options, [&] { return makeOfColours(regions, settings, options, begin); });
     made.input.type = source.type;
     settings.warnings.insert(settings.warnings.begin(), made.warnings.begin(), made.warnings.end());
+    if (auto warning = drawingWarning(mask)) {
+        settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
+    }
     return finish(std::move(made.droplet), settings, {std::move(made.input), std::move(made.colours)}, around, options,
                   stages);
 }

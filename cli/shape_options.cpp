@@ -50,9 +50,10 @@ const CommandText& commandText()
 
 void declareShape(CommandLine& line)
 {
-    line.addArgument("INPUT",
-                     "Picture of the footprint: PNG, JPEG, SVG, TIFF, WebP, BMP, PBM, PGM, PPM, JPEG 2000, OpenEXR or "
-                     "HDR; - is standard input");
+    line.addArgument(
+        "INPUT",
+        "Picture of the footprint: PNG, JPEG, SVG, GIF, TIFF, WebP, BMP, TGA, ICO, PBM, PGM, PPM, JPEG 2000, "
+        "OpenEXR or HDR; - is standard input");
     line.addArgument(
         "OUTPUT",
         "The droplet: .glb, .gltf, .obj, .ply, .stl, .usda or .usdz; - is standard output and needs --format");

@@ -167,7 +167,8 @@ class MESH_OT_droplet_add(bpy.types.Operator, DropletSettings):
         ("OBJECT", "Text or Curve", "The selected text or curve")))
     filepath: StringProperty(name="File", subtype="FILE_PATH")
     filter_glob: StringProperty(
-        default="*.png;*.jpg;*.jpeg;*.svg;*.svgz;*.tif;*.tiff;*.webp;*.bmp;*.pbm;*.pgm;*.ppm;*.jp2;*.exr;*.hdr",
+        default="*.png;*.jpg;*.jpeg;*.svg;*.svgz;*.tif;*.tiff;*.webp;*.bmp;*.gif;*.ico;*.tga;*.pbm;*.pgm;*.ppm;*.jp2;"
+                "*.exr;*.hdr",
         options={"HIDDEN"})
     image: StringProperty(name="Image")
     place: EnumProperty(name="Place", items=(

@@ -2,6 +2,7 @@
 // The functions that solver.js calls: makes a droplet from a mask by the command's options, and hands out its arrays.
 #include <emscripten/emscripten.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -18,6 +19,7 @@
 #include "droplet/droplet.h"
 #include "droplet/error.h"
 #include "droplet/footprint/mask.h"
+#include "droplet/footprint/two_levels.h"
 #include "droplet/io/output.h"
 #include "droplet/io/report.h"
 #include "droplet_report.h"
@@ -103,6 +105,11 @@ droplet::Mask maskOf(const Given& given, const droplet::MaskOptions& options)
         for (const std::byte level : given.bytes) {
             mask.coverage.push_back(static_cast<std::uint16_t>(257 * std::to_integer<int>(level)));
         }
+    }
+    if (const auto both = droplet::twoLevels(std::span<const std::uint16_t>(mask.coverage))) {
+        std::transform(mask.coverage.begin(), mask.coverage.end(), mask.coverage.begin(), [&](std::uint16_t level) {
+            return static_cast<std::uint16_t>(level == both->second ? 0xFFFF : 0);
+        });
     }
     if (options.invert) {
         cli::invert(mask);

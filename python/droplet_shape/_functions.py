@@ -55,8 +55,8 @@ def read_mask(
 ) -> Mask:
     """Reads the mask in a picture.
 
-    Formats are PNG, JPEG, SVG, TIFF, WebP, BMP, PNM, JPEG 2000, OpenEXR and HDR. It does what the command does with
-    its INPUT. numpy.asarray() of the result is the array of the mask.
+    Formats are PNG, JPEG, SVG, GIF, TIFF, WebP, BMP, TGA, ICO, PNM, JPEG 2000, OpenEXR and HDR. It does what the
+    command does with its INPUT. numpy.asarray() of the result is the array of the mask.
 
     path: file of the picture.
 

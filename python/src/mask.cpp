@@ -6,11 +6,13 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <span>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -19,6 +21,7 @@
 
 #include "arguments.h"
 #include "droplet/error.h"
+#include "droplet/footprint/two_levels.h"
 #include "droplet/picture/picture.h"
 #include "shape_options.h"
 #include "state.h"
@@ -34,30 +37,49 @@ using droplet::ErrorCode;
 
 constexpr double kFull = 65535.0;
 
-/// Fills the coverage from an array's items, with a rule for one of them.
-template <typename Item, typename Rule>
-void fill(droplet::Mask& mask, const py::array& array, const Rule& rule)
+[[noreturn]] void refuseLevel(double level, const std::string& allowed)
 {
-    const auto items = array.unchecked<Item, 2>();
-    std::size_t k = 0;
-    for (py::ssize_t y = 0; y < items.shape(0); ++y) {
-        for (py::ssize_t x = 0; x < items.shape(1); ++x) {
-            mask.coverage[k++] = rule(items(y, x));
-        }
-    }
+    throw Error(ErrorCode::InvalidArgument,
+                fmt::format("mask: {} must be {}; divide the array by its largest value, or compare it with a label: "
+                            "mask == {}",
+                            level, allowed, level));
 }
 
+/// Fills the coverage from an array's items. Of two levels, which may be any, the higher one is liquid; one level is
+/// liquid unless it is 0.
+/// @param full  level that is liquid where there are more than two
 template <typename Item>
-void fillFromShares(droplet::Mask& mask, const py::array& array)
+void fill(droplet::Mask& mask, const py::array& array, double full)
 {
-    fill<Item>(mask, array, [](Item item) {
-        const auto share = static_cast<double>(item);
-        if (!(share >= 0.0 && share <= 1.0)) {
-            throw Error(ErrorCode::InvalidArgument,
-                        fmt::format("mask: {} must be from 0 to 1; divide the array by its largest value", share));
+    const auto rows = py::array_t<Item, py::array::c_style | py::array::forcecast>::ensure(array);
+    const std::span<const Item> items(rows.data(), static_cast<std::size_t>(rows.size()));
+    const auto fill_above = [&](Item dry) {
+        std::transform(items.begin(), items.end(), mask.coverage.begin(),
+                       [&](Item item) { return static_cast<std::uint16_t>(item > dry ? kFull : 0.0); });
+    };
+    if (const auto both = droplet::twoLevels(items)) {
+        return fill_above(both->first);
+    }
+    if (std::all_of(items.begin(), items.end(), [&](Item item) { return item == items.front(); })) {
+        return fill_above(Item{});
+    }
+    std::transform(items.begin(), items.end(), mask.coverage.begin(), [&](Item item) {
+        const auto level = static_cast<double>(item);
+        if (!(level >= 0.0 && level <= full)) {
+            refuseLevel(level, fmt::format("from 0 to {}", full));
         }
-        return static_cast<std::uint16_t>(std::lround(share * kFull));
+        return static_cast<std::uint16_t>(std::lround(level / full * kFull));
     });
+}
+
+/// Level of full coverage in an array of integers: the largest of its type, or of the smaller of 8 and 16 bits that
+/// holds all.
+double fullLevel(const py::array& array)
+{
+    if (py::isinstance<py::array_t<std::uint8_t>>(array) || py::isinstance<py::array_t<std::uint16_t>>(array)) {
+        return array.itemsize() == 1 ? 255.0 : kFull;
+    }
+    return array.attr("max")().cast<double>() <= 255.0 ? 255.0 : kFull;
 }
 
 droplet::Mask fromArray(const py::array& array)
@@ -77,19 +99,21 @@ droplet::Mask fromArray(const py::array& array)
     mask.width = static_cast<int>(array.shape(1));
     mask.height = static_cast<int>(array.shape(0));
     mask.coverage.resize(static_cast<std::size_t>(array.size()));
-    if (py::isinstance<py::array_t<bool>>(array)) {
-        fill<bool>(mask, array, [](bool item) { return static_cast<std::uint16_t>(item ? 0xFFFF : 0); });
-    } else if (py::isinstance<py::array_t<std::uint8_t>>(array)) {
-        fill<std::uint8_t>(mask, array, [](std::uint8_t item) { return static_cast<std::uint16_t>(item * 257); });
-    } else if (py::isinstance<py::array_t<std::uint16_t>>(array)) {
-        fill<std::uint16_t>(mask, array, [](std::uint16_t item) { return item; });
-    } else if (py::isinstance<py::array_t<float>>(array)) {
-        fillFromShares<float>(mask, array);
-    } else if (py::isinstance<py::array_t<double>>(array)) {
-        fillFromShares<double>(mask, array);
-    } else {
-        throw Error(ErrorCode::InvalidArgument, "mask: an array of " + std::string(py::str(array.dtype())) +
-                                                    " must be of bool, uint8, uint16, float32 or float64");
+    switch (array.dtype().kind()) {
+        case 'b':
+            fill<std::uint8_t>(mask, array, 1.0);
+            break;
+        case 'u':
+        case 'i':
+            array.itemsize() == 1 && array.dtype().kind() == 'u' ? fill<std::uint8_t>(mask, array, fullLevel(array))
+                                                                 : fill<double>(mask, array, fullLevel(array));
+            break;
+        case 'f':
+            fill<double>(mask, array, 1.0);
+            break;
+        default:
+            throw Error(ErrorCode::InvalidArgument,
+                        "mask: an array of " + std::string(py::str(array.dtype())) + " must be of bool, int or float");
     }
     return mask;
 }
@@ -167,7 +191,8 @@ struct Members<droplet::Mask> {
                                      &droplet::Mask::level_liquid,
                                      &droplet::Mask::found,
                                      &droplet::Mask::raster_scale,
-                                     &droplet::Mask::physical_width};
+                                     &droplet::Mask::physical_width,
+                                     &droplet::Mask::lacking};
 };
 
 template <>

@@ -18,8 +18,9 @@ struct Mask {
 };
 
 /// Mask from a Mask, or from an array of two dimensions, rows from the top.
-/// @param from             an array is of bool; of uint8 or uint16, whose largest value is liquid; or of floating-point
-///                         numbers from 0 to 1
+/// @param from             an array of bool, integers or floating-point numbers of any width. Of two levels, the higher
+///                         one is liquid. More levels are coverage: floating-point numbers from 0 to 1, integers from 0
+///                         to the largest of uint8 or uint16
 /// @throws droplet::Error  InvalidArgument: other shape or type, an empty array, numbers out of range
 Mask maskOf(const pybind11::handle& from);
 

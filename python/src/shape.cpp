@@ -69,8 +69,10 @@ std::shared_ptr<Droplet> makeOfMask(Mask from, cli::ShapeOptions options, cli::S
     cli::DropletSettings settings = cli::completeSettings(mask, around, options);
     cli::MaskShape made = cli::makeOfMask(mask, settings, options,
                                           [&](droplet::Stage stage, double share) { clock.begin(stage, share); });
-    if (auto warning = cli::maskWarning(mask, "look at the array of the mask")) {
-        settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
+    for (auto& warning : {cli::maskWarning(mask, "look at the array of the mask"), cli::drawingWarning(mask)}) {
+        if (warning) {
+            settings.warnings.insert(settings.warnings.begin(), *warning);
+        }
     }
     return Droplet::make(std::move(made.droplet), settings, {std::move(made.input), around}, clock);
 }

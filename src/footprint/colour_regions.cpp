@@ -108,6 +108,7 @@ public:
         result.height = image_.height;
         result.raster_scale = image_.raster_scale;
         result.physical_width = image_.physical_width;
+        result.lacking = image_.lacking;
         findColours();
         if (liquidGroups() == 0) {
             throw Error(ErrorCode::InvalidInput, "the picture has no colour but that of its border" +
@@ -548,11 +549,12 @@ auto ofDecoded(std::span<const std::byte> encoded, const ColourOptions& options,
 {
     options.validate();
     try {
-        Sorter sorter(decodeImage(encoded, {.max_pixels = options.max_pixels,
+        Image image = decodeImage(encoded, {.max_pixels = options.max_pixels,
                                             .vector_long_side = options.vector_long_side,
                                             .keeps_colour = true,
-                                            .drawing = {options.vector_seconds, options.vector_memory}}),
-                      options);
+                                            .drawing = {options.vector_seconds, options.vector_memory}});
+        requireInk(image);
+        Sorter sorter(std::move(image), options);
         return function(sorter);
     } catch (const cv::Exception&) {
         throwOutOfMemory();

@@ -10,10 +10,12 @@
 #include <new>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "droplet/error.h"
+#include "droplet/footprint/two_levels.h"
 #include "footprint/segmentation.h"
 #include "image/image.h"
 #include "image/image_file.h"
@@ -133,6 +135,47 @@ std::int64_t farthest(const Histogram& histogram, std::int64_t dry, int sign, st
     return 0;
 }
 
+/// Levels of the two parts of a picture, the lower one first; none if it has not just two. A level is that of a part if
+/// some pixel and all its neighbours have it; soft rims have other levels.
+std::optional<std::pair<std::int64_t, std::int64_t>> levelsOfTwoParts(const std::vector<std::uint16_t>& plane,
+                                                                      int width, int height)
+{
+    if (const auto both = twoLevels(std::span(plane))) {
+        return both;
+    }
+    std::optional<std::pair<std::uint16_t, std::uint16_t>> parts;  // the same level twice while there is one
+    for (int y = 1; y + 1 < height; ++y) {
+        const std::uint16_t* const row = plane.data() + static_cast<std::ptrdiff_t>(y) * width;
+        for (int x = 1; x + 1 < width; ++x) {
+            const std::uint16_t level = row[x];
+            if (parts && (level == parts->first || level == parts->second)) {
+                continue;
+            }
+            const auto is_even = [&](const std::uint16_t* at) {
+                return at[-1] == level && at[0] == level && at[1] == level;
+            };
+            if (!is_even(row + x) || !is_even(row + x - width) || !is_even(row + x + width)) {
+                continue;
+            }
+            if (parts && parts->first != parts->second) {
+                return std::nullopt;  // a third
+            }
+            parts = std::minmax({parts ? parts->first : level, level});
+        }
+    }
+    return parts && parts->first != parts->second ? parts : std::nullopt;
+}
+
+/// Levels of a picture of two parts that differ little. Tools that label pixels count from 0, so among dark levels the
+/// higher one is the liquid. Otherwise it is a pale drawing, whose ground reaches the border.
+Range faintLevels(std::pair<std::int64_t, std::int64_t> parts, std::int64_t border)
+{
+    const auto [lower, higher] = parts;
+    const bool is_drawing = 2 * higher > kWhite;
+    const bool is_dark = is_drawing && higher - border < border - lower;
+    return {is_dark ? higher : lower, is_dark ? lower : higher, true};
+}
+
 /// Levels of a picture that shows liquid on a dry ground which reaches the border.
 Range levelsAgainstBorder(const std::vector<std::uint16_t>& plane, int width, int height)
 {
@@ -157,6 +200,10 @@ Range levelsAgainstBorder(const std::vector<std::uint16_t>& plane, int width, in
         }
         return {dry, is_dark ? dry - distance : dry + distance, true, 10 * beyond > plane.size()};
     }
+    const auto parts = levelsOfTwoParts(plane, width, height);
+    if (parts && 2 * (pixelsAt(histogram, parts->first) + pixelsAt(histogram, parts->second)) > plane.size()) {
+        return faintLevels(*parts, dry);
+    }
     // Nothing stands out. Without stretching, no pixel reaches half towards the farther end of the range.
     return {dry, 2 * dry > kWhite ? 0 : kWhite, false};
 }
@@ -179,7 +226,8 @@ Range levelsOfAlpha(const std::vector<std::uint16_t>& alpha)
     for (const std::uint16_t level : alpha) {
         max = std::max(max, level);
     }
-    return {0, isClear(max) ? max : kWhite, isClear(max)};
+    const bool is_clear = isClear(max) || twoLevels(std::span(alpha));
+    return {0, is_clear ? max : kWhite, is_clear};
 }
 
 void applyRange(std::vector<std::uint16_t>& plane, const Range& range, bool invert)
@@ -232,6 +280,7 @@ Mask blankMask(const Picture& of)
     mask.height = of.height;
     mask.raster_scale = of.raster_scale;
     mask.physical_width = of.physical_width;
+    mask.lacking = of.lacking;
     return mask;
 }
 
@@ -343,10 +392,14 @@ std::optional<Mask> segmented(const Image& image, const MaskOptions& options, Se
 
 Image decode(std::span<const std::byte> encoded, const MaskOptions& options, bool keeps_colour)
 {
-    return decodeImage(encoded, {.max_pixels = options.max_pixels,
-                                 .vector_long_side = options.vector_long_side,
-                                 .keeps_colour = keeps_colour,
-                                 .drawing = {options.vector_seconds, options.vector_memory}});
+    Image image = decodeImage(encoded, {.max_pixels = options.max_pixels,
+                                        .vector_long_side = options.vector_long_side,
+                                        .keeps_colour = keeps_colour,
+                                        .drawing = {options.vector_seconds, options.vector_memory}});
+    if (!options.allow_dry) {
+        requireInk(image);
+    }
+    return image;
 }
 
 /// The picture with the luma it has in front of black.

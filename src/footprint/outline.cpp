@@ -23,6 +23,40 @@
 namespace droplet {
 namespace {
 
+/// Message about a mask in which no pixel reaches the threshold, with its levels, such as those of labels, and what
+/// would choose among them.
+std::string noLiquid(const Mask& mask, double threshold)
+{
+    constexpr std::size_t kMaxListed = 12;
+    constexpr int kWhite = 65535;
+    std::vector<bool> occurs(kWhite + 1);
+    for (const std::uint16_t level : mask.coverage) {
+        occurs[level] = true;
+    }
+    std::vector<int> levels;
+    for (int level = 0; level <= kWhite; ++level) {
+        if (occurs[static_cast<std::size_t>(level)]) {
+            levels.push_back(level);
+        }
+    }
+    const auto share = [](double level) { return numberText(level / kWhite, 2); };
+    std::string message = "no liquid in the mask: no pixel reaches the threshold " + numberText(threshold);
+    if (levels.size() > kMaxListed) {
+        return message + "; the largest coverage is " + share(levels.back());
+    }
+    if (levels.size() == 1) {
+        return message + "; all of it has the coverage " + share(levels.front());
+    }
+    const int unit = std::all_of(levels.begin(), levels.end(), [](int level) { return level % 257 == 0; }) ? 257 : 1;
+    message += "; the picture has the levels ";
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        message += (k == 0 ? "" : k + 1 == levels.size() ? " and " : ", ") + std::to_string(levels[k] / unit);
+    }
+    const double between = 0.5 * (levels.back() + levels[levels.size() - 2]);
+    return message + " of " + std::to_string(kWhite / unit) + ": choose a threshold, " + share(between) +
+           " for the highest, or a colour";
+}
+
 /// Area enclosed [px²]; positive for liquid inside when y points down and the loop is as traced.
 double enclosedArea(const SlotLoop& loop)
 {
@@ -74,8 +108,7 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     const auto level = static_cast<std::uint16_t>(std::ceil(options.threshold * 65535.0));
     const std::vector<Border> borders = followBorders(mask, level);
     if (borders.empty() && !options.allow_dry) {
-        throw Error(ErrorCode::InvalidInput,
-                    "no liquid in the mask: no pixel reaches the threshold " + numberText(options.threshold));
+        throw Error(ErrorCode::InvalidInput, noLiquid(mask, options.threshold));
     }
 
     Outline outline;

@@ -48,8 +48,8 @@ private:
     const Image& image_;
 };
 
-/// Image that is 255 where a pixel has the colour.
-cv::Mat pixelsOf(const Image& image, const CssColour& colour)
+/// Image that is 255 where a pixel has nearly the colour.
+cv::Mat similarPixels(const Image& image, const CssColour& colour)
 {
     cv::Mat wanted(1, 1, CV_32FC3, cv::Scalar(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0));
     cv::cvtColor(wanted, wanted, cv::COLOR_RGB2Lab);
@@ -70,6 +70,22 @@ cv::Mat pixelsOf(const Image& image, const CssColour& colour)
         }
     });
     return found;
+}
+
+/// Image that is 255 where a pixel has the colour. If all of the picture is similar, as labels are that count from 0,
+/// it must be exactly that colour.
+cv::Mat pixelsOf(const Image& image, const CssColour& colour)
+{
+    cv::Mat similar = similarPixels(image, colour);
+    const std::array<std::uint8_t, 3> wanted{colour.red, colour.green, colour.blue};
+    const auto& exact = image.colour;
+    if (cv::countNonZero(similar) < static_cast<int>(similar.total()) ||
+        std::find(exact.begin(), exact.end(), wanted) == exact.end()) {
+        return similar;
+    }
+    std::transform(exact.begin(), exact.end(), similar.begin<std::uint8_t>(),
+                   [&](const auto& pixel) { return pixel == wanted ? 255 : 0; });
+    return similar;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "image/image.h"
 #include "image/image_header.h"
@@ -25,7 +26,25 @@ Image decodeJpeg(std::span<const std::byte> encoded, const ImageHeader& header);
 ///               the program that draws with it is not installed
 Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options);
 
-/// Decodes a TIFF, WebP, BMP, PBM, PGM, PPM, JPEG 2000, OpenEXR or Radiance HDR, upright, by OpenCV. Its size is
+/// Decodes the picture of a BMP.
+Image decodeBmp(std::span<const std::byte> encoded, const DecodeOptions& options);
+/// Decodes the first picture of a GIF.
+Image decodeGif(std::span<const std::byte> encoded, const DecodeOptions& options);
+/// Decodes the largest picture of an icon or cursor.
+Image decodeIco(std::span<const std::byte> encoded, const DecodeOptions& options);
+/// Decodes a TGA.
+Image decodeTga(std::span<const std::byte> encoded, const DecodeOptions& options);
+
+/// First picture of an animation, as a WebP of its own, and its place.
+struct WebpFrame {
+    std::vector<std::byte> file;
+    PicturePlace canvas;
+};
+
+/// First picture of a WebP animation; none of another WebP.
+std::optional<WebpFrame> firstWebpFrame(std::span<const std::byte> encoded);
+
+/// Decodes a TIFF, WebP, PBM, PGM, PPM, JPEG 2000, OpenEXR or Radiance HDR, upright, by OpenCV. Its size is
 /// checked before memory for its pixels is allocated. Floating-point samples are levels clipped to [0, 1].
 /// @throws Error InvalidInput: too large, damaged, unsupported; OpenCV is not installed
 Image decodeWithOpenCv(std::span<const std::byte> encoded, ImageFormat format, const DecodeOptions& options);

@@ -143,7 +143,30 @@ void turnPlane(std::vector<Sample>& plane, const Turn& turn, int width, int heig
     plane = std::move(turned);
 }
 
+Image decodeWebp(std::span<const std::byte> encoded, const DecodeOptions& options)
+{
+    const auto frame = firstWebpFrame(encoded);
+    if (!frame) {
+        return decodeWithOpenCv(encoded, ImageFormat::Webp, options);
+    }
+    checkSize(ImageFormat::Webp, static_cast<std::uint64_t>(frame->canvas.width),
+              static_cast<std::uint64_t>(frame->canvas.height), options.max_pixels);
+    return upright(placedOn(frame->canvas, decodeWithOpenCv(frame->file, ImageFormat::Webp, options)),
+                   webpOrientation(encoded));
+}
+
 }  // namespace
+
+void requireInk(const Image& image)
+{
+    const bool is_drawing = image.raster_scale.has_value();
+    if (is_drawing && std::all_of(image.alpha.begin(), image.alpha.end(), [](std::uint16_t a) { return a == 0; })) {
+        throw Error(
+            ErrorCode::InvalidInput,
+            "SVG image draws nothing: " + (image.lacking.empty() ? "all is transparent, hidden or outside its page"
+                                                                 : "it has " + image.lacking + ", which is not drawn"));
+    }
+}
 
 Image blankImage(const ImageHeader& header, bool with_alpha)
 {
@@ -198,6 +221,32 @@ Image upright(Image image, int orientation)
     return image;
 }
 
+Image placedOn(const PicturePlace& canvas, Image picture)
+{
+    if (canvas.x == 0 && canvas.y == 0 && canvas.width == picture.width && canvas.height == picture.height) {
+        return picture;
+    }
+    Image placed =
+        blankImage({.width = canvas.width, .height = canvas.height, .keeps_colour = !picture.colour.empty()}, true);
+    placed.premultiplied = picture.premultiplied;
+    const auto copy = [&](const auto& from, auto& to) {
+        const int columns = std::min(picture.width, canvas.width - canvas.x);
+        for (int y = 0; columns > 0 && y < picture.height && canvas.y + y < canvas.height; ++y) {
+            const auto place = static_cast<std::ptrdiff_t>(canvas.y + y) * canvas.width + canvas.x;
+            std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(y) * picture.width, columns, to.begin() + place);
+        }
+    };
+    if (picture.alpha.empty()) {
+        picture.alpha.assign(picture.luma.size(), 65535);
+    }
+    copy(picture.luma, placed.luma);
+    copy(picture.alpha, placed.alpha);
+    if (!picture.colour.empty()) {
+        copy(picture.colour, placed.colour);
+    }
+    return placed;
+}
+
 std::vector<std::uint16_t> lumaOverBlack(Image image)
 {
     if (!image.premultiplied) {
@@ -212,11 +261,24 @@ std::vector<std::uint16_t> lumaOverBlack(Image image)
 Image decodeImage(std::span<const std::byte> encoded, const DecodeOptions& options)
 {
     const ImageFormat format = knownFormat(encoded);
-    if (format == ImageFormat::Svg) {
-        return decodeSvg(encoded, options);
-    }
-    if (format != ImageFormat::Png && format != ImageFormat::Jpeg) {
-        return decodeWithOpenCv(encoded, format, options);
+    switch (format) {
+        case ImageFormat::Png:
+        case ImageFormat::Jpeg:
+            break;
+        case ImageFormat::Svg:
+            return decodeSvg(encoded, options);
+        case ImageFormat::Bmp:
+            return decodeBmp(encoded, options);
+        case ImageFormat::Gif:
+            return decodeGif(encoded, options);
+        case ImageFormat::Ico:
+            return decodeIco(encoded, options);
+        case ImageFormat::Tga:
+            return decodeTga(encoded, options);
+        case ImageFormat::Webp:
+            return decodeWebp(encoded, options);
+        default:
+            return decodeWithOpenCv(encoded, format, options);
     }
     ImageHeader header = readImageHeader(encoded, format, options.max_pixels);
     header.keeps_colour = options.keeps_colour;

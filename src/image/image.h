@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "image/image_header.h"
@@ -26,7 +27,12 @@ struct Image {
 
     std::optional<double> raster_scale;    ///< as in Mask
     std::optional<double> physical_width;  ///< as in Mask [m]
+    std::string lacking;                   ///< as in Mask
 };
+
+/// Checks that a drawing shows something.
+/// @throws Error InvalidInput: an SVG image that is transparent everywhere
+void requireInk(const Image& image);
 
 /// Black, transparent image of the size in a header, with colour if the header requests it.
 Image blankImage(const ImageHeader& header, bool with_alpha);
@@ -44,6 +50,17 @@ void putPixels(Image& image, const PixelRun& run, std::span<const Sample> sample
 
 /// Turns an image upright by its EXIF or TIFF orientation, 1 … 8. Needs one more plane of memory.
 Image upright(Image image, int orientation);
+
+/// A canvas, and the place of a picture on it.
+struct PicturePlace {
+    int width = 0;   ///< [px] ≥ 1
+    int height = 0;  ///< [px] ≥ 1
+    int x = 0;       ///< of the picture's left side [px] ≥ 0
+    int y = 0;       ///< of its upper side [px] ≥ 0
+};
+
+/// Puts a picture on a transparent canvas, which cuts it off; unchanged if it covers just the canvas.
+Image placedOn(const PicturePlace& canvas, Image picture);
 
 /// Limits for drawing a vector image.
 struct DrawingLimits {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <new>
 
+#include "droplet/image/picture_format.h"
 #include "image/image_header.h"
 
 namespace droplet {
@@ -23,6 +24,16 @@ std::vector<std::byte> readImageFile(const std::filesystem::path& path)
         throw Error(ErrorCode::InvalidInput, "cannot read " + shown(path) + ": " + damage.what());
     } catch (const std::bad_alloc&) {
         throwOutOfMemory();
+    }
+}
+
+std::optional<std::string> whyNoPicture(const std::filesystem::path& path)
+{
+    try {
+        (void)knownFormat(readImageFile(path));
+        return std::nullopt;
+    } catch (const Error& error) {
+        return error.what();
     }
 }
 

@@ -4,6 +4,7 @@
 #include "image/image_header.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -116,6 +117,78 @@ bool beginsLikeSvg(std::span<const std::byte> encoded)
     return text.starts_with("\xff\xfe<\0"sv) || text.starts_with("\xfe\xff\0<"sv);
 }
 
+/// Whether a file begins with a possible header of a TGA, which has no mark.
+bool beginsLikeTga(const ByteView& view)
+{
+    if (!view.has(0, 18)) {
+        return false;
+    }
+    const auto is_any = [](std::uint32_t value, std::initializer_list<std::uint32_t> of) {
+        return std::find(of.begin(), of.end(), value) != of.end();
+    };
+    const std::uint32_t kind = view.u8(2);
+    const std::uint32_t bits = view.u8(16);
+    const std::uint32_t alpha_bits = view.u8(17) & 15U;
+    const bool has_palette = is_any(kind, {1, 9});
+    const bool has_grey = is_any(kind, {3, 11});
+    const bool has_colour = is_any(kind, {2, 10});
+    const bool palette_fits = has_palette ? view.u8(1) == 1 && is_any(bits, {8, 16}) && view.le16(5) > 0
+                                          : view.u8(1) == 0 && view.le16(3) == 0 && view.le16(5) == 0;
+    const bool bits_fit =
+        has_palette || (has_grey && is_any(bits, {8, 16})) || (has_colour && is_any(bits, {15, 16, 24, 32}));
+    return (has_palette || has_grey || has_colour) && palette_fits && bits_fit && is_any(alpha_bits, {0, 1, 8}) &&
+           view.u8(17) < 0x40 && view.le16(12) > 0 && view.le16(14) > 0;
+}
+
+/// Format that is not read, and what converts it.
+struct ForeignFormat {
+    const char* name;
+    const char* advice;
+};
+
+std::optional<ForeignFormat> foreignFormat(std::span<const std::byte> encoded)
+{
+    using namespace std::string_view_literals;
+    constexpr std::size_t kSoon = 1024;
+    const ByteView view(encoded, ImageFormat::Pnm);
+    const auto bytes = encoded.first(std::min(encoded.size(), kSoon));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+
+    if (view.startsWith("ftyp", 4)) {
+        const std::size_t size = view.has(0, 4) ? view.be32(0) : 0;
+        const std::string_view brands = text.substr(8, std::max<std::size_t>(size, 8) - 8);
+        for (const auto brand : {"avif"sv, "avis"sv}) {
+            if (brands.find(brand) != std::string_view::npos) {
+                return ForeignFormat{"AVIF", "avifdec (Debian's package libavif-bin) converts it to PNG"};
+            }
+        }
+        for (const auto brand : {"heic"sv, "heix"sv, "heim"sv, "heis"sv, "hevc"sv, "hevx"sv, "mif1"sv, "msf1"sv}) {
+            if (brands.find(brand) != std::string_view::npos) {
+                return ForeignFormat{"HEIC", "heif-convert (Debian's package libheif-examples) converts it to PNG"};
+            }
+        }
+    }
+    if (text.find("%PDF-") != std::string_view::npos) {
+        return ForeignFormat{"PDF (or Illustrator)",
+                             "pdftocairo -svg (Debian's package poppler-utils) converts a page to SVG"};
+    }
+    if (view.startsWith("%!PS"sv) || view.startsWith("\xc5\xd0\xd3\xc6"sv)) {
+        return ForeignFormat{"EPS (or Illustrator)",
+                             "ps2pdf -dEPSCrop (Debian's package ghostscript) converts it to PDF, and pdftocairo -svg "
+                             "(poppler-utils) that to SVG"};
+    }
+    if (view.startsWith("\xff\x0a"sv) || view.startsWith("\0\0\0\x0cJXL "sv)) {
+        return ForeignFormat{"JPEG XL", "djxl (Debian's package libjxl-tools) converts it to PNG"};
+    }
+    if (view.startsWith("8BPS"sv)) {
+        return ForeignFormat{"Photoshop", "GIMP exports it as PNG"};
+    }
+    if (view.startsWith("gimp xcf"sv)) {
+        return ForeignFormat{"GIMP", "export it as PNG"};
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 const char* name(ImageFormat format)
@@ -127,6 +200,12 @@ const char* name(ImageFormat format)
             return "JPEG";
         case ImageFormat::Bmp:
             return "BMP";
+        case ImageFormat::Gif:
+            return "GIF";
+        case ImageFormat::Ico:
+            return "ICO";
+        case ImageFormat::Tga:
+            return "TGA";
         case ImageFormat::Tiff:
             return "TIFF";
         case ImageFormat::Webp:
@@ -179,8 +258,17 @@ std::optional<ImageFormat> imageFormat(std::span<const std::byte> encoded)
     if (view.startsWith("#?RADIANCE"sv) || view.startsWith("#?RGBE"sv)) {
         return ImageFormat::RadianceHdr;
     }
+    if (view.startsWith("GIF87a"sv) || view.startsWith("GIF89a"sv)) {
+        return ImageFormat::Gif;
+    }
     if (view.startsWith("\x1f\x8b"sv) || beginsLikeSvg(encoded)) {
         return ImageFormat::Svg;
+    }
+    if ((view.startsWith("\0\0\1\0"sv) || view.startsWith("\0\0\2\0"sv)) && view.has(4, 2) && view.le16(4) > 0) {
+        return ImageFormat::Ico;
+    }
+    if (beginsLikeTga(view)) {
+        return ImageFormat::Tga;
     }
     return std::nullopt;
 }
@@ -188,11 +276,14 @@ std::optional<ImageFormat> imageFormat(std::span<const std::byte> encoded)
 ImageFormat knownFormat(std::span<const std::byte> encoded)
 {
     const auto format = imageFormat(encoded);
+    if (const auto foreign = format ? std::nullopt : foreignFormat(encoded)) {
+        throw Error(ErrorCode::InvalidInput, std::string(foreign->name) + " files are not read; " + foreign->advice);
+    }
     if (!format) {
         throw Error(ErrorCode::InvalidInput,
                     encoded.empty() ? "empty, not an image"
-                                    : "not an image this program reads (PNG, JPEG, SVG, BMP, TIFF, WebP, PBM/PGM/PPM, "
-                                      "JPEG 2000, OpenEXR, Radiance HDR)");
+                                    : "not an image this program reads (PNG, JPEG, SVG, BMP, GIF, ICO, TGA, TIFF, "
+                                      "WebP, PBM/PGM/PPM, JPEG 2000, OpenEXR, Radiance HDR)");
     }
     return *format;
 }

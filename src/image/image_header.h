@@ -8,7 +8,7 @@
 
 namespace droplet {
 
-enum class ImageFormat { Png, Jpeg, Svg, Bmp, Tiff, Webp, Pnm, Jpeg2000, OpenExr, RadianceHdr };
+enum class ImageFormat { Png, Jpeg, Svg, Bmp, Gif, Ico, Tga, Tiff, Webp, Pnm, Jpeg2000, OpenExr, RadianceHdr };
 
 /// Name of a format in messages.
 const char* name(ImageFormat format);
@@ -22,7 +22,7 @@ struct ImageHeader {
     bool keeps_colour = false;  ///< request to the decoder: keep colour beside luma
 };
 
-/// Format of a file by its first bytes. 16 bytes are enough, except for SVG, which may begin with comments of up to 64
+/// Format of a file by its first bytes. 18 bytes are enough, except for SVG, which may begin with comments of up to 64
 /// KiB. Compressed data count as SVG.
 std::optional<ImageFormat> imageFormat(std::span<const std::byte> encoded);
 

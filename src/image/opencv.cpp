@@ -155,32 +155,6 @@ void rejectMisreadTiff(std::span<const std::byte> encoded, const DropletPicture&
     }
 }
 
-/// Rejects a BMP whose fourth byte, which OpenCV 4.6 ignores, is used.
-void rejectBmpWithAlpha(std::span<const std::byte> encoded, const DropletPicture& picture)
-{
-    const ByteView view(encoded, ImageFormat::Bmp);
-    constexpr std::uint32_t kOldHeader = 12;
-    if (view.le32(14) == kOldHeader || view.le16(28) != 32) {
-        return;
-    }
-    const std::size_t first = view.le32(10) + std::size_t{3};
-    const std::size_t count = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-    for (std::size_t i = 0; i < count && view.has(first + 4 * i, 1); ++i) {
-        if (encoded[first + 4 * i] != encoded[first]) {
-            throwUnsupported(ImageFormat::Bmp, "32 bits per pixel with alpha");
-        }
-    }
-}
-
-void rejectMisread(std::span<const std::byte> encoded, ImageFormat format, const DropletPicture& picture)
-{
-    if (format == ImageFormat::Tiff) {
-        rejectMisreadTiff(encoded, picture);
-    } else if (format == ImageFormat::Bmp) {
-        rejectBmpWithAlpha(encoded, picture);
-    }
-}
-
 /// Interprets the fourth channel of a picture. libtiff has already multiplied 8-bit colours by an unassociated alpha.
 void interpretAlpha(std::span<const std::byte> encoded, ImageFormat format, int bits, Image& image)
 {
@@ -204,9 +178,11 @@ Image decodeWithOpenCv(std::span<const std::byte> encoded, ImageFormat format, c
 {
     const Decoded decoded(encoded, format, options.max_pixels);
     const DropletPicture& picture = decoded.picture();
-    rejectMisread(encoded, format, picture);
-    if (format == ImageFormat::Tiff && decoded.floats()) {
-        throwUnsupported(format, "samples that are not unsigned integers");
+    if (format == ImageFormat::Tiff) {
+        rejectMisreadTiff(encoded, picture);
+        if (decoded.floats()) {
+            throwUnsupported(format, "samples that are not unsigned integers");
+        }
     }
     Image image = blankImage({format, picture.width, picture.height, 1, options.keeps_colour}, picture.channels == 4);
     const std::uint32_t white = format == ImageFormat::Pnm ? pnmWhite(encoded) : 0;
@@ -237,7 +213,9 @@ std::optional<FloatImage> decodeFloatsWithOpenCv(std::span<const std::byte> enco
     if (!decoded.floats()) {
         return std::nullopt;
     }
-    rejectMisread(encoded, format, decoded.picture());
+    if (format == ImageFormat::Tiff) {
+        rejectMisreadTiff(encoded, decoded.picture());
+    }
     FloatImage image{decoded.picture().width, decoded.picture().height, {}, {}};
     image.samples.reserve(decoded.width() * decoded.height());
     const std::size_t channels = decoded.channels();

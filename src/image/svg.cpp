@@ -255,6 +255,7 @@ Image imageOf(const SvgDrawing& drawing, const Pixels& pixels, const DecodeOptio
                              true);
     image.premultiplied = true;
     image.raster_scale = drawing.scale;
+    image.lacking = drawing.lacking.data();
     if (drawing.physical_width > 0.0) {
         image.physical_width = drawing.physical_width;
     }

@@ -30,6 +30,7 @@ struct SvgDrawing {
     double scale = 0.0;                ///< pixels per CSS px
     double physical_width = 0.0;       ///< physical width of the page [m]; 0 if it states none
     std::array<char, 1000> problem{};  ///< why it is not drawn, in one line
+    std::array<char, 1000> lacking{};  ///< as Image::lacking
 };
 
 /// Offset of the pixels: premultiplied ARGB in 32 bits, row by row.

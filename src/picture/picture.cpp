@@ -11,6 +11,7 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstring>
+#include <iterator>
 #include <new>
 #include <ostream>
 #include <span>
@@ -18,6 +19,7 @@
 #include <string_view>
 
 #include "droplet/error.h"
+#include "droplet/picture/grey_picture.h"
 #include "image/exr.h"
 #include "image/image.h"
 #include "image/image_file.h"
@@ -178,6 +180,11 @@ void DeepPicture::validate() const
     requireCount("levels", levels.size(), width, height, channels);
 }
 
+void GreyPicture::validate() const
+{
+    requireCount("levels", levels.size(), width, height, 1);
+}
+
 void FloatPicture::validate() const
 {
     requireChannels(channels);
@@ -221,6 +228,29 @@ std::uint64_t writePng(const DeepPicture& picture, std::ostream& out, PngEffort 
     return write({picture.width, picture.height, 16, picture.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY,
                   false, bytes.data(), bytes.size() / static_cast<std::size_t>(picture.height)},
                  out, effort);
+}
+
+std::uint64_t writePng(const GreyPicture& picture, std::ostream& out, PngEffort effort)
+{
+    picture.validate();
+    return write({picture.width, picture.height, 8, PNG_COLOR_TYPE_GRAY, false, picture.levels.data(),
+                  static_cast<std::size_t>(picture.width)},
+                 out, effort);
+}
+
+std::uint64_t writeShortestPng(const DeepPicture& picture, std::ostream& out)
+{
+    constexpr std::uint16_t kStep = 257;  // a level of 8 bits in 16
+    const bool is_short = std::all_of(picture.levels.begin(), picture.levels.end(),
+                                      [](std::uint16_t level) { return level % kStep == 0; });
+    if (!is_short || picture.channels != 1) {
+        return writePng(picture, out);
+    }
+    GreyPicture grey{picture.width, picture.height, {}};
+    grey.levels.reserve(picture.levels.size());
+    std::transform(picture.levels.begin(), picture.levels.end(), std::back_inserter(grey.levels),
+                   [](std::uint16_t level) { return static_cast<std::uint8_t>(level / kStep); });
+    return writePng(grey, out);
 }
 
 Picture over(const Layer& layer, const Picture& below)

@@ -159,6 +159,23 @@ TEST_F(BatchTest, ManifestHasARowForEveryPicture)
     EXPECT_EQ(all["totals"]["bytes"], bytes);
 }
 
+TEST_F(BatchTest, NamesWhatItLeavesOutOfAFolder)
+{
+    writeFile(directory() / "masks/photo.heic", std::string("\0\0\0\x18"
+                                                            "ftypheic\0\0\0\0mif1heic",
+                                                            24));
+    writeFile(directory() / "masks/old.glb", "an output of an earlier run");
+    const CommandResult result = batch({});
+    ASSERT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_THAT(result.error,
+                HasSubstr("left out   masks/notes.txt, masks/photo.heic; the manifest lists the reasons"));
+    const json left_out = manifest()["left_out"];
+    ASSERT_EQ(left_out.size(), 2U);
+    EXPECT_EQ(left_out[0]["name"], "masks/notes.txt");
+    EXPECT_THAT(left_out[0]["reason"].get<std::string>(), HasSubstr("not an image this program reads"));
+    EXPECT_THAT(left_out[1]["reason"].get<std::string>(), HasSubstr("heif-convert"));
+}
+
 TEST_F(BatchTest, ResultDoesNotDependOnThreads)
 {
     writeFile(directory() / "masks/aa_broken.pgm", "P5");
@@ -172,7 +189,7 @@ TEST_F(BatchTest, ResultDoesNotDependOnThreads)
             EXPECT_EQ(result.exit_code, 6);
             EXPECT_EQ(result.errorLines().front(),
                       "droplet-shape: masks/aa_broken.pgm: not an image this program reads (PNG, "
-                      "JPEG, SVG, BMP, TIFF, WebP, PBM/PGM/PPM, JPEG 2000, OpenEXR, Radiance HDR)");
+                      "JPEG, SVG, BMP, GIF, ICO, TGA, TIFF, WebP, PBM/PGM/PPM, JPEG 2000, OpenEXR, Radiance HDR)");
             EXPECT_EQ(timeless(), rows) << threads;
             for (const auto& [name, content] : one) {
                 EXPECT_EQ(files("out")[name], content) << name;
@@ -384,6 +401,8 @@ TEST_F(BatchTest, FindsErrorsBeforeAnyWork)
     }
     fs::create_directory(directory() / "none");
     expect_refused({"batch", "none", "-o", "out/{stem}.glb"}, 3, "none holds no pictures");
+    writeFile(directory() / "none/page.pdf", "%PDF-1.7");
+    expect_refused({"batch", "none", "-o", "out/{stem}.glb"}, 3, "left out: none/page.pdf, PDF (or Illustrator) files");
     expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--manifest", "/proc/none/m.json"}, 4, "/proc/none");
     EXPECT_EQ(readFile(directory() / "masks/notes.txt"), "not looked at");
 }

@@ -67,6 +67,9 @@ TEST(LibraryMessages, GetTheCommandsOptions)
               "no pixel reaches the threshold (--threshold) 0.5");
     EXPECT_EQ(cli::withOptions("--threshold: no pixel reaches the threshold 0.5"),
               "--threshold: no pixel reaches the threshold 0.5");
+    EXPECT_EQ(
+        cli::withOptions("no pixel reaches the threshold 0.5; choose a threshold, 0.1 for one, or a colour"),
+        "no pixel reaches the threshold (--threshold) 0.5; choose a threshold, 0.1 for one, or a colour (--colour)");
     EXPECT_EQ(cli::withOptions("no such droplet"), "no such droplet");
 }
 

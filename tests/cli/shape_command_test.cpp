@@ -1049,6 +1049,10 @@ TEST_F(ShapeCommandTest, MakesAndWritesTheMaskOfAPhotograph)
     const json one = json::parse(bytesOf("one.json"));
     EXPECT_EQ(one["mesh"]["droplets"], 1);
     EXPECT_EQ(one["mesh"]["holes"], 0);
+    const auto depth_of = [&](const char* png) { return static_cast<int>(bytesOf(png).at(24)); };
+    EXPECT_EQ(depth_of("mask.png"), 16) << "of a photograph, rims have levels between those of 8 bits";
+    make({"two.pgm", "two.glb", "--mask-out", "two.png"});
+    EXPECT_EQ(depth_of("two.png"), 8);
     EXPECT_THAT(run({"ink.pgm", "a.glb", "--mask-out", "a.glb"}).error, HasSubstr("--mask-out"));
     for (const char* segment : {"adaptive", "grabcut"}) {
         make({"ink.pgm", "s.glb", "--segment", segment, "--json", "s.json"});

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/footprint/outline.h"
 #include "image/encoded_images.h"
 
 namespace droplet {
@@ -241,7 +242,9 @@ TEST(MaskLevels, FaintPictureIsNotStretchedAndHoldsNoLiquid)
             if (ground + step < 0 || ground + step > 1) {
                 continue;
             }
-            const Grey faint(20, 20, [&](int x, int y) { return x > 5 && x < 15 && y == 10 ? ground + step : ground; });
+            const Grey faint(20, 20, [&](int x, int y) {
+                return x > 5 && x < 15 && y == 10 ? ground + step * (x % 2 == 0 ? 1.0 : 0.5) : ground;
+            });
             const Mask mask = decodeMask(faint.encoded());
             EXPECT_THAT(mask.coverage, Each(testing::Lt(32768))) << ground << " " << step;
             EXPECT_NEAR(mask.level_dry, ground, 1e-5);
@@ -249,6 +252,66 @@ TEST(MaskLevels, FaintPictureIsNotStretchedAndHoldsNoLiquid)
     }
     const Grey clear(20, 20, [](int x, int y) { return x > 5 && x < 15 && y == 10 ? 0.3501 : 0.1; });
     EXPECT_EQ(decodeMask(clear.encoded()).at(10, 10), 65535) << "a quarter of the range is enough";
+}
+
+TEST(MaskLevels, HigherOfTwoDarkLevelsIsLiquid)
+{
+    // As tools for segmentation write masks: 0 and 1 or 20 of 255, 12 bits in 16; also where the border is liquid.
+    for (const auto& [lower, higher] : {std::pair{0.0, 1.0}, {0.0, 20.0}, {1.0, 2.0}, {0.0, 4095.0 / 257}}) {
+        for (const bool at_border : {false, true}) {
+            const Grey picture(40, 30, [&, low = lower, high = higher](int x, int y) {
+                return (ellipse(x, y) > 0.5 ? at_border ? low : high : at_border ? high : low) / 255;
+            });
+            const Mask mask = decodeMask(picture.encoded());
+            EXPECT_EQ(mask.at(19, 14), at_border ? 0 : 65535) << higher;
+            EXPECT_EQ(mask.at(1, 1), at_border ? 65535 : 0) << higher;
+            EXPECT_FALSE(mask.inverted);
+            EXPECT_NEAR(mask.level_liquid, higher / 255, 1e-5);
+            EXPECT_TRUE(mask.found);
+        }
+    }
+}
+
+TEST(MaskLevels, TwoDarkLevelsMayHaveSoftRims)
+{
+    const Grey picture(40, 30, ellipse);
+    const Mask mask = decodeMask(Grey(40, 30, [](int x, int y) { return ellipse(x, y) / 16; }).encoded());
+    for (std::size_t k = 0; k < picture.levels.size(); ++k) {
+        ASSERT_NEAR(mask.coverage[k], picture.levels[k], 9);
+    }
+}
+
+TEST(MaskLevels, PaleDrawingOfTwoLevelsHasItsGroundAtTheBorder)
+{
+    for (const auto& [ground, ink] : {std::pair{1.0, 0.85}, {0.7, 0.85}}) {
+        const Mask mask = decodeMask(Grey(40, 30, [&, paper = ground, mark = ink](int x, int y) {
+                                         return ellipse(x, y) > 0.5 ? mark : paper;
+                                     }).encoded());
+        EXPECT_EQ(mask.at(19, 14), 65535) << ink;
+        EXPECT_EQ(mask.at(1, 1), 0) << ink;
+    }
+}
+
+TEST(MaskLevels, SeveralLabelsAreListedAndChosenByThresholdOrColour)
+{
+    const Grey labels(40, 30, [](int x, int y) { return (ellipse(x, y) > 0.5 ? x < 20 ? 1.0 : 2.0 : 0.0) / 255; });
+    const Mask mask = decodeMask(labels.encoded());
+    EXPECT_THAT([&] { trace(mask); }, testing::ThrowsMessage<Error>(
+                                          AllOf(HasSubstr("levels 0, 1 and 2 of 255: choose a threshold, 0.0059 for"),
+                                                HasSubstr("or a colour"), testing::Not(HasSubstr("--")))));
+    TraceOptions from_two;
+    from_two.threshold = 0.0059;
+    const Outline right = trace(mask, from_two);
+    ASSERT_EQ(right.loops.size(), 1U);
+    for (const Vec2 p : right.loops[0].points) {
+        EXPECT_GE(p.x, -1e-3 * right.extent.x);
+    }
+    MaskOptions one;
+    one.colour = CssColour{1, 1, 1};
+    const Mask left = decodeMask(labels.encoded(), one);
+    EXPECT_EQ(left.at(15, 14), 65535);
+    EXPECT_EQ(left.at(25, 14), 0);
+    EXPECT_EQ(left.at(1, 1), 0);
 }
 
 TEST(MaskLevels, OneLevelIsAllLiquidOrAllDry)
@@ -293,6 +356,11 @@ TEST(MaskAlpha, NearlyInvisibleLogoIsNotStretched)
     const Mask mask = decodeMask(greyAlpha(3, 1, {0x0000, 0x1e00, 0x3200}));
     EXPECT_THAT(mask.coverage, ElementsAre(0, 0x1e * 257, 0x32 * 257));
     EXPECT_EQ(mask.level_liquid, 1.0);
+}
+
+TEST(MaskAlpha, HigherOfTwoLevelsIsLiquid)
+{
+    EXPECT_THAT(decodeMask(greyAlpha(3, 1, {0x0000, 0x0100, 0x0000})).coverage, ElementsAre(0, 65535, 0));
 }
 
 TEST(MaskAlpha, OpaqueImageIsReadByItsLuma)

@@ -135,8 +135,8 @@ TEST(ReadMask, ErrorsNameThePathAndTheReason)
     writeFile(folder / "text.png", bytesOf("Dear reader,\nthis is no image.\n"));
     EXPECT_THAT(message(folder / "text.png"),
                 AllOf(HasSubstr("text.png"),
-                      HasSubstr("not an image this program reads (PNG, JPEG, SVG, BMP, TIFF, WebP, PBM/PGM/PPM, "
-                                "JPEG 2000, OpenEXR, Radiance HDR)")));
+                      HasSubstr("not an image this program reads (PNG, JPEG, SVG, BMP, GIF, ICO, TGA, TIFF, "
+                                "WebP, PBM/PGM/PPM, JPEG 2000, OpenEXR, Radiance HDR)")));
     Bytes cut = encodePng(noise(1, 8), {});
     cut.resize(cut.size() - 20);
     writeFile(folder / "cut.png", cut);

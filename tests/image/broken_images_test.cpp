@@ -42,6 +42,12 @@ std::vector<std::pair<std::string, Bytes>> smallFiles()
     appendLittle(run_bmp, 0x0100, 2);
     Bytes true_bmp = bmpHeader(3, 2, {40, 24, 0, false, 0, {}});
     true_bmp.resize(true_bmp.size() + 24, std::byte{0x5a});
+    Bytes tga_runs = tgaHeader(5, 2, {10, 24, 0x20, {}});
+    appendLittle(tga_runs, 0x50ff00'84U, 4);
+    appendLittle(tga_runs, 0x808080'84U, 4);
+    Bytes ico_bitmap = bmpHeader(2, 4, {40, 24, 0, false, 0, {}});
+    ico_bitmap.erase(ico_bitmap.begin(), ico_bitmap.begin() + 14);
+    ico_bitmap.resize(ico_bitmap.size() + 24, std::byte{0x5a});
     return {
         {"png grey", encodePng(noise(1, 16), {PNG_COLOR_TYPE_GRAY, false, {}, {}, nullptr})},
         {"png rgba interlaced", encodePng(noise(4, 8), {PNG_COLOR_TYPE_RGB_ALPHA, true, {}, {}, nullptr})},
@@ -54,6 +60,12 @@ std::vector<std::pair<std::string, Bytes>> smallFiles()
         {"jpeg exif", jpegWithExif(encodeJpeg(fields(1, 1, 2)), exifBlock(6, std::endian::big))},
         {"bmp 24", true_bmp},
         {"bmp runs", run_bmp},
+        {"gif", encodeGif(noise(1, 2), {15, 9, 1, 1, true, 3})},
+        {"tga", encodeTga(noise(4, 8))},
+        {"tga runs", tga_runs},
+        {"ico", encodeIco({{2, ico_bitmap}})},
+        {"ico png", encodeIco({{9, encodePng(noise(4, 8), {PNG_COLOR_TYPE_RGB_ALPHA, false, {}, {}, nullptr})}})},
+        {"webp animation", webpAnimation(encodeWebp(noise(4, 8), 80), 13, 7, {15, 9, 2, 2, false, -1})},
         {"tiff grey", encodeTiff(noise(1, 16), {})},
         {"tiff lzw", encodeTiff(noise(4, 8), lzw)},
         {"tiff fax", encodeTiff(noise(1, 1), fax)},
@@ -90,6 +102,7 @@ TEST(BrokenImages, CutFilesAreReadWholeOrRejectedWithoutOutput)
                 EXPECT_LE(file.size() - size, name.starts_with("tiff")  ? 8U
                                               : name.ends_with("plain") ? 1U
                                               : name == "bmp runs"      ? 2U
+                                              : name == "gif"           ? 4U
                                                                         : 0U);
             } catch (const Error& error) {
                 EXPECT_EQ(error.code(), ErrorCode::InvalidInput);

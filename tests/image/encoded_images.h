@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <span>
 #include <string>
@@ -406,6 +407,165 @@ inline Bytes bmpHeader(int width, int height, const BmpKind& kind)
     return bytes;
 }
 
+/// Place of a picture on the screen of a GIF, and how it is stored.
+struct GifKind {
+    int screen_width = 0;
+    int screen_height = 0;
+    int x = 0;
+    int y = 0;
+    bool interlaced = false;
+    int transparent = -1;  ///< index
+};
+
+/// GIF of indices; index k of the palette is grey k · 255 / (2^bits − 1).
+inline Bytes encodeGif(const Raster& indices, const GifKind& kind)
+{
+    Bytes bytes = bytesOf("GIF89a");
+    const auto flags = static_cast<unsigned>(0x80 | (indices.bits - 1));
+    appendLittle(bytes, static_cast<unsigned>(kind.screen_width), 2);
+    appendLittle(bytes, static_cast<unsigned>(kind.screen_height), 2);
+    appendLittle(bytes, flags, 3);
+    for (unsigned k = 0; k <= indices.white(); ++k) {
+        appendLittle(bytes, 0x010101U * (k * 255 / indices.white()), 3);
+    }
+    const Bytes comment = bytesOf(std::string_view("\x21\xfe\x02hi\0", 6));
+    bytes.insert(bytes.end(), comment.begin(), comment.end());
+    if (kind.transparent >= 0) {
+        appendLittle(bytes, 0x0104f921, 4);
+        appendLittle(bytes, static_cast<unsigned>(kind.transparent) << 16, 4);
+    }
+    bytes.push_back(std::byte{0x2c});
+    for (const int number : {kind.x, kind.y, indices.width, indices.height}) {
+        appendLittle(bytes, static_cast<unsigned>(number), 2);
+    }
+    bytes.push_back(static_cast<std::byte>(kind.interlaced ? 0x40 : 0));
+    const int first_bits = std::max(2, indices.bits);
+    bytes.push_back(static_cast<std::byte>(first_bits));
+
+    std::vector<unsigned> sequence;
+    const auto add_rows = [&](int first, int step) {
+        for (int y = first; y < indices.height; y += step) {
+            for (int x = 0; x < indices.width; ++x) {
+                sequence.push_back(indices.at(x, y, 0));
+            }
+        }
+    };
+    if (kind.interlaced) {
+        add_rows(0, 8);
+        add_rows(4, 8);
+        add_rows(2, 4);
+        add_rows(1, 2);
+    } else {
+        add_rows(0, 1);
+    }
+    Bytes packed;
+    unsigned buffer = 0;
+    int held = 0;
+    int bits = first_bits + 1;
+    const auto put = [&](unsigned code) {
+        buffer |= code << held;
+        for (held += bits; held >= 8; held -= 8, buffer >>= 8) {
+            packed.push_back(static_cast<std::byte>(buffer & 255U));
+        }
+    };
+    const unsigned clear = 1U << first_bits;
+    std::map<std::pair<unsigned, unsigned>, unsigned> table;
+    put(clear);
+    unsigned string = sequence.front();
+    for (std::size_t k = 1; k < sequence.size(); ++k) {
+        const auto known = table.find({string, sequence[k]});
+        if (known != table.end()) {
+            string = known->second;
+            continue;
+        }
+        put(string);
+        const auto next = clear + 2 + static_cast<unsigned>(table.size());
+        if (next == 4095) {
+            put(clear);
+            table.clear();
+            bits = first_bits + 1;
+        } else {
+            table[{string, sequence[k]}] = next;
+            bits += next == 1U << bits ? 1 : 0;
+        }
+        string = sequence[k];
+    }
+    put(string);
+    bits += clear + 2 + table.size() == 1U << bits && bits < 12 ? 1 : 0;
+    put(clear + 1);
+    held > 0 ? packed.push_back(static_cast<std::byte>(buffer)) : void();
+    for (std::size_t at = 0; at < packed.size(); at += 255) {
+        const std::size_t size = std::min<std::size_t>(255, packed.size() - at);
+        bytes.push_back(static_cast<std::byte>(size));
+        bytes.insert(bytes.end(), packed.begin() + static_cast<std::ptrdiff_t>(at),
+                     packed.begin() + static_cast<std::ptrdiff_t>(at + size));
+    }
+    appendLittle(bytes, 0x3b00, 2);
+    return bytes;
+}
+
+/// Header of a TGA and its palette.
+struct TgaKind {
+    unsigned kind = 2;
+    unsigned bits = 24;
+    unsigned descriptor = 0;  ///< bits of alpha; 0x10 from the right, 0x20 from the top
+    Bytes palette;            ///< of 24 bits
+};
+
+inline Bytes tgaHeader(int width, int height, const TgaKind& kind)
+{
+    Bytes bytes;
+    appendLittle(bytes, 2, 1);
+    appendLittle(bytes, kind.palette.empty() ? 0 : 1, 1);
+    appendLittle(bytes, kind.kind, 1);
+    appendLittle(bytes, 0, 2);
+    appendLittle(bytes, kind.palette.size() / 3, 2);
+    appendLittle(bytes, kind.palette.empty() ? 0 : 24, 1);
+    appendLittle(bytes, 0, 4);
+    appendLittle(bytes, static_cast<unsigned>(width), 2);
+    appendLittle(bytes, static_cast<unsigned>(height), 2);
+    appendLittle(bytes, kind.bits, 1);
+    appendLittle(bytes, kind.descriptor, 1);
+    appendLittle(bytes, 0x6968, 2);  // its name
+    bytes.insert(bytes.end(), kind.palette.begin(), kind.palette.end());
+    return bytes;
+}
+
+/// TGA of colours, from the bottom, without run lengths.
+inline Bytes encodeTga(const Raster& raster)
+{
+    Bytes bytes = tgaHeader(raster.width, raster.height,
+                            {2, static_cast<unsigned>(8 * raster.channels), raster.channels == 4 ? 8U : 0U, {}});
+    for (int y = raster.height - 1; y >= 0; --y) {
+        for (int x = 0; x < raster.width; ++x) {
+            for (int c = 0; c < raster.channels; ++c) {
+                bytes.push_back(static_cast<std::byte>(raster.at(x, y, c < 3 ? 2 - c : c)));
+            }
+        }
+    }
+    return bytes;
+}
+
+/// Icon of several pictures: their sides and their PNG files, or bitmaps.
+inline Bytes encodeIco(const std::vector<std::pair<int, Bytes>>& pictures)
+{
+    Bytes bytes;
+    appendLittle(bytes, 0x10000, 4);
+    appendLittle(bytes, pictures.size(), 2);
+    std::size_t offset = 6 + 16 * pictures.size();
+    for (const auto& [side, file] : pictures) {
+        appendLittle(bytes, static_cast<unsigned>(side % 256) * 0x101U, 4);
+        appendLittle(bytes, 0x200001, 4);
+        appendLittle(bytes, file.size(), 4);
+        appendLittle(bytes, offset, 4);
+        offset += file.size();
+    }
+    for (const auto& [side, file] : pictures) {
+        bytes.insert(bytes.end(), file.begin(), file.end());
+    }
+    return bytes;
+}
+
 inline Bytes encodeMat(const cv::Mat& image, const std::string& extension, const std::vector<int>& parameters = {})
 {
     std::vector<std::uint8_t> buffer;
@@ -439,6 +599,39 @@ inline Bytes encodeWithOpenCv(const Raster& raster, const std::string& extension
 inline Bytes encodeWebp(const Raster& raster, int quality = 101)
 {
     return encodeWithOpenCv(raster, ".webp", {cv::IMWRITE_WEBP_QUALITY, quality});
+}
+
+/// WebP animation that shows a picture so many times on a canvas.
+/// @param still  a WebP without animation, of width × height
+inline Bytes webpAnimation(const Bytes& still, int width, int height, const GifKind& place, int frames = 1)
+{
+    Bytes frame;
+    for (const int number : {place.x / 2, place.y / 2, width - 1, height - 1, 100}) {
+        appendLittle(frame, static_cast<unsigned>(number), 3);
+    }
+    frame.push_back(std::byte{0});
+    // Pictures with an alpha of their own are extended files.
+    const std::string_view text(reinterpret_cast<const char*>(still.data()), still.size());
+    const std::ptrdiff_t first = text.substr(12, 4) == "VP8X" ? 30 : 12;
+    frame.insert(frame.end(), still.begin() + first, still.end());
+    Bytes bytes = bytesOf("WEBPVP8X");
+    appendLittle(bytes, 10, 4);
+    appendLittle(bytes, 0x12, 4);
+    appendLittle(bytes, static_cast<unsigned>(place.screen_width - 1), 3);
+    appendLittle(bytes, static_cast<unsigned>(place.screen_height - 1), 3);
+    const Bytes loop = bytesOf(std::string_view("ANIM\6\0\0\0\0\0\0\0\0\0", 14));
+    bytes.insert(bytes.end(), loop.begin(), loop.end());
+    for (int k = 0; k < frames; ++k) {
+        const Bytes mark = bytesOf("ANMF");
+        bytes.insert(bytes.end(), mark.begin(), mark.end());
+        appendLittle(bytes, frame.size(), 4);
+        bytes.insert(bytes.end(), frame.begin(), frame.end());
+        bytes.resize(bytes.size() + frame.size() % 2);
+    }
+    Bytes file = bytesOf("RIFF");
+    appendLittle(file, bytes.size(), 4);
+    file.insert(file.end(), bytes.begin(), bytes.end());
+    return file;
 }
 
 inline Bytes exifBlock(int orientation, std::endian order)

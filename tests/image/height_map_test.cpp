@@ -173,7 +173,8 @@ TEST(HeightMap, EveryFormatOfAMaskIsRead)
     const Raster colour = fields(3, 2, 2);
     for (const Bytes& file :
          {encodeJpeg(grey), encodeJpeg(colour), encodeWebp(noise(3, 8)), encodeWithOpenCv(noise(3, 8), ".bmp"),
-          bytesOf("P6 2 1 255 abcdef"), bytesOf("P4 2 1 \x40"), encodeWithOpenCv(fields(3, 4, 4), ".jp2")}) {
+          encodeTga(noise(3, 8)), encodeGif(noise(1, 8), {13, 7, 0, 0, false, -1}), bytesOf("P6 2 1 255 abcdef"),
+          bytesOf("P4 2 1 \x40"), encodeWithOpenCv(fields(3, 4, 4), ".jp2")}) {
         const HeightMap map = decodeHeightMap(file);
         ASSERT_NO_THROW(map.validate());
         const Mask mask = decodeMask(file, only(Channel::Luma));

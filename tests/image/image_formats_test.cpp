@@ -379,22 +379,203 @@ TEST(ReadBmp, PalettesRunLengthsAndTrueColour)
                 ElementsAre(25700, 25700, 25700, 25700, 25700, 65535, 65535, 65535, 0, 0));
 }
 
-TEST(ReadBmp, FourthByteIsRejectedIfItIsUsed)
+TEST(ReadBmp, FourthByteIsAlphaIfPixelsDifferInIt)
 {
     for (const unsigned alpha : {0x00U, 0xffU}) {
         Bytes bmp = bmpHeader(2, 1, {40, 32, 0, false, 0, {}});
         appendLittle(bmp, 0x00ffffff | alpha << 24, 4);
         appendLittle(bmp, 0x00000000 | alpha << 24, 4);
         expectLevels(bmp, 2, 1, [](int x, int) { return x == 0 ? 1.0 : 0.0; });
-        bmp.back() = std::byte{0x80};
-        EXPECT_THAT(messageOf(bmp), HasSubstr("32 bits per pixel with alpha"));
+        bmp.back() = std::byte{0x33};
+        expectLevels(
+            bmp, 2, 1, [](int x, int) { return x == 0 ? 1.0 : 0.0; },
+            [alpha](int x, int) { return x == 0 ? alpha / 255.0 : 0.2; });
     }
+    const Raster raster = noise(4, 8);
+    BmpKind masks{108, 32, 3, true, 0, {}};  // version 4, as many programs export
+    Bytes bmp = bmpHeader(raster.width, raster.height, masks);
+    for (const unsigned mask : {0xff000000U, 0xff0000U, 0xff00U, 0xffU}) {
+        appendLittle(bmp, mask, 4);
+    }
+    bmp.resize(14 + 108);
+    for (int y = 0; y < raster.height; ++y) {
+        for (int x = 0; x < raster.width; ++x) {
+            for (int c = 3; c >= 0; --c) {
+                bmp.push_back(static_cast<std::byte>(raster.at(x, y, c)));
+            }
+        }
+    }
+    expectRaster(bmp, raster);
+}
+
+TEST(ReadBmp, SixteenBitsHaveFiveOrSixForEachColour)
+{
+    Bytes plain = bmpHeader(2, 1, {40, 16, 0, false, 0, {}});
+    appendLittle(plain, 0x7fff | 0x03e0 << 16, 4);
+    expectNearly(plain, 2, 1, [](int x, int) { return x == 0 ? 1.0 : 0.587; });
+    EXPECT_EQ(decodeMask(plain, only(Channel::Luma)).at(0, 0), 65535);
+    BmpKind masks{40, 16, 3, false, 0, {}};
+    for (const unsigned mask : {0xf800U, 0x07e0U, 0x001fU}) {
+        appendLittle(masks.after_header, mask, 4);
+    }
+    Bytes wide = bmpHeader(2, 1, masks);
+    appendLittle(wide, 0xffff | 0x001f << 16, 4);
+    expectNearly(wide, 2, 1, [](int x, int) { return x == 0 ? 1.0 : 0.114; });
+}
+
+TEST(ReadBmp, PalettesOfAFewBitsAndTheirRunLengths)
+{
+    BmpKind kind{40, 4, 0, false, 2, {}};
+    appendLittle(kind.after_header, 0x00ffffff'00000000U, 8);
+    Bytes bmp = bmpHeader(3, 2, kind);
+    appendLittle(bmp, 0x1001, 4);  // below: 0 1 1
+    appendLittle(bmp, 0x0010, 4);  // above: 1 0 0
+    const auto expected = ElementsAre(65535, 0, 0, 0, 65535, 65535);
+    EXPECT_THAT(decodeMask(bmp, only(Channel::Luma)).coverage, expected);
+    kind.compression = 2;
+    Bytes runs = bmpHeader(3, 2, kind);
+    for (const unsigned byte : {1U, 0x00U, 2U, 0x11U, 0U, 0U, 0U, 3U, 0x10U, 0x00U, 0U, 1U}) {
+        runs.push_back(static_cast<std::byte>(byte));
+    }
+    EXPECT_THAT(decodeMask(runs, only(Channel::Luma)).coverage, expected);
+    kind = {12, 1, 0, false, 0, {}};
+    appendLittle(kind.after_header, 0xffffff'000000U, 6);
+    Bytes old = bmpHeader(3, 2, kind);
+    appendLittle(old, 0x60, 4);
+    appendLittle(old, 0x80, 4);
+    EXPECT_THAT(decodeMask(old, only(Channel::Luma)).coverage, expected);
+    EXPECT_THAT(messageOf(bmpHeader(3, 2, {40, 24, 4, false, 0, {}})), HasSubstr("compression 4 of 24 bits"));
+}
+
+TEST(ReadGif, EveryDepthInterlacedOrNot)
+{
+    for (const int bits : {1, 2, 4, 8}) {
+        for (const bool interlaced : {false, true}) {
+            for (const int width : {1, 13, 200}) {
+                const Raster raster = noise(1, bits, width, 37);
+                expectRaster(encodeGif(raster, {width, 37, 0, 0, interlaced, -1}), raster);
+            }
+        }
+    }
+}
+
+TEST(ReadGif, FirstPictureLiesOnATransparentScreen)
+{
+    const Raster raster = noise(1, 8);
+    const auto inside = [](int x, int y) { return x >= 3 && x < 16 && y >= 5; };
+    // The screen cuts off its last rows.
+    Bytes file = encodeGif(raster, {20, 10, 3, 5, false, 255});
+    const auto grey = [&](int x, int y) { return inside(x, y) ? raster.level(x - 3, y - 5, 0) : 0.0; };
+    expectLevels(file, 20, 10, grey, [&](int x, int y) { return inside(x, y) && grey(x, y) < 1.0 ? 1.0 : 0.0; });
+    // More pictures follow.
+    const Bytes whole = encodeGif(raster, {13, 7, 0, 0, false, -1});
+    Bytes animation = whole;
+    animation.pop_back();
+    animation.insert(animation.end(), whole.begin() + 13 + 3 * 256, whole.end());
+    expectRaster(animation, raster);
+    EXPECT_THAT(messageOf(encodeGif(raster, {20000, 20000, 0, 0, false, -1})), HasSubstr("20000 x 20000"));
+}
+
+TEST(ReadTga, ColoursGreyPaletteAndRunLengths)
+{
+    expectRaster(encodeTga(noise(3, 8)), noise(3, 8));
+    expectRaster(encodeTga(noise(4, 8)), noise(4, 8));
+    Bytes grey = tgaHeader(3, 2, {11, 8, 0x20, {}});
+    for (const unsigned byte : {0x83U, 0xffU, 0x01U, 0x00U, 0x33U}) {  // a run goes on in the next row
+        grey.push_back(static_cast<std::byte>(byte));
+    }
+    EXPECT_THAT(decodeMask(grey, only(Channel::Luma)).coverage, ElementsAre(65535, 65535, 65535, 65535, 0, 0x3333));
+    Bytes palette = tgaHeader(2, 1, {1, 8, 0x10, bytesOf(std::string_view("\0\0\0\xff\xff\xff", 6))});
+    appendLittle(palette, 0x0001, 2);
+    EXPECT_THAT(decodeMask(palette, only(Channel::Luma)).coverage, ElementsAre(0, 65535)) << "from the right";
+    Bytes high = tgaHeader(2, 1, {2, 16, 1, {}});
+    appendLittle(high, 0x7fff | 0x83e0 << 16, 4);
+    expectLevels(
+        high, 2, 1, [](int x, int) { return x == 0 ? 1.0 : luma(0, 1, 0); },
+        [](int x, int) { return x == 0 ? 0.0 : 1.0; });
+    Bytes opaque = tgaHeader(2, 1, {2, 32, 8, {}});
+    appendLittle(opaque, 0x00ffffff'00000000U, 8);
+    expectLevels(opaque, 2, 1, [](int x, int) { return x == 0 ? 0.0 : 1.0; });
+}
+
+TEST(ReadIco, LargestPictureIsReadWithItsMask)
+{
+    const auto icon = [](int side, unsigned bits) {
+        BmpKind kind{40, bits, 0, false, 0, {}};
+        Bytes bitmap = bmpHeader(side, 2 * side, kind);
+        return Bytes(bitmap.begin() + 14, bitmap.end());
+    };
+    Bytes small = icon(2, 32);
+    for (const unsigned pixel : {0x10ffffffU, 0x20000000U, 0x30000000U, 0x40ffffffU}) {
+        appendLittle(small, pixel, 4);
+    }
+    appendLittle(small, 0, 8);
+    expectLevels(
+        encodeIco({{1, encodePng(noise(3, 8, 1, 1), {PNG_COLOR_TYPE_RGB, false, {}, {}, nullptr})}, {2, small}}), 2, 2,
+        [](int x, int y) { return x == y ? 0.0 : 1.0; },
+        [](int x, int y) { return (y == 1 ? x + 1 : x + 3) * 16 / 255.0; });
+    Bytes masked = icon(2, 24);
+    appendLittle(masked, 0xffffff, 8);
+    appendLittle(masked, 0xffffff, 8);
+    appendLittle(masked, 0x80, 4);  // below left
+    appendLittle(masked, 0x40, 4);  // above right
+    expectLevels(
+        encodeIco({{2, masked}}), 2, 2, [](int x, int) { return x == 0 ? 1.0 : 0.0; },
+        [](int x, int y) { return x == y ? 1.0 : 0.0; });
+    const Raster raster = noise(4, 8, 300, 5);
+    expectRaster(encodeIco({{2, masked}, {256, encodePng(raster, {PNG_COLOR_TYPE_RGB_ALPHA, false, {}, {}, nullptr})}}),
+                 raster);
+    EXPECT_THAT(messageOf(encodeIco({{9, {}}})), HasSubstr("before its largest picture"));
+}
+
+TEST(ForeignFormats, NameAProgramThatConverts)
+{
+    using namespace std::string_view_literals;
+    for (const auto& [begin, words] : {
+             std::pair{"\0\0\0\x18"
+                       "ftypheic\0\0\0\0mif1heic"sv,
+                       "HEIC files are not read; heif-convert"},
+             {"\0\0\0\x1c"
+              "ftypmif1\0\0\0\0mif1avifmiaf"sv,
+              "AVIF files are not read; avifdec"},
+             {"%PDF-1.7\n"sv, "PDF (or Illustrator) files are not read; pdftocairo -svg"},
+             {"%!PS-Adobe-3.0 EPSF-3.0\n"sv, "EPS (or Illustrator) files are not read; ps2pdf -dEPSCrop"},
+             {"\xc5\xd0\xd3\xc6\x20\0\0\0"sv, "EPS (or Illustrator)"},
+             {"\xff\x0a\0"sv, "JPEG XL files are not read; djxl"},
+             {"8BPS\0\1"sv, "Photoshop"},
+             {"gimp xcf v011"sv, "GIMP"},
+         }) {
+        EXPECT_THAT(messageOf(bytesOf(begin)), HasSubstr(words));
+    }
+    EXPECT_THAT(messageOf(bytesOf("hello")), HasSubstr("not an image this program reads (PNG"));
 }
 
 TEST(ReadWebp, LosslessIsExact)
 {
     expectRaster(encodeWebp(noise(3, 8)), noise(3, 8));
     expectRaster(encodeWebp(noise(4, 8)), noise(4, 8));
+}
+
+TEST(ReadWebp, FirstPictureOfAnAnimationLiesOnATransparentCanvas)
+{
+    const Raster raster = noise(4, 8);
+    expectRaster(webpAnimation(encodeWebp(raster), 13, 7, {13, 7, 0, 0, false, -1}, 2), raster);
+    const auto inside = [](int x, int y) { return x >= 4 && x < 17 && y >= 2 && y < 9; };
+    expectLevels(
+        webpAnimation(encodeWebp(noise(3, 8)), 13, 7, {20, 10, 4, 2, false, -1}), 20, 10,
+        [&](int x, int y) {
+            const Raster colours = noise(3, 8);
+            const auto level = [&](int c) { return colours.level(x - 4, y - 2, c); };
+            return inside(x, y) ? luma(level(0), level(1), level(2)) : 0.0;
+        },
+        [&](int x, int y) { return inside(x, y) ? 1.0 : 0.0; });
+    // With loss, alpha is a part of its own.
+    const Mask still = decodeMask(encodeWebp(raster, 80), only(Channel::Alpha));
+    EXPECT_EQ(decodeMask(webpAnimation(encodeWebp(raster, 80), 13, 7, {13, 7, 0, 0, false, -1}), only(Channel::Alpha))
+                  .coverage,
+              still.coverage);
+    EXPECT_THAT(messageOf(webpAnimation(encodeWebp(raster), 13, 7, {16384, 16385, 0, 0, false, -1})),
+                HasSubstr("16384 x 16385"));
 }
 
 TEST(ReadNetpbm, EveryKind)

@@ -57,7 +57,9 @@ double coveredPart(const Mask& mask)
 
 double coveredPart(const Bytes& encoded, int pixels = 100)
 {
-    return coveredPart(decodeMask(encoded, side(pixels)));
+    MaskOptions options = side(pixels);
+    options.allow_dry = true;
+    return coveredPart(decodeMask(encoded, options));
 }
 
 /// Outline on a page one metre wide.
@@ -158,12 +160,12 @@ TEST(Svg, PathsAndGroupsAreUnited)
 TEST(Svg, TextIsDrawnWhereThereAreFonts)
 {
     const Bytes text = drawing(R"(<text x="1" y="8" font-size="8">W</text>)");
-    const Mask mask = decodeMask(text, side(100));
-    if (coveredPart(mask) == 0.0) {
+    const double covered = coveredPart(text);
+    if (covered == 0.0) {
         GTEST_SKIP() << "no fonts";
     }
-    EXPECT_GT(coveredPart(mask), 0.05);
-    EXPECT_LT(coveredPart(mask), 0.6);
+    EXPECT_GT(covered, 0.05);
+    EXPECT_LT(covered, 0.6);
 }
 
 TEST(Svg, TextIsDrawnAtAnyViewBox)
@@ -348,6 +350,124 @@ TEST(Svg, NothingOutsideTheFileIsRead)
         R"(<image x="5" y="5" width="5" height="5" xlink:href="data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAA)"
         R"(AAAA6fptVAAAACklEQVR4nGNgAAAAAgABSK+kcQAAAABJRU5ErkJggg=="/>)");
     EXPECT_NEAR(coveredPart(inside), 0.26, 1e-3);
+}
+
+TEST(Svg, DrawingThatShowsNothingIsToldSo)
+{
+    for (const char* nothing :
+         {"", "<rect width='9' height='9' opacity='0'/>", "<rect x='20' width='9' height='9'/>"}) {
+        EXPECT_THAT(messageOf(drawing(nothing)), HasSubstr("draws nothing: all is transparent")) << nothing;
+        EXPECT_EQ(coveredPart(drawing(nothing)), 0.0) << "frames may be dry";
+    }
+    EXPECT_THAT(messageOf(drawing("<image width='9' height='9' href='photo.png'/>")),
+                HasSubstr("draws nothing: it has linked pictures (embed them), which is not drawn"));
+}
+
+/// Lower and upper corner of what is drawn, on a page of 10 × 10.
+std::array<Vec2, 2> boundsOf(const std::string& content)
+{
+    const Mask mask = decodeMask(drawing(content), side(200));
+    std::array<Vec2, 2> bounds{Vec2{10.0, 10.0}, Vec2{0.0, 0.0}};
+    for (int y = 0; y < mask.height; ++y) {
+        for (int x = 0; x < mask.width; ++x) {
+            if (mask.at(x, y) >= 32768) {
+                bounds[0] = {std::min(bounds[0].x, x / 20.0), std::min(bounds[0].y, y / 20.0)};
+                bounds[1] = {std::max(bounds[1].x, (x + 1) / 20.0), std::max(bounds[1].y, (y + 1) / 20.0)};
+            }
+        }
+    }
+    return bounds;
+}
+
+struct RewrittenCase {
+    const char* content;
+    double left, top, right, bottom;  ///< of what is drawn
+};
+
+// The drawings of tests/studio/drawings.mjs are compared with those of a browser.
+TEST(Svg, WhatLibrsvgLacksIsDrawnInOtherWords)
+{
+    const std::string bar = "<rect x='4' y='1' width='2' height='6' ";
+    const std::vector<RewrittenCase> cases{
+        {"style='transform:rotate(90deg);transform-origin:5px 5px'/>", 3, 4, 9, 6},
+        {"transform='rotate(90)' transform-origin='5 5'/>", 3, 4, 9, 6},
+        {"style='transform:scale(.5);transform-origin:right bottom'/>", 7, 5.5, 8, 8.5},
+        {"style='transform:rotate(90deg);transform-origin:center;transform-box:fill-box'/>", 2, 3, 8, 5},
+        {"style='rotate:90deg;transform-origin:5px 4px'/>", 2, 3, 8, 5},
+        {"style='translate:1px 2px;scale:.5'/>", 3, 2.5, 4, 5.5},
+        {"transform='translate(9)' style='transform:translate(-1px,1px)'/>", 3, 2, 5, 8},
+        {"style='height:calc(1px + (4px / 2))'/>", 4, 1, 6, 4},
+        {"style='height:max(2px,3px)'/>", 4, 1, 6, 4},
+        {"style='clip-path:inset(1px 0 50%)'/>", 4, 2, 6, 4},
+        {"style='clip-path:circle(1px at 50% 2px)'/>", 4, 2, 6, 4},
+        {"style='clip-path:polygon(0 0,100% 0,100% 3px,0 3px) fill-box'/>", 4, 1, 6, 4},
+        {"style='clip-path:circle(2px at 5px 3px) view-box'/>", 4, 1, 6, 5},
+    };
+    for (const RewrittenCase& each : cases) {
+        const auto [low, high] = boundsOf(bar + each.content);
+        EXPECT_NEAR(low.x, each.left, 0.06) << each.content;
+        EXPECT_NEAR(low.y, each.top, 0.06) << each.content;
+        EXPECT_NEAR(high.x, each.right, 0.06) << each.content;
+        EXPECT_NEAR(high.y, each.bottom, 0.06) << each.content;
+    }
+}
+
+TEST(Svg, VariablesAndStrokesThatDoNotScaleAreDrawn)
+{
+    const auto line = [](const std::string& attributes) {
+        return coveredPart(drawing("<g fill='none'><path d='M1 5H9' " + attributes + "/></g>"));
+    };
+    EXPECT_NEAR(line("stroke='var(--stroke-0, #1E1E1E)'"), 0.08, 1e-3) << "as Figma exports it";
+    EXPECT_NEAR(line("stroke='var(--a, var(--b, red))' stroke-width='2'"), 0.16, 1e-3);
+    EXPECT_NEAR(line("style='--wide:3;stroke:red;stroke-width:var(--wide)'"), 0.24, 1e-3);
+    EXPECT_NEAR(coveredPart(drawing("<style>:root{--ink:red}.a>path{stroke:var(--ink)}</style><g class='a'>"
+                                    "<path d='M1 5H9'/></g>")),
+                0.08, 1e-3);
+    EXPECT_EQ(line("stroke='var(--unknown)'"), 0.0);
+    EXPECT_EQ(line("style='--a:var(--b);--b:var(--a);stroke:var(--a)'"), 0.0) << "a circle of variables";
+    const std::string scaled = "<g transform='scale(4) rotate(90)' stroke='red'><path d='M0 -2H2' stroke-width='1' ";
+    EXPECT_NEAR(coveredPart(drawing(scaled + "/></g>")), 0.32, 1e-3);
+    EXPECT_NEAR(coveredPart(drawing(scaled + "vector-effect='non-scaling-stroke'/></g>")), 0.08, 1e-3);
+}
+
+TEST(Svg, WhatIsNotDrawnIsNamed)
+{
+    const std::string dot = "<rect width='1' height='1'/>";
+    const auto lacking = [&](const std::string& content) {
+        return decodeMask(drawing(dot + content), side(64)).lacking;
+    };
+    EXPECT_EQ(lacking(""), "");
+    EXPECT_EQ(lacking("<text font-family='sans-serif'>a</text><use href='#a'/><image href='data:,'/>"), "");
+    EXPECT_EQ(lacking("<text><textPath href='#p'>a</textPath></text>"), "textPath (convert text to paths)");
+    EXPECT_EQ(lacking("<foreignObject/><flowRoot/>"), "foreignObject, flowRoot (convert text to paths)");
+    EXPECT_EQ(lacking("<switch><foreignObject requiredExtensions='x'/><g/></switch>"), "")
+        << "as Illustrator writes it";
+    EXPECT_EQ(lacking("<image href='a.png'/><image href='b.png'/><use href='c.svg#d'/>"),
+              "linked pictures (embed them), linked drawings (embed them)");
+    EXPECT_THAT(lacking("<text font-family='No Such Font, serif'>a</text>"),
+                HasSubstr("the font 'No Such Font', for which another is used"));
+    EXPECT_THAT(lacking("<style>@font-face{font-family:Own;src:url(own.woff)}</style><text font-family='Own'>a</text>"),
+                HasSubstr("the web font 'Own'"));
+    EXPECT_EQ(lacking("<style>@import 'a.css';</style>"), "imported style sheets");
+    EXPECT_EQ(lacking("<rect style='width:calc(50% - 1px)'/>"), "calc() of percentages or of units of a font");
+    EXPECT_EQ(lacking("<rect style='clip-path:inset(1px round 1px 2px)'/>"), "the clip-path inset() of this kind");
+    EXPECT_EQ(lacking("<path vector-effect='non-scaling-stroke' transform='scale(1 2)'/>"),
+              "vector-effect of this kind, or under an uneven scale");
+    EXPECT_EQ(lacking("<rect fill='oklch(0.5 0.2 30)'/>"), "the colour function oklch()");
+}
+
+TEST(Svg, DamagedStylesAreDrawnAsFarAsTheyGo)
+{
+    for (const char* style :
+         {"transform-origin:", "transform-origin:1px;transform:rotate(", "clip-path:circle(", "r:calc(", "r:calc(1px +",
+          "r:calc(((((((((((((((((((((((((((((((((((((1))))", "--a:var(--a);r:var(--a)",
+          "transform:matrix(1,2);transform-origin:5px", "clip-path:polygon(1px)", ";;:;", "}{", "\\",
+          "transform-origin:0x10px 1px;transform:scale(2)", "r:calc(inf * 1px)", "r:calc(1px / 0)"}) {
+        EXPECT_NEAR(coveredPart(drawing("<rect width='5' height='5'/><circle style='" + std::string(style) +
+                                        "'/><style>" + std::string(style) + "{" + style + "}</style>")),
+                    0.25, 1e-3)
+            << style;
+    }
 }
 
 TEST(Svg, TooLargeDrawingsAreRejected)

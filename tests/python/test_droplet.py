@@ -28,6 +28,14 @@ class Masks(unittest.TestCase):
             mask.astype(np.float32),
             mask.astype(np.float64),
             mask.tolist(),
+            mask.astype(np.uint8),
+            mask.astype(np.uint16) * 4095,
+            mask.astype(np.int8) * 2 - 1,
+            mask.astype(np.int32) * 20,
+            mask.astype(np.int64),
+            mask.astype(np.uint64) * 255,
+            mask.astype(np.float16),
+            mask.astype(np.longdouble) * 255,
         ):
             np.testing.assert_array_equal(ds.make_droplet(array, **SMALL).vertices, expected)
 
@@ -35,8 +43,19 @@ class Masks(unittest.TestCase):
         grey = (200 * disc()).astype(np.uint8)
         grey[90:110, 90:110] = 255
         wide = grey.astype(np.uint16) * 257
-        np.testing.assert_array_equal(
-            ds.make_droplet(grey, **SMALL).vertices, ds.make_droplet(wide, **SMALL).vertices
+        expected = ds.make_droplet(grey, **SMALL).vertices
+        for array in (wide, grey.astype(np.int32), wide.astype(np.int64), grey / 255):
+            np.testing.assert_array_equal(ds.make_droplet(array, **SMALL).vertices, expected)
+
+    def test_labels_are_listed(self):
+        labels = disc().astype(np.uint8)
+        labels[90:110, 90:110] = 2
+        with self.assertRaisesRegex(ds.InvalidInput, r"levels 0, 1 and 2 of 255: choose a threshold, 0\.0059 for"):
+            ds.make_droplet(labels)
+        np.testing.assert_allclose(
+            ds.make_droplet(labels, threshold=0.0059, **SMALL).vertices.max(axis=0)[:2],
+            ds.make_droplet(labels == 2, **SMALL).vertices.max(axis=0)[:2],
+            rtol=0.1,
         )
 
     def test_the_order_in_memory_does_not_matter(self):
@@ -77,10 +96,10 @@ class Masks(unittest.TestCase):
             (np.zeros(5), "1 dimensions"),
             (np.zeros((0, 4)), "at least 1 x 1"),
             (np.zeros((4, 4), complex), "complex128"),
-            (np.zeros((4, 4), np.int64), "int64"),
             (np.array([["a", "b"], ["c", "d"]]), "must be of bool"),
-            (np.full((4, 4), 1.5), "1.5 must be from 0 to 1"),
-            (np.full((4, 4), -0.1), "from 0 to 1"),
+            (np.array([[0, 1.5, 3]]), "1.5 must be from 0 to 1; .* mask == 1.5"),
+            (np.array([[0, 1, -0.1]]), "-0.1 must be from 0 to 1"),
+            (np.array([[0, 1, 70000]]), "70000 must be from 0 to 65535"),
             (np.full((4, 4), np.nan), "nan must be from 0 to 1"),
             (None, "dimensions"),
             ("logo.png", r"'logo.png' is a path, must be an array; read_mask\(\)"),

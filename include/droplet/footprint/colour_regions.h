@@ -61,6 +61,7 @@ struct ColourRegions {
     std::optional<CssColour> background;              ///< colour of what is dry, if it has one
     std::optional<double> raster_scale;               ///< as in Mask
     std::optional<double> physical_width;             ///< as in Mask [m]
+    std::string lacking;                              ///< as in Mask
 };
 
 /// Sorts the pixels of an encoded image by colour.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "droplet/footprint/css_colour.h"
@@ -65,6 +66,7 @@ struct Mask {
 
     std::optional<double> raster_scale;    ///< for an SVG image: pixels of the mask per CSS px of the page, > 0
     std::optional<double> physical_width;  ///< for an SVG image with a size in cm, mm, in, pt or pc: its width [m]
+    std::string lacking;  ///< for an SVG image: what it has and is not drawn, such as textPath, with advice; else empty
 
     /// Coverage of the pixel in column x and row y, both from 0; the range is not checked.
     [[nodiscard]] std::uint16_t at(int x, int y) const
@@ -97,8 +99,8 @@ struct Mask {
 /// opaque level if that is a quarter or more, else full opacity. All other images are read by luma. Dry is the median
 /// level of the border. Liquid is the level farthest from dry that is not a stray: more than 1 % of all pixels that are
 /// clear of dry have this level or one up to an eighth nearer to dry. Clear of dry means at least a quarter of the
-/// range away. If no pixel is, levels are not stretched and no coverage reaches half. Levels on the other side of dry
-/// are dry. An image of one level is all liquid if brighter than half, else all dry.
+/// range away. If no pixel is, the higher of two dark levels is liquid, of two others the one off the border; of more,
+/// none is stretched or reaches half. Levels beyond dry are dry. One level is all liquid if over half, else all dry.
 ///
 /// Segmentation::Auto: If a picture read by luma gives no clean mask (rims without an edge in the picture, many levels
 /// of ground or liquid, grains), Segmentation::Adaptive is used if its mask is better. Its rims have fractional
@@ -110,7 +112,7 @@ struct Mask {
 /// @param options  channel, inversion, segmentation, limits
 /// @throws Error   InvalidInput: not an image, truncated, larger than max_pixels, an unsupported format, missing
 ///                 codecs, no alpha although Channel::Alpha is set; no mask by any method, unless insist; no edge, or
-///                 nothing of the colour, unless allow_dry; SVG: no area; over 64 MiB, 250 000 tags, 500 000
+///                 nothing of the colour, unless allow_dry; SVG: no area or ink; over 64 MiB, 250 000 tags, 500 000
 ///                 references, vector_seconds or vector_memory; nested too deeply; librsvg or the program that draws
 ///                 with it missing
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options = {});

@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "droplet/units.h"
+#include "image/svg/rewrite.h"
 #include "image/svg_drawing.h"
 #include "number_text.h"
 
@@ -268,7 +269,8 @@ Raster rasterOf(const Page& page, const SvgRequest& request)
 /// Draws the text into the file that is the standard output.
 void draw(std::span<const std::byte> text, const SvgRequest& request, SvgDrawing& drawing)
 {
-    Document document(text);
+    const Rewritten rewrite = rewritten(text);
+    Document document(rewrite.text.empty() ? text : std::as_bytes(std::span(rewrite.text)));
     const Page page = document.page();
     const Raster raster = rasterOf(page, request);
     const std::size_t size =
@@ -280,7 +282,16 @@ void draw(std::span<const std::byte> text, const SvgRequest& request, SvgDrawing
         throw std::bad_alloc();
     }
     document.draw(page, raster, static_cast<unsigned char*>(file) + kSvgPixels);
-    drawing = {SvgOutcome::Drawn, raster.width, raster.height, raster.scale, page.physical_width.value_or(0.0), {}};
+    drawing.width = raster.width;
+    drawing.height = raster.height;
+    drawing.scale = raster.scale;
+    drawing.physical_width = page.physical_width.value_or(0.0);
+    std::string lacking;
+    for (const std::string& what : rewrite.not_drawn) {
+        lacking += (lacking.empty() ? "" : ", ") + what;
+    }
+    lacking.copy(drawing.lacking.data(), drawing.lacking.size() - 1);
+    drawing.outcome = SvgOutcome::Drawn;
 }
 
 /// Limits the process to the requested resources, and lets it end with the thread that started it.
