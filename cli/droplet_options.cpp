@@ -92,7 +92,7 @@ void readLiquid(const CommandLine& line, DropletSettings& settings)
             *model,
             {{"auto", droplet::Model::Auto}, {"linear", droplet::Model::Linear}, {"exact", droplet::Model::Exact}});
     }
-    settings.droplet.allow_less = !line.value("--contact-angle") && !line.value("--volume") && !line.value("--height");
+    settings.droplet.allow_less = is_natural || (!angle && !line.value("--volume") && !line.value("--height"));
     if (angle && solve.model == droplet::Model::Linear && solve.fill.amount >= 0.5 * std::numbers::pi) {
         refuse(*angle, "below 90deg with --model linear; use --model auto");
     }
@@ -374,8 +374,8 @@ void declareLiquid(CommandLine& line)
     constexpr const char* kGroup = "Liquid";
     line.add(kGroup, "--contact-angle", "ANGLE",
              "Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of the liquid on "
-             "what it lies on. Without any amount, the largest angle that exists is taken if the default does not "
-             "[40deg]");
+             "what it lies on. By default and with natural, no droplet is higher than a puddle of that angle, and the "
+             "largest angle that exists is taken if that one does not [40deg]");
     line.add(kGroup, "--on", "glass|ptfe|wax|lotus", "What the liquid lies on, for --contact-angle natural [glass]");
     line.add(kGroup, "--volume", "VOLUME", "Amount of liquid, by its volume");
     line.add(kGroup, "--height", "LENGTH",
@@ -385,9 +385,10 @@ void declareLiquid(CommandLine& line)
     line.add(kGroup, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");
     line.add(kGroup, "--surface-tension", "S", "Surface tension, instead of the liquid's own");
     line.add(kGroup, "--density", "D", "Density, instead of the liquid's own");
-    line.add(kGroup, "--model", "auto|linear|exact",
-             "Model of the surface's area: linear is within 1 % up to 9deg, exact for all slopes, also where liquid "
-             "hangs over its rim; auto takes linear where it is within 1 % [auto]");
+    line.add(
+        kGroup, "--model", "auto|linear|exact",
+        "Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all slopes, also where liquid "
+        "hangs over its rim; auto takes linear where it is within 1 % [auto]");
     line.exclude({"--contact-angle", "--volume", "--height"});
 }
 
@@ -417,7 +418,8 @@ void declareGround(CommandLine& line)
 void declareSurface(CommandLine& line)
 {
     constexpr const char* kGroup = "Surface";
-    line.add(kGroup, "--triangles", "N", "Approximate number of triangles on the footprint: 5000, 5k, 1M [40k]");
+    line.add(kGroup, "--triangles", "N",
+             "Number of triangles of the liquid's surface, within 10 %: 5000, 5k, 1M [40k]");
     line.add(kGroup, "--edge", "LENGTH", "Edge length of the triangles, instead of --triangles");
     line.add(kGroup, "--grading", "auto|1|2|4|8|16|32|64",
              "Largest edge length far from the rim, as a multiple of the length at the rim; auto: 1, or 64 in puddles "

@@ -11,15 +11,19 @@
 namespace cli {
 namespace {
 
-droplet::MeshReport describeMeshes(const std::vector<droplet::PlanarMesh>& meshes)
+droplet::MeshReport describeMeshes(const droplet::Droplet& droplet)
 {
     droplet::MeshReport report;
     report.min_angle = std::numeric_limits<double>::infinity();
-    for (const droplet::PlanarMesh& mesh : meshes) {
-        report.vertices += mesh.vertices.size();
-        report.triangles += mesh.triangles.size();
+    for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
+        const droplet::PlanarMesh& mesh = droplet.meshes[k];
+        const droplet::ParametricSheet* sheet =
+            !droplet.sheets.empty() && droplet.sheets[k] ? &*droplet.sheets[k] : nullptr;
+        report.vertices += sheet != nullptr ? sheet->places.size() : mesh.vertices.size();
+        report.triangles += sheet != nullptr ? sheet->triangles.size() : mesh.triangles.size();
         report.holes += mesh.loopCount() - 1;
-        report.min_angle = std::min(report.min_angle, droplet::minAngle(mesh));
+        report.min_angle =
+            std::min(report.min_angle, sheet != nullptr ? droplet::minAngle(*sheet) : droplet::minAngle(mesh));
     }
     return report;
 }
@@ -61,12 +65,12 @@ droplet::Report describe(const droplet::Droplet& droplet, const DropletSettings&
     report.hysteresis = settings.hysteresis;
     report.ground = settings.ground;
     report.solve = droplet.solution.report;
-    report.mesh = describeMeshes(droplet.meshes);
+    report.mesh = describeMeshes(droplet);
     report.total = droplet.total;
     for (std::size_t i = 0; i < droplet.meshes.size(); ++i) {
         report.droplets.push_back({droplet.figures[i], droplet.meshes[i].loopCount() - 1,
                                    droplet.solution.droplets[i].pressure, retentionOf(droplet.figures[i], settings),
-                                   std::nullopt});
+                                   std::nullopt, droplet.limits[i]});
     }
     report.retention = retentionOf(droplet.total, settings);
     const bool one_pressure =

@@ -124,6 +124,19 @@ std::string shape(const Report& report)
                        degrees(total.contact_angle.min), degrees(total.contact_angle.max));
 }
 
+/// Where the height of a puddle decides the amount.
+std::string amount(const Report& report)
+{
+    const auto low = std::count_if(report.droplets.begin(), report.droplets.end(),
+                                   [](const auto& droplet) { return droplet.limit == droplet::FillLimit::Puddle; });
+    const std::string which =
+        report.droplets.size() == 1 ? "the" : fmt::format("{} of {}", low, report.droplets.size());
+    return fmt::format("the height of {} with a contact angle of {}, {}, limits {} {}; ask for more with --height",
+                       report.physics.gravity == 0.0 ? "a round droplet" : "a puddle",
+                       degrees(report.physics.fill.amount), millimetres(report.total.height_max), which,
+                       report.droplets.size() == 1 ? "droplet" : "droplets");
+}
+
 std::string table(const Report& report)
 {
     constexpr std::size_t kRows = 20;  // rows that fit on a screen; the JSON report contains all
@@ -259,13 +272,16 @@ std::string summary(const Report& report, bool with_details)
                                   ", " + squareMillimetres(report.total.footprint_area) + ", rim " +
                                   millimetres(report.total.rim_length));
     text += line("shape", shape(report));
+    if (droplet::limitOf(report.droplets) == droplet::FillLimit::Puddle) {
+        text += line("amount", amount(report));
+    }
     if (report.retention) {
         text += line("retention", retention(report));
     }
     if (report.onto) {
         text += line("object", object(*report.onto));
     }
-    text += line("mesh", counted(report.mesh.triangles, "triangle") + " on the footprint, smallest angle " +
+    text += line("mesh", counted(report.mesh.triangles, "triangle") + " of the liquid's surface, smallest angle " +
                              degrees(report.mesh.min_angle));
     if (with_details) {
         text += details(report);

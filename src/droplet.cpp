@@ -67,32 +67,36 @@ double uprightShare(const Droplet& droplet)
     return upright / droplet.total.rim_length;
 }
 
-/// Largest height that is plausible. With one contact angle along the whole rim, round droplets six capillary lengths
-/// wide are the highest: by 8 % higher than an infinite puddle for small angles, where (I₀(x) − 1)/I₁(x) has its
-/// maximum. A jagged rim has small angles that lower the mean but not the height: real drawings reach 33 %. In the
-/// linear model a puddle is √(σ/ρg) tan θ high, which holds up to 50°.
-double maxPlausibleHeight(const ShapeFigures& figures, Model model)
+/// Warning about droplets that are too high for their mean contact angle, on level flat ground; empty if there are
+/// none. Those that are no higher than a puddle of the angle that was wanted are not.
+///
+/// With one contact angle along the whole rim, round droplets six capillary lengths wide are the highest: by 8 % higher
+/// than an endless puddle for small angles, where (I₀(x) − 1)/I₁(x) has its maximum. A jagged rim has small angles that
+/// lower the mean but not the height: real drawings reach 33 %.
+/// @param options  the droplet was solved with
+std::string heightWarning(const Droplet& droplet, SolveOptions options)
 {
     constexpr double kRoundAndJagged = 1.4;
-    const double angle = std::min(figures.contact_angle.mean, 50.0 * kDegree);
-    const double linear = std::tan(angle) / (2.0 * std::sin(0.5 * angle));
-    return *figures.height_bound * kRoundAndJagged * (model == Model::Linear ? linear : 1.0);
-}
-
-/// Warning about droplets that are too high; empty if there are none.
-std::string heightWarning(const Droplet& droplet, Model model)
-{
+    // In the linear model the height of a puddle goes to infinity at 90°; it is no guide above 50°.
+    constexpr double kSteepestLinear = 50.0 * kDegree;
+    if (!options.ground.flat() || planeGravity(options).along != Vec2{}) {
+        return {};
+    }
     std::size_t count = 0;
     const ShapeFigures* worst = nullptr;
+    double bound = 0.0;
     for (std::size_t k = 0; k < droplet.figures.size(); ++k) {
         const ShapeFigures& figures = droplet.figures[k];
-        const bool is_sheet = !droplet.sheets.empty() && droplet.sheets[k];
-        // Upright rims have a warning of their own, and the bound holds for the mean angle.
-        const bool is_upright = model == Model::Exact && figures.contact_angle.max >= kUpright;
-        if (!is_sheet && !is_upright && figures.height_bound &&
-            figures.height_max > maxPlausibleHeight(figures, model)) {
+        const double mean = figures.contact_angle.mean;
+        const bool is_linear_puddle = options.model == Model::Linear && options.gravity != 0.0;
+        const double angle = is_linear_puddle ? std::min(mean, kSteepestLinear) : mean;
+        const double height = puddleHeight(options, angle, figures.footprint_area);
+        if (droplet.limits[k] != FillLimit::Puddle && figures.height_max > kRoundAndJagged * height) {
             ++count;
-            worst = worst == nullptr || figures.height_max > worst->height_max ? &figures : worst;
+            if (worst == nullptr || figures.height_max > worst->height_max) {
+                worst = &figures;
+                bound = height;
+            }
         }
     }
     if (worst == nullptr) {
@@ -102,10 +106,10 @@ std::string heightWarning(const Droplet& droplet, Model model)
                                   ? "the droplet is "
                                   : std::to_string(count) + " of " + std::to_string(droplet.figures.size()) +
                                         (count == 1 ? " droplets stands" : " droplets stand") + " too high, up to ";
-    return which + rounded(worst->height_max / kMillimetre) +
-           " mm high, but a puddle of this liquid with a mean contact angle of " +
-           rounded(worst->contact_angle.mean / kDegree) + " degrees is at most " +
-           rounded(*worst->height_bound / kMillimetre) + " mm; check its footprint, or ask for less liquid";
+    return which + rounded(worst->height_max / kMillimetre) + " mm high, but a " +
+           (options.gravity == 0.0 ? "round droplet of its area" : "puddle of this liquid") +
+           " with a mean contact angle of " + rounded(worst->contact_angle.mean / kDegree) + " degrees is at most " +
+           rounded(bound / kMillimetre) + " mm; check its footprint, or ask for less liquid";
 }
 
 /// Width of the layer along the rim in which a puddle's surface bends [m]; empty for a liquid that gravity does not
@@ -149,19 +153,40 @@ std::string coarseWarning(const Droplet& droplet, const DropletOptions& options,
     const auto enough = static_cast<std::size_t>(static_cast<double>(triangles) * times * times);
     return "triangles along the rim are " + rounded(longest / kMillimetre) +
            " mm long, but the surface bends there within " + rounded(*layer / kMillimetre) +
-           " mm, so heights may be off by more than 1 %; " +
+           " mm, so heights may be off by about " + percent(error * relative * relative) + "; " +
            (options.mesh.edge ? "shorten the edges to " + rounded(longest / times / kMillimetre) + "mm"
-                              : "raise the number of triangles to " + countText(enough));
+                              : "raise the number of triangles to " + countText(enough)) +
+           " for 1 %";
 }
 
-std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions& options, bool is_stand_in)
+/// Warning about height fields that are upright along a part of their rims; empty if there are none.
+std::string uprightWarning(const Droplet& droplet, const LiquidShapes& shapes)
+{
+    const double share = droplet.solution.report.model == Model::Exact ? uprightShare(droplet) : 0.0;
+    if (share == 0.0) {
+        return {};
+    }
+    std::string why;
+    if (shapes.given_up) {
+        why = *shapes.given_up == SheetEnd::OutOfWork
+                  ? ": the search for that shape was given up for the work it took"
+                  : std::string(": no such shape was found, for ") +
+                        (*shapes.given_up == SheetEnd::Contact ? "the liquid would touch itself" : "it is not stable");
+    }
+    // Upright angles stand for those from 90° to 180°.
+    return "the liquid stands upright along " + percent(share) + " of its rim, where a real droplet would hang over" +
+           why + "; its mean contact angle may be off by " + rounded(90.0 * share) +
+           " degrees; ask for less liquid, or use the exact model";
+}
+
+std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions& options, const LiquidShapes& shapes)
 {
     constexpr double kVisible = 1e-6;  // of the height; less is round-off
     std::vector<std::string> warnings;
     const ShapeFigures& total = droplet.total;
     const double steep = total.steep_area / total.footprint_area;
     const Model model = droplet.solution.report.model;
-    if (is_stand_in) {
+    if (shapes.is_stand_in) {
         warnings.emplace_back(
             "no exact shape was found for this amount; the linear model stands in, and is too high "
             "where it is steep; ask for less liquid");
@@ -169,10 +194,8 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
         warnings.push_back(percent(steep) +
                            " of the surface is too steep (over 50 degrees) for the linear model; use the exact model");
     }
-    const double upright = model == Model::Exact ? uprightShare(droplet) : 0.0;
-    if (upright > 0.0) {
-        warnings.push_back("the liquid stands upright along " + percent(upright) +
-                           " of its rim; a real droplet would hang over there; ask for less liquid");
+    if (std::string upright = uprightWarning(droplet, shapes); !upright.empty()) {
+        warnings.push_back(std::move(upright));
     }
     if (!options.solve.no_penetration && total.depth_max > kVisible * total.height_max) {
         warnings.push_back("the liquid's surface sinks into the ground, by up to " +
@@ -183,27 +206,51 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
         triangles += mesh.triangles.size();
     }
     const auto wanted = static_cast<double>(options.mesh.triangles);
+    std::string coarse = coarseWarning(droplet, options, triangles);
     if (!options.mesh.edge && std::abs(static_cast<double>(triangles) - wanted) > 0.1 * wanted) {
-        warnings.push_back("the footprint's detail takes " + countText(triangles) + " triangles, not the " +
-                           countText(options.mesh.triangles) + " asked for");
+        warnings.push_back(
+            (coarse.empty() ? "the footprint's detail takes " : "the bend of the liquid at its rim takes ") +
+            countText(triangles) + " triangles, not the " + countText(options.mesh.triangles) + " asked for");
     }
-    if (std::string coarse = coarseWarning(droplet, options, triangles); !coarse.empty()) {
+    if (!coarse.empty()) {
         warnings.push_back(std::move(coarse));
     }
     return warnings;
 }
 
-/// Warning about droplets that have less liquid than by default; empty if there are none.
-std::string lessWarning(const LiquidShapes& shapes, std::size_t count)
+/// Warning about droplets that have less liquid than was wanted; empty if there are none.
+std::string lessWarning(const LiquidShapes& shapes, const Fill& fill, std::size_t count)
 {
-    if (shapes.with_less == 0) {
+    const std::size_t less = shapes.withLess();
+    if (less == 0) {
         return {};
     }
-    const std::string which = count == 1
-                                  ? "this footprint"
-                                  : std::to_string(shapes.with_less) + " of " + std::to_string(count) + " footprints";
-    return "the default amount does not exist on " + which + "; the largest mean contact angle that does was taken, " +
-           rounded(shapes.least_angle / kDegree) + " degrees" + (shapes.with_less > 1 ? " or more" : "");
+    const std::string which =
+        count == 1 ? "this footprint" : std::to_string(less) + " of " + std::to_string(count) + " footprints";
+    const std::string wanted = fill.by == FillBy::ContactAngle
+                                   ? "a mean contact angle of " + rounded(fill.amount / kDegree) + " degrees"
+                                   : "the amount";
+    return wanted + " does not exist on " + which + "; the largest that was found was taken, " +
+           rounded(shapes.least_angle / kDegree) + " degrees" + (less > 1 ? " or more" : "");
+}
+
+/// What limits the amount of every droplet.
+std::vector<FillLimit> limitsOf(const Droplet& droplet, const LiquidShapes& shapes, const SolveOptions& options)
+{
+    constexpr double kLess = 1.0 - 1e-6;  // of the angle that was wanted
+    std::vector<FillLimit> limits = shapes.limits;
+    limits.resize(droplet.meshes.size(), FillLimit::None);
+    if (!options.fill.below_puddle || options.fill.by != FillBy::ContactAngle || !options.volumes.empty()) {
+        return limits;
+    }
+    const bool is_shared = options.fill.sharing == FillSharing::Total;
+    for (std::size_t k = 0; k < limits.size(); ++k) {
+        const ShapeFigures& figures = is_shared ? droplet.total : droplet.figures[k];
+        if (limits[k] == FillLimit::None && figures.contact_angle.mean < kLess * options.fill.amount) {
+            limits[k] = FillLimit::Puddle;
+        }
+    }
+    return limits;
 }
 
 /// Surfaces of all droplets: of height fields first.
@@ -353,13 +400,15 @@ std::size_t requireLiquid(const std::vector<ShapeFigures>& figures, bool no_pene
     return dry;
 }
 
-/// Options of solving: a range that was asked for takes the linear model, where every fill exists.
+/// Options of solving: a range that was asked for takes the linear model, where every fill exists; an amount that may
+/// be less is no higher than a puddle.
 SolveOptions solveOptions(const DropletOptions& options)
 {
     SolveOptions solve = options.solve;
     if (options.fill_range && !options.fill_range->may_shrink && solve.model == Model::Auto) {
         solve.model = Model::Linear;
     }
+    solve.fill.below_puddle = solve.fill.below_puddle || options.allow_less;
     return solve;
 }
 
@@ -398,6 +447,9 @@ DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options)
     if (!mesh.layer && bendsAtRim(solve)) {
         mesh.layer = bendingLayer(solve);
     }
+    if (!mesh.max_edge) {
+        mesh.max_edge = bendingLayer(solve);
+    }
     DomainMeshes result{triangulate(domain, mesh), gradingOf(domain, mesh) == 1};
     if (spreads(solve)) {
         std::vector<PlanarMesh> moved = spread(result.meshes, solve);
@@ -411,7 +463,7 @@ DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options)
 
 std::vector<double> volumesOf(const std::vector<PlanarMesh>& meshes, const DropletOptions& options)
 {
-    SolveOptions solved = options.solve;
+    SolveOptions solved = solveOptions(options);
     solved.volumes.clear();
     const LiquidShapes shapes = solveShapes(meshes, solved, options.allow_less, {});
     solved.model = shapes.solution.report.model;
@@ -429,7 +481,6 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
 {
     SolveOptions solved = solveOptions(options);
     const LiquidShapes shapes = solveShapes(droplet.meshes, solved, options.allow_less, progress, std::move(followed));
-    const std::string less = lessWarning(shapes, droplet.meshes.size());
     droplet.solution = shapes.solution;
     droplet.sheets = shapes.sheets;
     solved.model = droplet.solution.report.model;
@@ -439,6 +490,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     droplet.figures = figuresOf(droplet.meshes, shapes, solved);
     droplet.total = combine(droplet.figures);
     const std::size_t dry = requireLiquid(droplet.figures, solved.no_penetration);
+    droplet.limits = limitsOf(droplet, shapes, solved);
     LoftOptions lofting{
         .open = options.open, .extent = droplet.domain.extent, .ground = options.solve.ground, .bases = bases};
     const bool is_affine = solved.model == Model::Linear;
@@ -452,9 +504,9 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
             droplet.surface.refill = std::move(refill);
         }
     }
-    droplet.warnings = warningsOf(droplet, options, shapes.is_stand_in);
-    if (!less.empty()) {
-        droplet.warnings.push_back(less);
+    droplet.warnings = warningsOf(droplet, options, shapes);
+    if (std::string less = lessWarning(shapes, solved.fill, droplet.meshes.size()); !less.empty()) {
+        droplet.warnings.push_back(std::move(less));
     }
     if (dry > 0) {
         droplet.warnings.push_back(
@@ -462,7 +514,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
                         "ground there is above the liquid",
                         dry, droplet.figures.size(), dry == 1 ? "is" : "are"));
     }
-    if (std::string tall = heightWarning(droplet, solved.model); !tall.empty()) {
+    if (std::string tall = heightWarning(droplet, solved); !tall.empty()) {
         droplet.warnings.insert(droplet.warnings.begin(), std::move(tall));
         droplet.severe_warnings = 1;
     }

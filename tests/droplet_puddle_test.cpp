@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "droplet/droplet.h"
+#include "droplet/error.h"
 #include "droplet/units.h"
 #include "support/domains.h"
 #include "support/young_laplace.h"
@@ -88,10 +89,33 @@ TEST(Puddle, WarnsWhereTrianglesAreTooLong)
 {
     const Droplet even = puddle(0.3, Model::Exact, {.triangles = 40'000, .edge = {}, .grading = 1});
     EXPECT_THAT(even.warnings,
-                ElementsAre(HasSubstr("heights may be off by more than 1 %; raise the number of triangles to")));
+                ElementsAre(HasSubstr("heights may be off by about 4.4 %; raise the number of triangles to")));
     EXPECT_LT(even.total.height_max, 0.99 * exactHeight(0.15));
-    const Droplet fine = puddle(0.3, Model::Linear, {.triangles = 1, .edge = 5e-3});
-    EXPECT_THAT(fine.warnings, ElementsAre(HasSubstr("shorten the edges to 1.44mm")));
+    const Droplet fine = puddle(0.3, Model::Linear, {.triangles = 1, .edge = 2.5e-3});
+    EXPECT_THAT(fine.warnings, ElementsAre(HasSubstr("shorten the edges to 1.44mm for 1 %")));
+}
+
+/// A width in the wrong unit: edges longer than the layer would make a film of a puddle, 47 times too low.
+TEST(Puddle, IsRefinedOrRefusedWhereTrianglesAreLongerThanTheLayer)
+{
+    const Droplet wide = puddle(20.0, Model::Exact, {.triangles = 500, .edge = {}});
+    EXPECT_NEAR(wide.total.height_max / exactHeight(10.0), 1.0, 0.1);
+    EXPECT_THAT(wide.warnings, ElementsAre(HasSubstr("the bend of the liquid at its rim takes"),
+                                           HasSubstr("heights may be off by about ")));
+    try {
+        (void)puddle(20.0, Model::Exact, {.triangles = 500, .edge = 0.1});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
+        EXPECT_THAT(error.what(), HasSubstr("edge 0.1 m must be at most 0.00272661 m"));
+    }
+    try {
+        (void)puddle(1e4, Model::Exact, {.triangles = 500, .edge = {}});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+        EXPECT_THAT(error.what(), HasSubstr("check the footprint's width"));
+    }
 }
 
 TEST(Puddle, IsGradedOnlyWhereOneLayerBends)

@@ -27,7 +27,8 @@ struct DropletOptions {
     TriangulateOptions mesh;                   ///< from the outline to meshes
     SolveOptions solve{.model = Model::Auto};  ///< liquid, forces, ground and fill
     bool allow_less = false;                   ///< take the most liquid that a footprint can hold where the fill does
-                                               ///< not exist; warnings say so
+                                               ///< not exist, and no more than Fill::below_puddle allows; warnings and
+                                               ///< Droplet::limits say so
     bool open = false;                         ///< leave out the base
     std::optional<FillRange> fill_range = {};  ///< fills of a surface that can be filled and drained; not with
                                                ///< solve.no_penetration. Model::Auto is then Linear, where every
@@ -45,6 +46,7 @@ struct Droplet {
     std::vector<std::optional<ParametricSheet>> sheets;
     std::vector<ShapeFigures> figures;  ///< one per droplet
     ShapeFigures total;                 ///< figures of all droplets together
+    std::vector<FillLimit> limits;      ///< one per droplet: what makes its amount smaller than the wanted one
     Surface surface;                    ///< surface in space
     std::vector<std::string> warnings;  ///< one line each, the grave ones first
     std::size_t severe_warnings = 0;    ///< number of warnings that say that the droplet cannot be right

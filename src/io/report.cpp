@@ -73,6 +73,19 @@ const char* nameOf(GroundKind kind)
     throw Error(ErrorCode::InvalidArgument, "report: ground.kind has an unknown value");
 }
 
+Json nameOrNull(FillLimit limit)
+{
+    switch (limit) {
+        case FillLimit::None:
+            return nullptr;
+        case FillLimit::Puddle:
+            return "puddle";
+        case FillLimit::Existence:
+            return "existence";
+    }
+    throw Error(ErrorCode::InvalidArgument, "report: limit has an unknown value");
+}
+
 double degrees(double radians)
 {
     return radians / kDegree;
@@ -331,6 +344,7 @@ Json sections(const Report& report)
     json["no_penetration"] = report.physics.no_penetration;
     json["onto"] = report.onto ? ontoSection(*report.onto) : Json();
     json["fill"] = fillSection(report.physics.fill, report.fill_range);
+    json["fill"]["limited_by"] = nameOrNull(limitOf(report.droplets));
     json["mesh"] = {{"vertices", report.mesh.vertices},
                     {"triangles", report.mesh.triangles},
                     {"min_angle_deg", degrees(report.mesh.min_angle)},
@@ -349,6 +363,7 @@ Json sections(const Report& report)
     for (const DropletReport& droplet : report.droplets) {
         json["droplets"].push_back(dropletRow(droplet));
         json["droplets"].back()["colour"] = colourOrNull(droplet.colour);
+        json["droplets"].back()["limited_by"] = nameOrNull(droplet.limit);
     }
     json["warnings"] = report.warnings;
     for (std::size_t stage = 0; stage < kStageCount; ++stage) {
@@ -360,6 +375,15 @@ Json sections(const Report& report)
 }
 
 }  // namespace
+
+FillLimit limitOf(const std::vector<DropletReport>& droplets)
+{
+    FillLimit limit = FillLimit::None;
+    for (const DropletReport& droplet : droplets) {
+        limit = std::max(limit, droplet.limit);  // in the order of their gravity
+    }
+    return limit;
+}
 
 void addRunSection(ReportJson& json, const RunFigures& run)
 {

@@ -39,6 +39,9 @@ constexpr double kMaxTriangles = 4e9;
 /// or triples it, and three million triangles take half a minute and a gigabyte.
 constexpr double kMaxDetailTriangles = 1 << 20;
 
+/// Number of triangles over the requested one that is as good.
+constexpr double kSlack = 1.1;
+
 constexpr int kMaxGrading = 64;
 
 /// Edges per layer from which even triangles do: heights of wide puddles are then 0.25 % too low at 40°.
@@ -135,6 +138,25 @@ void checkDetail(double predicted, double wanted)
     }
 }
 
+/// Meshes with the longest edges that are allowed along the rim, if they have more triangles than requested.
+std::optional<std::vector<PlanarMesh>> meshWithLongest(const std::vector<RimSampler>& samplers,
+                                                       const TriangulateOptions& options, Growth growth)
+{
+    const double count = predictTriangles(samplers, *options.max_edge, growth);
+    const auto wanted = static_cast<double>(options.triangles);
+    if (count <= kSlack * wanted) {
+        return std::nullopt;
+    }
+    const double max = std::max(kMaxDetailTriangles, wanted);
+    if (count > max) {
+        throw Error(ErrorCode::InvalidInput, "edges of " + numberText(*options.max_edge) +
+                                                 " m along the rim, over which the surface bends, take " +
+                                                 numberText(std::round(count), 9) + " triangles, over the limit of " +
+                                                 numberText(std::floor(max), 9) + "; check the footprint's width");
+    }
+    return meshAll(samplers, *options.max_edge, growth);
+}
+
 /// Next edge length to try, from two that were tried: the count is assumed to go like edge^(−p), with p from both.
 double nextEdge(double edge, double count, double other_edge, double other_count, double wanted)
 {
@@ -210,6 +232,14 @@ void TriangulateOptions::validate() const
     if (layer && !(*layer > 0.0 && std::isfinite(*layer))) {
         throw Error(ErrorCode::InvalidArgument, "layer " + numberText(*layer) + " m must be positive");
     }
+    if (max_edge && !(*max_edge > 0.0 && std::isfinite(*max_edge))) {
+        throw Error(ErrorCode::InvalidArgument, "max_edge " + numberText(*max_edge) + " m must be positive");
+    }
+    if (edge && max_edge && *edge > *max_edge) {
+        throw Error(ErrorCode::InvalidArgument, "edge " + numberText(*edge) + " m must be at most " +
+                                                    numberText(*max_edge) +
+                                                    " m, over which the liquid's surface bends");
+    }
 }
 
 int gradingOf(const Domain& domain, const TriangulateOptions& options)
@@ -238,13 +268,21 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
     }
     // 1.5 times the edge of equilateral triangles, because the band along the rim has more triangles than its share of
     // the area.
-    const double widest = 1.5 * options.edge.value_or(evenEdge(total_area, options.triangles));
+    const double even = evenEdge(total_area, options.triangles);
+    const double widest =
+        std::min(1.5 * options.edge.value_or(even), options.max_edge.value_or(std::numeric_limits<double>::infinity()));
     std::vector<std::optional<RimSampler>> made(domain.droplets.size());
     tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t k) { made[k].emplace(domain.droplets[k], widest); });
     std::vector<RimSampler> samplers;
     samplers.reserve(made.size());
     for (std::optional<RimSampler>& sampler : made) {
         samplers.push_back(std::move(*sampler));
+    }
+    // Even triangles that are short enough need no prediction.
+    if (!options.edge && options.max_edge && kEdgesPerLayer * even > *options.max_edge) {
+        if (auto meshes = meshWithLongest(samplers, options, growth)) {
+            return *std::move(meshes);
+        }
     }
     if (!options.edge) {
         return meshToCount(samplers, total_area, options.triangles, growth);

@@ -192,9 +192,19 @@ Jet amountAt(const std::vector<Member>& members, const std::vector<Step>& steps,
     return by == FillBy::ContactAngle ? Jet{total.value / rim_length, total.derivative / rim_length} : total;
 }
 
-/// Gain of volume that meets the fill, if there is one.
-std::optional<double> gainFor(const std::vector<Member>& members, const std::vector<Step>& steps, const Fill& fill)
+/// Amount of a step, and the accuracy of its linear systems.
+struct StepOptions {
+    Fill fill;
+    std::optional<double> max_height;  ///< as in SettleOptions
+    double tolerance = 1e-10;          ///< of linear systems
+    double max_work = std::numeric_limits<double>::infinity();
+};
+
+/// Gain of volume that meets the fill, if there is one: the smaller one of those for the angle and the height.
+std::optional<double> gainFor(const std::vector<Member>& members, const std::vector<Step>& steps,
+                              const StepOptions& options)
 {
+    const Fill& fill = options.fill;
     double volume = 0.0;
     double footprint = 0.0;
     for (const Member& member : members) {
@@ -206,7 +216,13 @@ std::optional<double> gainFor(const std::vector<Member>& members, const std::vec
     }
     // The order of magnitude of a droplet's volume on that footprint.
     const double scale = 1e-3 * std::pow(footprint, 1.5);
-    return solveIncreasing([&](double g) { return amountAt(members, steps, fill.by, g); }, fill.amount, 0.0, scale);
+    const auto gain_to = [&](FillBy by, double amount) {
+        return solveIncreasing([&](double g) { return amountAt(members, steps, by, g); }, amount, 0.0, scale);
+    };
+    const std::optional<double> gain = gain_to(fill.by, fill.amount);
+    const bool is_low = !options.max_height || fill.by != FillBy::ContactAngle ||
+                        (gain && amountAt(members, steps, FillBy::Height, *gain).value <= *options.max_height);
+    return is_low ? gain : gain_to(FillBy::Height, *options.max_height);
 }
 
 [[noreturn]] void refuse(const Fill& fill)
@@ -414,13 +430,6 @@ bool isStable(const std::vector<Step>& steps)
     return shareOnePressure(rises);
 }
 
-/// Tolerances of one step.
-struct StepOptions {
-    Fill fill;
-    double tolerance = 1e-10;  ///< of linear systems
-    double max_work = std::numeric_limits<double>::infinity();
-};
-
 Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vector<double>>& gradients,
                   const StepOptions& options)
 {
@@ -465,7 +474,7 @@ Advance advanceOf(const std::vector<Member>& members, const std::vector<std::vec
         if (!advance.converged || !advance.stable) {
             return advance;
         }
-        const std::optional<double> gain = with_rise ? gainFor(members, steps, options.fill) : 0.0;
+        const std::optional<double> gain = with_rise ? gainFor(members, steps, options) : 0.0;
         if (!gain && members.front().energy->physics().model == Model::Linear) {
             refuse(options.fill);
         }
@@ -641,7 +650,7 @@ Settled settle(const std::vector<Member>& members, const SettleOptions& options)
     std::vector<std::vector<double>> gradients = gradientsOf(members);
     // The set of held vertices can depend on the last digits of a step; with a loose tolerance it cycles.
     const double loose = exact && !preventsPenetration(members) ? kLooseTolerance : kTightTolerance;
-    StepOptions step{options.fill, exact ? loose : options.linear_tolerance};
+    StepOptions step{options.fill, options.max_height, exact ? loose : options.linear_tolerance};
     double min_residual = std::numeric_limits<double>::infinity();
     while (settled.newton_steps < options.max_steps && settled.work < options.max_work) {
         step.max_work = options.max_work - settled.work;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "droplet/shape/fill.h"
@@ -34,9 +35,10 @@ struct Member {
 
 /// Options of settle().
 struct SettleOptions {
-    Fill fill;                        ///< fill of all members together, at one pressure
-    double tolerance = 1e-9;          ///< residual of the exact model, relative to pressure and size
-    double linear_tolerance = 1e-10;  ///< residual of the linear model's systems
+    Fill fill;                              ///< fill of all members together, at one pressure
+    std::optional<double> max_height = {};  ///< thickness at which a contact angle is not raised any more [m]
+    double tolerance = 1e-9;                ///< residual of the exact model, relative to pressure and size
+    double linear_tolerance = 1e-10;        ///< residual of the linear model's systems
     std::size_t max_steps = 40;
     double max_work = std::numeric_limits<double>::infinity();  ///< work after which no step begins
 };

@@ -15,6 +15,7 @@
 #include "droplet/units.h"
 #include "shape/cap.h"
 #include "shape/hanging.h"
+#include "shape/puddle.h"
 #include "shape/work.h"
 
 namespace droplet {
@@ -121,6 +122,11 @@ public:
     Search(const std::vector<Member>& members, const SolveOptions& options, const std::function<void(double)>& reached)
         : members_(&members), options_(&options), report_(&reached)
     {
+        std::vector<const PlanarMesh*> meshes;
+        for (const Member& member : members) {
+            meshes.push_back(&member.energy->mesh());
+        }
+        max_height_ = maxHeight(meshes, options);
     }
 
     Outcome run()
@@ -191,7 +197,7 @@ private:
     bool settleLinear(const Fill& fill)
     {
         constexpr double kFaster = 4.0;  // a system costs less than a step of the exact model
-        SettleOptions options{.fill = fill, .max_work = kFaster * maxWork()};
+        SettleOptions options{.fill = fill, .max_height = max_height_, .max_work = kFaster * maxWork()};
         if (options_->model == Model::Exact) {
             options.linear_tolerance = kStartTolerance;
         }
@@ -210,7 +216,7 @@ private:
 
     bool settleExact(const Fill& fill)
     {
-        SettleOptions options{.fill = fill};
+        SettleOptions options{.fill = fill, .max_height = max_height_};
         options.max_steps = std::min(options.max_steps, stepsLeft());
         options.max_work = max_work_ - work_;
         const Settled settled = settle(*members_, options);
@@ -281,6 +287,14 @@ private:
                                [](double sum, const Member& member) { return sum + member.sheet->volume; });
     }
 
+    /// Height or angle over what the fill allows.
+    [[nodiscard]] double shareOfAmount() const
+    {
+        const Fill& wanted = options_->fill;
+        const double share = amountOf(*members_, wanted.by) / wanted.amount;
+        return max_height_ ? std::max(share, amountOf(*members_, FillBy::Height) / *max_height_) : share;
+    }
+
     /// Solves for a volume at which no rim is upright, the start of raiseVolume().
     bool settleSmallVolume()
     {
@@ -291,7 +305,7 @@ private:
         }
         const Fill& wanted = options_->fill;
         const Fill gentle{FillBy::ContactAngle, kStartAngle, wanted.sharing};
-        const Settled start = settle(*members_, {.fill = gentle});
+        const Settled start = settle(*members_, {.fill = gentle, .max_height = max_height_});
         use(Model::Exact);
         double small = wanted.by == FillBy::Volume ? std::min(volume(), wanted.amount) : volume();
         bool settled = start.converged && settleExact({FillBy::Volume, small, wanted.sharing});
@@ -320,7 +334,7 @@ private:
         bool upright = false;
         for (int k = 0; k < kMaxTries && !isOutOfSteps(); ++k) {
             reached_ = here;
-            const double share = (by_volume ? here : amountOf(*members_, wanted.by)) / wanted.amount;
+            const double share = by_volume ? here / wanted.amount : shareOfAmount();
             if (*report_) {
                 (*report_)(std::clamp(share, 0.0, 1.0));
             }
@@ -365,7 +379,7 @@ private:
             if (!settleExact({FillBy::Volume, volume, wanted.sharing})) {
                 return std::nullopt;
             }
-            return amountOf(*members_, wanted.by) / wanted.amount - 1.0;
+            return shareOfAmount() - 1.0;
         };
         std::optional<double> at_high = excess(high);
         std::optional<double> at_low = excess(low);
@@ -411,6 +425,7 @@ private:
     const std::vector<Member>* members_;
     const SolveOptions* options_;
     const std::function<void(double)>* report_;
+    std::optional<double> max_height_;  ///< as in SettleOptions [m]
     Outcome outcome_;
     double work_ = 0.0;      ///< work done by the exact model
     double max_work_ = 0.0;  ///< limit for it at present

@@ -47,6 +47,9 @@ constexpr double kContactWork = 10.0;
 /// Share of the wanted contact angle below which a sheet is no droplet, and the linear model is taken.
 constexpr double kLeastShare = 0.5;
 
+/// Mean contact angle that is tried where the search for one beyond 90° ends below it: that of a fill by default [rad].
+constexpr double kModestAngle = 40.0 * kDegree;
+
 /// Largest mean contact angle of sheets that sink to the ground on a straight way [rad].
 constexpr double kFlat = 30.0 * kDegree;
 
@@ -158,6 +161,9 @@ Solution findFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
 /// Shapes of the linear model in place of exact ones, if there are any.
 std::optional<LiquidShapes> linearStandIn(const std::vector<PlanarMesh>& meshes, SolveOptions options)
 {
+    if (mustHang(options)) {
+        return std::nullopt;
+    }
     options.model = Model::Linear;
     LiquidShapes shapes{.solution = findFields(meshes, options, {}), .is_stand_in = true};
     return shapes.solution.report.usable() ? std::optional(std::move(shapes)) : std::nullopt;
@@ -310,8 +316,8 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
                              : std::none_of(shape.fields.begin(), shape.fields.end(), isUpright)) {
         return shape;
     }
-    // Where nobody asked for an amount, a height field that is upright in a few places may stand.
-    const bool has_stand_in = !shape.fields.empty() && effort == SheetEffort::Modest;
+    // A height field that is upright in a few places may stand, unless the exact shape was asked for.
+    const bool has_stand_in = !shape.fields.empty() && options.model == Model::Auto;
     SolveOptions rest = options;
     rest.max_work = std::max(most - shape.work, 0.0);
     shape.sheet = solveSheet(meshes, rest, has_stand_in ? SheetEffort::Slight : effort, reached);
@@ -404,6 +410,36 @@ void take(SheetResult& result, const std::vector<std::size_t>& droplets, LiquidS
     }
     SolveReport& report = shapes.solution.report;
     report.newton_steps = std::max(report.newton_steps, result.newton_steps);
+    report.residual = std::max(report.residual, result.residual);
+    report.iterations = std::max<std::size_t>(report.iterations, 1);
+}
+
+/// Notes that droplets have less liquid than was wanted.
+void limit(const std::vector<std::size_t>& droplets, double angle, LiquidShapes& shapes)
+{
+    for (const std::size_t k : droplets) {
+        shapes.limits[k] = FillLimit::Existence;
+    }
+    shapes.least_angle = std::min(shapes.least_angle, angle);
+}
+
+/// States the unknowns of what was found, and how the largest part of it was solved.
+/// @param method  of height fields
+void describe(const std::vector<PlanarMesh>& meshes, const std::string& method, LiquidShapes& shapes)
+{
+    SolveReport& report = shapes.solution.report;
+    report.unknowns = 0;
+    std::size_t most = 0;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        const std::optional<ParametricSheet>& sheet = shapes.sheets[k];
+        const std::size_t own =
+            sheet ? sheet->places.size() - sheet->rim : meshes[k].vertices.size() - meshes[k].rimVertexCount();
+        report.unknowns += own;
+        if (own > most) {
+            most = own;
+            report.method = sheet ? "multifrontal-ldlt" : method;
+        }
+    }
 }
 
 /// Work of neighbourContact().
@@ -420,7 +456,6 @@ double contactWork(const std::vector<PlanarMesh>& meshes, const LiquidShapes& sh
 void lowerUntilApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, Work& work,
                      LiquidShapes& shapes)
 {
-    std::vector<bool> is_lowered(meshes.size(), false);
     std::vector<double> lowerings(meshes.size(), kLower);
     for (int round = 0; round < kMaxLowerings && work.isLeft(); ++round) {
         const std::optional<SheetContact> contact = neighbourContact(meshes, shapes);
@@ -442,10 +477,8 @@ void lowerUntilApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& 
                 SheetResult lower = solveSheet(meshes[k], own, SheetEffort::Modest);
                 work.done += lower.work;
                 if (lower.end == SheetEnd::Reached) {
-                    shapes.least_angle = std::min(shapes.least_angle, own.fill.amount);
                     take(lower, {k}, shapes);
-                    shapes.with_less += is_lowered[k] ? 0 : 1;
-                    is_lowered[k] = true;
+                    limit({k}, own.fill.amount, shapes);
                     lowering *= kLowerMore;
                     break;
                 }
@@ -611,46 +644,66 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         }
         SolveOptions own_options = ownOptions(options, g);
         own_options.max_work = parts[g] * most;
+        const auto report = [&](double share) { reached.reach(g, share); };
         found[g] = solveShape(own, own_options, std::move(fields),
-                              has_linear   ? SheetEffort::Slight
-                              : allow_less ? SheetEffort::Modest
-                                           : SheetEffort::Full,
-                              [&](double share) { reached.reach(g, share); });
-        const Shape& shape = found[g];
+                              has_linear || (allow_less && mustHang(options)) ? SheetEffort::Slight
+                              : allow_less                                    ? SheetEffort::Modest
+                                                                              : SheetEffort::Full,
+                              report);
+        Shape& shape = found[g];
+        if (allow_less && mustHang(options) && shape.sheet->end != SheetEnd::Reached &&
+            shape.sheet->contact_angle < kModestAngle) {
+            SolveOptions modest = own_options;
+            modest.fill.amount = kModestAngle;
+            modest.max_work = std::max(*own_options.max_work - shape.work, 0.0);
+            Shape lesser = solveShape(own, modest, {}, SheetEffort::Modest, report);
+            lesser.work += shape.work;
+            if (!lesser.fields.empty() || (lesser.sheet && lesser.sheet->contact_angle > shape.sheet->contact_angle)) {
+                lesser.lesser = kModestAngle;
+                shape = std::move(lesser);
+            }
+        }
         if (shape.fields.empty() ? shape.sheet && shape.sheet->end == SheetEnd::Reached : !shape.lesser) {
             reached.reach(g, 1.0);
         }
     });
     solution.droplets.assign(count, {});
     shapes.sheets.resize(count);
+    shapes.limits.assign(count, FillLimit::None);
+    shapes.least_angle = std::numbers::pi;
+    // Only what was found counts, not what was tried.
+    const SolveReport tried = std::exchange(solution.report, {});
     SolveReport& report = solution.report;
     report.model = Model::Exact;
     report.termination = Termination::Converged;
-    if (report.method.empty()) {
-        report.method = "multifrontal-ldlt";
-    }
-    report.unknowns = 0;
-    for (const PlanarMesh& mesh : meshes) {
-        report.unknowns += mesh.vertices.size() - mesh.rimVertexCount();
-    }
-    shapes.least_angle = std::numbers::pi;
+    std::string method;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         Shape& shape = found[g];
         shapes.work += shape.work;
         const Refused refused{groups.size() == 1 ? "" : ofDroplet(g, count), groups[g].size(), gravity};
-        report.residual = std::max(report.residual, shape.report.usable() ? shape.report.residual : 0.0);
         if (!shape.fields.empty()) {
+            const SolveReport& own = shape.report.usable() ? shape.report : tried;
+            report.iterations = std::max(report.iterations, own.iterations);
+            report.newton_steps = std::max(report.newton_steps, own.newton_steps);
+            report.residual = std::max(report.residual, own.residual);
+            method = own.method;
+            if (shape.sheet && !shapes.given_up) {
+                shapes.given_up = shape.sheet->end;
+            }
             for (std::size_t i = 0; i < groups[g].size(); ++i) {
                 solution.droplets[groups[g][i]] = std::move(shape.fields[i]);
             }
             if (shape.lesser) {
-                shapes.with_less += groups[g].size();
-                shapes.least_angle = std::min(shapes.least_angle, *shape.lesser);
+                limit(groups[g], *shape.lesser, shapes);
             }
         } else if (!shape.sheet) {
             throw Error(ErrorCode::NoSuchDroplet, refusal(shape.report, refused));
         } else {
-            if (shape.sheet->end != SheetEnd::Reached) {
+            if (shape.sheet->end == SheetEnd::Reached) {
+                if (shape.lesser) {
+                    limit(groups[g], *shape.lesser, shapes);
+                }
+            } else {
                 const bool is_too_little = allow_less && options.model == Model::Auto &&
                                            options.fill.by == FillBy::ContactAngle &&
                                            shape.sheet->contact_angle < kLeastShare * options.fill.amount;
@@ -663,12 +716,12 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
                     throw Error(ErrorCode::NoSuchDroplet, reachesFurther(shape) ? refusal(shape.report, refused)
                                                                                 : refusal(*shape.sheet, refused));
                 }
-                shapes.with_less += groups[g].size();
-                shapes.least_angle = std::min(shapes.least_angle, shape.sheet->contact_angle);
+                limit(groups[g], shape.sheet->contact_angle, shapes);
             }
             take(*shape.sheet, groups[g], shapes);
         }
     }
+    describe(meshes, method, shapes);
     return shapes;
 }
 
@@ -690,7 +743,7 @@ bool areApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options
     own.max_work = work.left();
     const LiquidShapes shapes = solveAll(meshes, own, true, {});
     work.done += shapes.work + (shapes.sheets.empty() ? 0.0 : contactWork(meshes, shapes));
-    return shapes.with_less == 0 && (shapes.sheets.empty() || !neighbourContact(meshes, shapes));
+    return shapes.withLess() == 0 && (shapes.sheets.empty() || !neighbourContact(meshes, shapes));
 }
 
 /// Why neighbours are refused, with the largest amount at which no droplets touch, or one that was found with the work.
@@ -748,6 +801,11 @@ std::string refusal(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
 }
 
 }  // namespace
+
+std::size_t LiquidShapes::withLess() const
+{
+    return static_cast<std::size_t>(std::count(limits.begin(), limits.end(), FillLimit::Existence));
+}
 
 std::optional<LiquidShapes> refill(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes,
                                    const std::vector<double>& volumes, const SolveOptions& options)

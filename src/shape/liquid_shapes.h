@@ -20,10 +20,16 @@ inline constexpr double kUpright = 89.0 * kDegree;
 struct LiquidShapes {
     Solution solution = {};  ///< height fields; that of a sheet has a pressure and angles alone
     std::vector<std::optional<ParametricSheet>> sheets = {};  ///< one per droplet, or empty if there are none
-    std::size_t with_less = 0;  ///< number of droplets that have less liquid than was wanted
-    double least_angle = 0.0;   ///< smallest mean contact angle of those [rad]
-    bool is_stand_in = false;   ///< whether the linear model stands in for an exact shape that was not found
-    double work = 0.0;          ///< done, as SolveOptions::max_work
+    std::vector<FillLimit> limits = {};  ///< one per droplet: Existence where it has less liquid than was wanted, or
+                                         ///< None; empty: all None
+    double least_angle = 0.0;            ///< smallest mean contact angle of those [rad]
+    /// Why the first sheet was given up for a height field that is upright along a part of its rim; empty if none was.
+    std::optional<SheetEnd> given_up = {};
+    bool is_stand_in = false;  ///< whether the linear model stands in for an exact shape that was not found
+    double work = 0.0;         ///< done, as SolveOptions::max_work
+
+    /// Number of droplets that have less liquid than was wanted.
+    [[nodiscard]] std::size_t withLess() const;
 };
 
 /// Solves every droplet: by the linear system, by Newton's method, or, where the liquid hangs over its rim, as a sheet.

@@ -12,17 +12,19 @@
 #include "mesh/mean_edge.h"
 #include "mesh/round_inward.h"
 #include "number_text.h"
+#include "shape/puddle.h"
 #include "shape/rim_figures.h"
 #include "shape/sheet_base.h"
 #include "shape/sheet_energy.h"
 #include "shape/sheet_follow.h"
 #include "shape/sheet_path.h"
+#include "shape/sheet_remesh.h"
 #include "shape/work.h"
 
 namespace droplet {
 namespace {
 
-/// Largest edges of the final sheet and of the sheets on the way, over the mean edge of the footprint's mesh.
+/// Largest edges of sheets that confirm an end and of those on the way, over the mean edge of the footprint's mesh.
 constexpr double kFinalEdge = 1.5;
 constexpr double kPathEdge = 5.0;
 /// Largest edges of the footprint and of the sheets on the way, over the root of the footprint's area: droplets of a
@@ -40,7 +42,7 @@ constexpr double kWork = 1500.0;
 /// Least limit of the work of a full effort, half a minute, and of the others. A U of 600 triangles took 1.5e7 in all;
 /// a cock of 8000 took 1.4e9.
 constexpr double kLeastFullWork = 1e10;
-constexpr double kLeastWork = 2e8;
+constexpr double kLeastWork = 3e8;
 /// Most work of a full effort, one and a half minutes: masks full of holes take a hundred thousand triangles and more.
 constexpr double kMostWork = 4e10;
 /// Turn of the rim at a corner [rad].
@@ -159,6 +161,7 @@ void take(FilledSheet filled, const SolveOptions& options, SheetResult& result)
     result.contact_angle = filled.angle;
     result.newton_steps = static_cast<std::size_t>(filled.newton_steps);
     result.work = filled.work / kSheetUnits;
+    result.residual = filled.residual;
     result.contact = filled.contact;
     result.sheet.contact_angle = smoothed(
         result.sheet.footprint, rimAngles(filled.mesh, weightOf(options), filled.pressure, options.ground).angle);
@@ -183,19 +186,23 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
     double covered = 0.0;
     double triangles = 0.0;
     double path_edge = 0.0;
+    std::size_t wanted = 0;
+    std::vector<const PlanarMesh*> all;
     for (const PlanarMesh& footprint : footprints) {
         const double edge = share * edgeOf(footprint);
         std::optional<PlanarMesh> changed = roundInward(footprint, kInnerRadius * edge, edge);
         rounded.push_back(changed ? *std::move(changed) : footprint);
         covered += area(footprint);
+        wanted += static_cast<std::size_t>(std::round(trianglesOf(area(footprint), edgeOf(footprint))));
+        all.push_back(&footprint);
         triangles += trianglesOf(area(footprint), edge);
         path_edge = std::max(path_edge, std::min(kPathEdge * edge, kPathPart * std::sqrt(area(footprint))));
     }
     SheetResult result;
     PlanarMesh& pinned = result.sheet.footprint;
     pinned = rounded.size() == 1 ? std::move(rounded.front()) : join(rounded);
-    SheetOptions sheet_options{weightOf(options),
-                               kFinalEdge * std::sqrt(4.0 / std::numbers::sqrt3 * covered / triangles), path_edge};
+    SheetOptions sheet_options{
+        weightOf(options), kFinalEdge * std::sqrt(4.0 / std::numbers::sqrt3 * covered / triangles), path_edge, wanted};
     sheet_options.is_end_confirmed = effort == SheetEffort::Full;
     const double work = std::min(kWork * std::pow(triangles, 1.5), kMostWork);
     sheet_options.max_work = effort == SheetEffort::Full ? std::max(kLeastFullWork, work)
@@ -206,7 +213,10 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
     }
     sheet_options.ground = options.ground;
     sheet_options.reached = reached;
-    take(fillSheet(pinned, {options.fill.by, options.fill.amount}, sheet_options), options, result);
+    SolveOptions exact = options;
+    exact.model = Model::Exact;
+    const SheetTarget target{options.fill.by, options.fill.amount, maxHeight(all, exact)};
+    take(fillSheet(pinned, target, sheet_options), options, result);
     return result;
 }
 
@@ -283,6 +293,12 @@ SheetResult follow(const ParametricSheet& first, const ParametricSheet& last, co
                      {options.fill.by, options.fill.amount}, weightOf(options)),
          options, result);
     return result;
+}
+
+double minAngle(const ParametricSheet& sheet)
+{
+    const std::vector<double> angles = minAngles(meshOf(sheet));
+    return *std::min_element(angles.begin(), angles.end());
 }
 
 ShapeFigures measure(const ParametricSheet& sheet, const SolveOptions& options)

@@ -33,10 +33,12 @@ constexpr double kRefused = 0.4;
 constexpr double kGrowth = 1.25;
 /// First step of the volume, in cubes of the radius of a disc as large as the footprint.
 constexpr double kFirstPart = 0.02;
-/// Cost of new triangles, in factorisations, measured.
-constexpr double kRemeshWork = 20.0;
+/// Cost of new triangles, for each of them, measured from 5000 to 400 000.
+constexpr double kRemeshWork = 1400.0;
 /// Factorisations that a sheet on new triangles is worth at least: one with too many for its work is not solved.
 constexpr double kLeastFactorisations = 30.0;
+/// Work on the final triangles, in factorisations, whatever the way there took.
+constexpr double kFinalFactorisations = 80.0;
 /// Change of the volume, over it, after which a sheet is confirmed on new triangles once one was refused on them, and
 /// number of confirmed ones that are kept.
 constexpr double kConfirmed = 0.02;
@@ -62,6 +64,9 @@ constexpr double kLaid = 0.95;
 constexpr double kFallen = std::numbers::pi / 180.0;
 /// Height over its maximum that proves the maximum.
 constexpr double kLower = 0.99;
+/// Error of the share of a target that is met, on the final triangles and before.
+constexpr double kMet = 1e-9;
+constexpr double kNear = 1e-4;
 
 double heightOf(const SheetMesh& sheet, const SheetBase& base)
 {
@@ -98,7 +103,7 @@ public:
         : target_(target), options_(options), base_(baseOf(footprint, options.ground, options.weight))
     {
         options_.path_edge = std::max(options_.edge, options_.path_edge);
-        now_.sheet = newTriangles(drySheet(footprint, options.ground), options_.path_edge);
+        now_.sheet = newTriangles(drySheet(footprint, options.ground), trianglesOf(options_.path_edge));
         for (Vec3& place : now_.sheet.places) {
             place.z = base_.under(place).height;
         }
@@ -178,7 +183,8 @@ private:
                 end,
                 end == SheetEnd::Contact ? std::optional(contact_->place) : std::nullopt,
                 newton_steps_,
-                work_};
+                work_,
+                now_.newton.residual};
     }
 
     /// Follows the path up to the target, or to its end.
@@ -249,35 +255,38 @@ private:
                 continue;
             }
             if (target_.by == FillBy::Volume) {
-                report(now_.volume);
+                report(now_.volume / target_.amount);
                 continue;
             }
-            const double amount = amountOf(now_.sheet, now_.pressure);
-            report(amount);
-            largest = std::max(largest, amount);
+            const double share = shareOf(now_.sheet, now_.pressure);
+            report(share);
+            largest = std::max(largest, share);
             const bool is_angle = target_.by == FillBy::ContactAngle;
-            if (amount < (is_angle ? largest - kFallen : kLower * largest)) {
-                if (slopeOfAmount() <= 0.0) {
+            if (share < (is_angle ? largest - kFallen / target_.amount : kLower * largest)) {
+                if (slopeOfShare() <= 0.0) {
                     return is_angle ? SheetEnd::NoAngle : SheetEnd::NoHeight;
                 }
-                largest = amount;  // it fell with new triangles
+                largest = share;  // it fell with new triangles
             }
         }
         return hasWork() ? SheetEnd::Unstable : SheetEnd::OutOfWork;
     }
 
-    void report(double amount) const
+    void report(double share) const
     {
         if (options_.reached) {
-            options_.reached(std::clamp(amount / target_.amount, 0.0, 1.0));
+            options_.reached(std::clamp(share, 0.0, 1.0));
         }
     }
 
-    /// Height or mean contact angle, whichever is the target.
-    [[nodiscard]] double amountOf(const SheetMesh& sheet, double pressure) const
+    /// Height or mean contact angle, whichever is the target, over it.
+    [[nodiscard]] double shareOf(const SheetMesh& sheet, double pressure) const
     {
-        return target_.by == FillBy::Height ? heightOf(sheet, base_)
-                                            : rimAngles(sheet, options_.weight, pressure, base_.ground).mean();
+        if (target_.by == FillBy::Height) {
+            return heightOf(sheet, base_) / target_.amount;
+        }
+        const double share = rimAngles(sheet, options_.weight, pressure, base_.ground).mean() / target_.amount;
+        return target_.max_height ? std::max(share, heightOf(sheet, base_) / *target_.max_height) : share;
     }
 
     /// Volume that is missing to the target, by the tangent.
@@ -286,23 +295,23 @@ private:
         if (target_.by == FillBy::Volume) {
             return target_.amount - now_.volume;
         }
-        const double missing = target_.amount - amountOf(now_.sheet, now_.pressure);
-        if (std::abs(missing) <= 1e-9 * target_.amount) {
+        const double missing = 1.0 - shareOf(now_.sheet, now_.pressure);
+        // On the way to the final triangles a target need not be met better than they change it.
+        if (std::abs(missing) <= (is_final_ ? kMet : kNear)) {
             return 0.0;
         }
-        const double slope = slopeOfAmount();
+        const double slope = slopeOfShare();
         return slope > 0.0 ? missing / slope : std::copysign(std::pow(meshed_area_, 1.5), missing);
     }
 
-    /// Change of height or mean contact angle per volume, by a motion along the tangent that is small against the
-    /// sheet.
-    [[nodiscard]] double slopeOfAmount() const
+    /// Change of the share of the target per volume, by a motion along the tangent that is small against the sheet.
+    [[nodiscard]] double slopeOfShare() const
     {
         const double probe = 1e-6 * std::pow(meshed_area_, 1.5);
         SheetMesh moved = now_.sheet;
         moved.places = movedPlaces(now_, probe);
-        return (amountOf(moved, now_.pressure + probe * now_.newton.pressure_slope) -
-                amountOf(now_.sheet, now_.pressure)) /
+        return (shareOf(moved, now_.pressure + probe * now_.newton.pressure_slope) -
+                shareOf(now_.sheet, now_.pressure)) /
                probe;
     }
 
@@ -340,7 +349,7 @@ private:
         const int steps = next.newton.steps;
         const bool is_far = std::abs(next.volume - firm_.back().volume) > gap_ * next.volume;
         if (!is_final_ && (is_far || needsTriangles(next.sheet))) {
-            if (!renew(next, options_.path_edge)) {
+            if (!renew(next, trianglesOf(options_.path_edge))) {
                 goBack();
                 return false;
             }
@@ -410,7 +419,7 @@ private:
         if (ahead <= least || keeps_triangles_) {
             return true;
         }
-        if (renew(now_, options_.path_edge)) {
+        if (renew(now_, trianglesOf(options_.path_edge))) {
             confirm(now_);
             return true;
         }
@@ -429,7 +438,7 @@ private:
         std::deque<State> states = std::move(firm_);
         for (; !states.empty() && hasWork(); states.pop_back()) {
             State state = states.back();
-            if (renew(state, options_.edge)) {
+            if (renew(state, trianglesOf(options_.edge))) {
                 now_ = state;
                 firm_ = {state};
                 options_.path_edge = options_.edge;
@@ -448,20 +457,31 @@ private:
     /// @return  false if it does not stand on any; then the path goes back
     bool refine(bool has_target)
     {
+        if (!has_allowance_) {
+            has_allowance_ = true;
+            options_.max_work =
+                std::max(options_.max_work, work_) + kFinalFactorisations * factorWork(options_.triangles);
+        }
         const State coarse = now_;
-        for (double edge = options_.edge;; edge = std::min(kCoarser * edge, options_.path_edge)) {
+        const auto stands = [&](const RemeshOptions& triangles) {
             now_ = coarse;
-            is_final_ = renew(now_, edge);
-            if (is_final_ && (!has_target || settle())) {
-                return true;
-            }
+            is_final_ = renew(now_, triangles);
+            return is_final_ && (!has_target || settle());
+        };
+        RemeshOptions finest = trianglesOf(options_.edge);
+        finest.triangles = options_.triangles;
+        bool is_done = stands(finest);
+        for (double edge = options_.edge; !is_done; edge = std::min(kCoarser * edge, options_.path_edge)) {
+            is_done = stands(trianglesOf(edge));
             if (edge >= options_.path_edge) {
                 break;
             }
         }
-        is_final_ = false;
-        goBack();
-        return false;
+        if (!is_done) {
+            is_final_ = false;
+            goBack();
+        }
+        return is_done;
     }
 
     /// Whether the last sheet does not touch itself.
@@ -493,13 +513,13 @@ private:
 
     /// Gives an equilibrium new triangles at the same volume.
     /// @return  false if it is another one on them; then nothing has changed
-    bool renew(State& state, double edge)
+    bool renew(State& state, const RemeshOptions& triangles)
     {
         State next = state;
         std::unique_ptr<SheetSolver> solver;
         // At inner corners liquid may have far to roll; there triangles wear out on the way.
         for (int round = 0; round < kRenewals && hasWork(); ++round) {
-            next.sheet = newTriangles(next.sheet, edge);
+            next.sheet = newTriangles(next.sheet, triangles);
             if (!isSolvable(next.sheet)) {
                 work_ = options_.max_work;
                 return false;
@@ -526,11 +546,13 @@ private:
         return true;
     }
 
-    [[nodiscard]] SheetMesh newTriangles(const SheetMesh& sheet, double edge) const
+    [[nodiscard]] RemeshOptions trianglesOf(double edge) const { return {edge, edge / 8.0, base_.ground.flat()}; }
+
+    [[nodiscard]] SheetMesh newTriangles(const SheetMesh& sheet, const RemeshOptions& triangles) const
     {
-        SheetMesh made = remesh(
-            sheet,
-            {.edge = edge, .min_edge = edge / 8.0, .is_ground_flat = base_.ground.flat(), .max_triangles = most()});
+        RemeshOptions limited = triangles;
+        limited.max_triangles = most();
+        SheetMesh made = remesh(sheet, limited);
         base_.lift(made.places, made.rim);
         return made;
     }
@@ -557,7 +579,8 @@ private:
     void count(const State& state, bool is_remeshed)
     {
         newton_steps_ += state.newton.steps;
-        work_ += state.newton.work + (is_remeshed ? kRemeshWork * factorWork(state.sheet.triangles.size()) : 0.0);
+        work_ +=
+            state.newton.work + (is_remeshed ? kRemeshWork * static_cast<double>(state.sheet.triangles.size()) : 0.0);
     }
 
     /// Limits of Newton's method, with the work that is left.
@@ -596,6 +619,7 @@ private:
     double gap_ = std::numeric_limits<double>::infinity();  ///< change of the volume, over it, until the next one
     bool is_final_ = false;                                 ///< the triangles stay until the target
     bool keeps_triangles_ = false;                          ///< they stay for good
+    bool has_allowance_ = false;                            ///< whether the final triangles got their work
     std::optional<SheetContact> contact_;                   ///< of the sheet with itself, if that stopped the last step
     bool is_loose_ = false;                                 ///< whether that was a rim that does not hold the liquid
     int newton_steps_ = 0;

@@ -14,19 +14,22 @@ namespace droplet {
 
 /// What a sheet should become.
 struct SheetTarget {
-    FillBy by = FillBy::Volume;  ///< volume, largest height, or mean contact angle along the rim
-    double amount = 0.0;         ///< [m³], [m] or [rad], > 0; an angle ≤ π
+    FillBy by = FillBy::Volume;             ///< volume, largest height, or mean contact angle along the rim
+    double amount = 0.0;                    ///< [m³], [m] or [rad], > 0; an angle ≤ π
+    std::optional<double> max_height = {};  ///< height at which an angle is not raised any more [m]
 };
 
 /// Liquid and accuracy of a sheet.
 struct SheetOptions {
     Vec3 weight;                   ///< w = ρ(g⊥e_z − g∥)/σ [1/m²]
-    double edge = 0.0;             ///< largest edge of a triangle at the end [m], > 0
+    double edge = 0.0;             ///< largest edge of a triangle where an end is confirmed [m], > 0
     double path_edge = 0.0;        ///< the same on the way; at least edge
+    std::size_t triangles = 0;     ///< number at the end, > 0; fewer where small ones fail at a fold
     double min_step = 1e-3;        ///< smallest step of the volume, over the volume
     bool is_end_confirmed = true;  ///< on triangles of the final size
     double max_work = 5e9;         ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds.
-                                   ///< Line searches and new triangles count as well
+                                   ///< Line searches and new triangles count as well;
+                                   ///< the final triangles have an allowance of their own
     BaseSurface ground = {};       ///< under the footprint, and around it
     std::function<void(double)> reached = {};  ///< called with the share of the target after steps of the volume
 };
@@ -55,6 +58,7 @@ struct FilledSheet {
     std::optional<Vec3> contact;  ///< with SheetEnd::Contact: where the sheet touches itself [m]
     int newton_steps = 0;         ///< in all
     double work = 0.0;            ///< in all, as SheetOptions::max_work
+    double residual = 0.0;        ///< relative, of the last equilibrium
 };
 
 /// Fills a footprint from dry ground up to a target, by steps of the volume.

@@ -42,6 +42,9 @@ constexpr double kTurn = 0.707;
 /// Cosine of the sharpest edge that is flipped: 60°.
 constexpr double kSharp = 0.5;
 constexpr int kFlipRounds = 10;
+/// Most rounds more, until the number of triangles is near the wanted one, and the error that is near.
+constexpr int kCountRounds = 6;
+constexpr double kCountError = 0.05;
 /// Classes of edges, per doubling of the length, of which the longest is split first.
 constexpr double kLengths = 4.0;
 /// Shape of a triangle, 1 if equilateral, below which a collapse must not make one, unless there is a worse one.
@@ -121,14 +124,16 @@ public:
         smooth();
         flip();
         findSizes();
+        for (int k = 0; k < kCountRounds && options_.triangles > 0 && changeSizes(trianglesOfSizes()); ++k) {
+        }
         for (int round = 0; round < options_.rounds; ++round) {
-            findNormals();
-            split();
-            collapse();
-            flip();
-            findNormals();
-            smooth();
-            smooth();
+            changeTriangles();
+        }
+        for (int round = 0; round < kCountRounds && options_.triangles > 0; ++round) {
+            if (!changeSizes(static_cast<double>(faceCount()))) {
+                break;
+            }
+            changeTriangles();
         }
         flip();
         return inSpaceOrder(result());
@@ -144,6 +149,53 @@ public:
     }
 
 private:
+    void changeTriangles()
+    {
+        findNormals();
+        split();
+        collapse();
+        flip();
+        findNormals();
+        smooth();
+        smooth();
+    }
+
+    [[nodiscard]] std::size_t faceCount() const
+    {
+        return static_cast<std::size_t>(std::distance(mesh_.faces_sbegin(), mesh_.faces_end()));
+    }
+
+    /// Number of equilateral triangles with the wanted edges.
+    [[nodiscard]] double trianglesOfSizes() const
+    {
+        double count = 0.0;
+        for (const FaceHandle face : mesh_.faces()) {
+            const std::array<VertexHandle, 3> corners = cornersOf(face);
+            double size = 0.0;
+            for (const VertexHandle v : corners) {
+                size += sizes_[static_cast<std::size_t>(v.idx())] / 3.0;
+            }
+            count += areaVector(mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2])).norm() /
+                     (0.25 * std::numbers::sqrt3 * size * size);
+        }
+        return count;
+    }
+
+    /// Makes the largest edges shorter or longer, so that a number of triangles becomes the wanted one. Those at the
+    /// rim and in folds, which are short, stay as they are: with shorter ones sheets at inner corners found no
+    /// equilibrium.
+    /// @return  false if it is near
+    bool changeSizes(double count)
+    {
+        const double ratio = count / static_cast<double>(options_.triangles);
+        if (std::abs(ratio - 1.0) <= kCountError) {
+            return false;
+        }
+        options_.edge *= std::clamp(std::sqrt(ratio), 0.5, 2.0);
+        findSizes();
+        return true;
+    }
+
     [[nodiscard]] bool onRim(VertexHandle v) const { return v.idx() < rim_; }
 
     [[nodiscard]] static Point areaVector(const Point& a, const Point& b, const Point& c)
@@ -215,7 +267,7 @@ private:
                         normals_[static_cast<std::size_t>(other.idx())] - normals_[static_cast<std::size_t>(v.idx())];
                     bend = onRim(other) ? bend : std::max(bend, turn.norm() / side.norm());
                 }
-                size = bend > 0.0 ? std::clamp(kBend / bend, options_.min_edge, options_.edge) : options_.edge;
+                size = bend > 0.0 ? std::min(std::max(kBend / bend, options_.min_edge), options_.edge) : options_.edge;
             }
             sizes_[static_cast<std::size_t>(v.idx())] = size;
             queue.emplace(size, v.idx());

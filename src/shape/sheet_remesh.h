@@ -15,6 +15,7 @@ struct RemeshOptions {
     double min_edge = 0.0;       ///< smallest edge that curvature may ask for [m], > 0
     bool is_ground_flat = true;  ///< vertices on the ground, z = 0, stay there
     int rounds = 4;              ///< of splitting, collapsing, flipping and smoothing
+    std::size_t triangles = 0;   ///< number that edge is made shorter or longer for; 0: edge stays
     std::size_t max_triangles = std::numeric_limits<std::size_t>::max();  ///< number at which no edge is split any more
 };
 
@@ -23,7 +24,7 @@ struct RemeshOptions {
 ///
 /// Guarantees: the rim keeps its vertices and edges; no triangle has three rim vertices and no edge inside joins two;
 /// the topology stays; vertices inside move along the sheet alone, up to its curvature; the same input gives the same
-/// bytes.
+/// bytes. A given number of triangles is met to 5 % where the rim's edges allow it.
 SheetMesh remesh(const SheetMesh& sheet, const RemeshOptions& options);
 
 /// Moves the inner vertices of a sheet along it, to make its triangles more even. They stay the same triangles.

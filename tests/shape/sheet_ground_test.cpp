@@ -133,12 +133,12 @@ TEST(SharedSheet, DiscsAtOnePressureAreCapsOfOneSphere)
     const double small_angle = std::asin(kSmall / radius);
     const double large_volume = capVolume(large_angle);
     const double small_volume = std::pow(kSmall, 3) * capVolume(small_angle);
-    std::vector<PlanarMesh> discs = testing::discMeshes(0.07);
+    std::vector<PlanarMesh> discs = testing::discMeshes(0.05);
     Loop loop = testing::ellipseLoop(kSmall, kSmall);
     for (Vec2& p : loop.points) {
         p.x += 5.0;
     }
-    discs.push_back(triangulate(testing::domainOf(loop), {.edge = 0.07}).front());
+    discs.push_back(triangulate(testing::domainOf(loop), {.edge = 0.05}).front());
     SolveOptions options = testing::unitOptions(Model::Exact, 0.0, large_volume + small_volume);
     options.fill.sharing = FillSharing::Total;
     const SheetResult result = solveSheet(discs, options);

@@ -184,7 +184,7 @@ TEST(Sheet, GravityFollowsYoungAndLaplaceAtSecondOrder)
         for (const double degrees : {120.0, 135.0, 150.0}) {
             SCOPED_TRACE(std::to_string(bond) + " " + std::to_string(degrees));
             const Revolution exact = testing::dropletOfAngle(bond, degrees * kDegree);
-            const double edge = bond > 2.0 ? 0.024 : bond > 1.0 ? 0.027 : 0.032;
+            const double edge = bond > 2.0 ? 0.0195 : bond > 1.0 ? 0.0215 : 0.0255;
             const RevolutionErrors coarse = errorsOf(exact, 2.0 * edge);
             const RevolutionErrors fine = errorsOf(exact, edge);
             EXPECT_GT(fine.triangles, 10'000U);
@@ -347,7 +347,7 @@ TEST(Sheet, SaysWhereTheMeanAngleHasItsMaximum)
 TEST(SheetLimits, PendantDropsDetach)
 {
     const SolveOptions held = unitLiquid(-0.5, FillBy::Volume, 8.10129);
-    const SheetResult drop = solveSheet(discMeshes(0.06).front(), held);
+    const SheetResult drop = solveSheet(discMeshes(0.035).front(), held);
     ASSERT_EQ(drop.end, SheetEnd::Reached);
     EXPECT_NEAR(drop.sheet.pressure, 0.70392, 2e-3 * 0.70392);
     EXPECT_NEAR(measure(drop.sheet, held).height_max, 2.57215, 1e-3 * 2.57215);

@@ -98,11 +98,11 @@ struct ObjectReport {
     double max_scale = 0.0;              ///< maximum of the same
 };
 
-/// Triangulation of all footprints together.
+/// Triangles of the liquid's surface, of all droplets together.
 struct MeshReport {
-    std::size_t vertices = 0;   ///< of all meshes
-    std::size_t triangles = 0;  ///< of all meshes
-    double min_angle = 0.0;     ///< smallest angle of a triangle [rad]
+    std::size_t vertices = 0;   ///< of height fields and sheets
+    std::size_t triangles = 0;  ///< likewise
+    double min_angle = 0.0;     ///< smallest angle of a triangle, of height fields seen from above [rad]
     std::size_t holes = 0;      ///< dry spots
 };
 
@@ -113,6 +113,7 @@ struct DropletReport {
     double pressure = 0.0;                 ///< [Pa]
     std::optional<Retention> retention;    ///< empty if Report::hysteresis is empty
     std::optional<CssColour> colour = {};  ///< of its region; empty unless droplets are made by colour
+    FillLimit limit = FillLimit::None;     ///< what makes its amount smaller than the wanted one
 };
 
 /// Options, results and warnings of a run, in SI units and radians.
@@ -126,7 +127,7 @@ struct Report {
     std::optional<ObjectReport> onto;        ///< empty without an object
     SolveReport solve;                       ///< of the solver
     std::size_t sheets = 0;                  ///< number of droplets that hang over their rims
-    MeshReport mesh;                         ///< of the footprints
+    MeshReport mesh;                         ///< of the liquid's surface
     ShapeFigures total;                      ///< of all droplets together
     std::optional<double> pressure;          ///< [Pa]; empty if every droplet has its own pressure
     std::optional<Retention> retention;      ///< forces of all droplets together
@@ -137,6 +138,9 @@ struct Report {
     double time_total = 0.0;                 ///< [s]
     std::uint64_t peak_memory = 0;           ///< [bytes]
 };
+
+/// What limits the amounts of droplets: Existence if any of them, else Puddle if any.
+FillLimit limitOf(const std::vector<DropletReport>& droplets);
 
 /// Writes a report as JSON, schema `droplet-shape.report/1`: every key is always present, in a fixed order; numbers
 /// have all their digits; angles are in degrees, the rest in SI units. Bytes of a path that are not UTF-8 become

@@ -18,6 +18,8 @@ struct TriangulateOptions {
                                        ///< gradingOf() decides
     std::optional<double> layer = {};  ///< width of the layer along the rim in which the surface bends, as the
                                        ///< capillary length of a puddle [m], > 0; used if grading is empty
+    std::optional<double> max_edge = {};  ///< longest edge along the rim [m], > 0; where the number of triangles does
+                                          ///< not suffice for it, there are more
 
     /// @throws Error InvalidArgument if a value is out of its range
     void validate() const;
@@ -38,12 +40,12 @@ int gradingOf(const Domain& domain, const TriangulateOptions& options);
 /// than 40°: there, within two of the loop's own points, angles are at least half the corner. Corners stay in place.
 /// Other rim vertices move off their loop by less than a chord's sagitta, so that the polygon keeps the loop's area.
 /// Narrow parts get shorter edges than requested. All droplets have the same edge length. It is chosen so that the
-/// number of triangles is within 10 % of the requested number if the detail of the footprint allows so few.
+/// number of triangles is within 10 % of the requested number if the detail of the footprint and max_edge allow so few.
 /// @param domain   its loops do not cross
 /// @param options  number of triangles or edge length
 /// @return         one mesh per droplet, in the domain's order
-/// @throws Error   InvalidArgument for options or crossing loops; InvalidInput if the detail of the footprint needs
-///                 more than 2²⁰ triangles and more than requested
+/// @throws Error   InvalidArgument for options, an edge over max_edge, or crossing loops; InvalidInput if the detail of
+///                 the footprint, or max_edge, needs more than 2²⁰ triangles and more than requested
 std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptions& options = {});
 
 /// Covers the polygon of a mesh with few triangles, for the flat ground.

@@ -55,6 +55,7 @@ struct SheetResult {
     double contact_angle = 0.0;        ///< mean along the rim of the sheet [rad]
     std::size_t newton_steps = 0;      ///< in all
     double work = 0.0;                 ///< in all, as SolveOptions::max_work
+    double residual = 0.0;             ///< relative, of the forces on the sheet
 };
 
 /// Fills a footprint up to the amount of a fill, also where liquid hangs over its rim, and beyond a contact angle of
@@ -64,9 +65,11 @@ struct SheetResult {
 /// volume, from dry ground by steps of the volume; each step is an equilibrium, and a minimum. Where liquid would lie
 /// on the ground outside of the footprint, it does, as on ground that it does not wet. Corners of the rim that point
 /// inward are rounded to half the mean edge of the footprint's triangles: no triangles can follow liquid around a sharp
-/// one. The work is limited, to about half a minute at 40 000 triangles and one and a half at any number, or to
-/// max_work of the options. Work is counted, not timed: the same input ends at the same place. An end is confirmed on
-/// the final triangles, that of a footprint of up to 10 000 triangles on edges half as long.
+/// one. The sheet has as many triangles as the footprint's mesh, to 10 %, but for droplets of less than 361. The work
+/// is limited, to about half a minute at 40 000 triangles and one and a half at any number, or to max_work of the
+/// options, but for the final triangles. Work is counted, not timed: the same input ends at the same place. An end is
+/// confirmed on edges one and a half times those of the footprint, that of a footprint of up to 10 000 triangles on
+/// edges half as long, too.
 ///
 /// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground, and does not cross itself; the same
 /// input gives the same bits.
@@ -123,6 +126,9 @@ SheetResult refill(const ParametricSheet& sheet, double volume, const SolveOptio
 /// @throws Error     InvalidArgument: options, or sheets and a footprint that do not belong together
 SheetResult follow(const ParametricSheet& first, const ParametricSheet& last, const PlanarMesh& footprint,
                    const SolveOptions& options);
+
+/// Smallest angle of all triangles of a sheet [rad].
+double minAngle(const ParametricSheet& sheet);
 
 /// Measures a sheet, as measure() does a height field. Areas of the linear model and of steep triangles are 0.
 /// @param sheet    result of solveSheet

@@ -32,9 +32,9 @@ struct HeightField {
 
 /// Area of the liquid's surface in the energy that is minimised.
 enum class Model {
-    Linear,  ///< ∫(1 + ½|∇u|²): within 1 % up to a contact angle of 9°, 15 % too high at 40°
+    Linear,  ///< ∫(1 + ½|∇u|²): within 1 % up to contact angles of 5 to 8°, 15 % too high at 40°
     Exact,   ///< ∫√(1 + |∇u|²), the area itself
-    Auto,    ///< linear where its height and volume are within 1 % of the exact model's, else exact
+    Auto,    ///< linear where its height, volume and pressure are within 1 % of the exact model's, else exact
 };
 
 /// Solver of the linear systems.
@@ -113,6 +113,14 @@ struct PlaneGravity {
 
 /// Splits gravity into its components across and along the plane.
 PlaneGravity planeGravity(const SolveOptions& options);
+
+/// Height of an endless puddle, 2 √(σ/ρg⊥) sin(θ/2), or, without gravity into the ground, that of a cap on a disc,
+/// r tan(θ/2); in the linear model √(σ/ρg⊥) tan θ and r tan(θ)/2.
+/// @param options  liquid, gravity, tilt and model
+/// @param angle    contact angle θ, 0 … π [rad]; below π/2 in the linear model
+/// @param area     of the disc [m²], > 0
+/// @return         [m]; infinite under a ceiling, where gravity draws liquid out
+double puddleHeight(const SolveOptions& options, double angle, double area);
 
 /// Solves for the heights of all droplets.
 ///
