@@ -92,7 +92,9 @@ void readLiquid(const CommandLine& line, DropletSettings& settings)
             *model,
             {{"auto", droplet::Model::Auto}, {"linear", droplet::Model::Linear}, {"exact", droplet::Model::Exact}});
     }
-    settings.droplet.allow_less = is_natural || (!angle && !line.value("--volume") && !line.value("--height"));
+    const bool is_default = !angle && !line.value("--volume") && !line.value("--height");
+    settings.droplet.allow_less = is_default || is_natural;
+    solve.fill.below_puddle = is_default;
     if (angle && solve.model == droplet::Model::Linear && solve.fill.amount >= 0.5 * std::numbers::pi) {
         refuse(*angle, "below 90deg with --model linear; use --model auto");
     }
@@ -374,7 +376,7 @@ void declareLiquid(CommandLine& line)
     constexpr const char* kGroup = "Liquid";
     line.add(kGroup, "--contact-angle", "ANGLE",
              "Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of the liquid on "
-             "what it lies on. By default and with natural, no droplet is higher than a puddle of that angle, and the "
+             "what it lies on. By default no droplet is higher than a puddle of 40deg; by default and with natural, the "
              "largest angle that exists is taken if that one does not [40deg]");
     line.add(kGroup, "--on", "glass|ptfe|wax|lotus", "What the liquid lies on, for --contact-angle natural [glass]");
     line.add(kGroup, "--volume", "VOLUME", "Amount of liquid, by its volume");

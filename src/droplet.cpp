@@ -400,15 +400,13 @@ std::size_t requireLiquid(const std::vector<ShapeFigures>& figures, bool no_pene
     return dry;
 }
 
-/// Options of solving: a range that was asked for takes the linear model, where every fill exists; an amount that may
-/// be less is no higher than a puddle.
+/// Options of solving: a range that was asked for takes the linear model, where every fill exists.
 SolveOptions solveOptions(const DropletOptions& options)
 {
     SolveOptions solve = options.solve;
     if (options.fill_range && !options.fill_range->may_shrink && solve.model == Model::Auto) {
         solve.model = Model::Linear;
     }
-    solve.fill.below_puddle = solve.fill.below_puddle || options.allow_less;
     return solve;
 }
 

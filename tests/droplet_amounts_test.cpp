@@ -46,6 +46,7 @@ DropletOptions byDefault(std::size_t triangles = 3000)
 {
     DropletOptions options;
     options.allow_less = true;
+    options.solve.fill.below_puddle = true;
     options.mesh.triangles = triangles;
     return options;
 }
@@ -91,7 +92,7 @@ TEST(Amounts, TowersByDefaultAreNoHigherThanAPuddle)
             EXPECT_EQ(low.severe_warnings, 0U);
 
             if (model == Model::Linear) {
-                options.allow_less = false;
+                options.solve.fill.below_puddle = false;
                 const Droplet tower = makeDroplet(comb(), options);
                 EXPECT_NEAR(tower.total.contact_angle.mean, kAngle, 1e-6);
                 EXPECT_GT(tower.total.height_max, 1.5 * low.total.height_max);
@@ -173,6 +174,7 @@ TEST(Amounts, SheetsHaveTheTrianglesThatWereAskedFor)
         EXPECT_LT(report.residual, 1e-7);
 
         options.allow_less = false;
+        options.solve.fill.below_puddle = false;
         const Droplet asked = makeDroplet(el, options);
         EXPECT_EQ(asked.surface.positions, droplet.surface.positions);
         EXPECT_THAT(asked.warnings, Not(Contains(HasSubstr("upright"))));

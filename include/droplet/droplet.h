@@ -27,8 +27,7 @@ struct DropletOptions {
     TriangulateOptions mesh;                   ///< from the outline to meshes
     SolveOptions solve{.model = Model::Auto};  ///< liquid, forces, ground and fill
     bool allow_less = false;                   ///< take the most liquid that a footprint can hold where the fill does
-                                               ///< not exist, and no more than Fill::below_puddle allows; warnings and
-                                               ///< Droplet::limits say so
+                                               ///< not exist; warnings and Droplet::limits say so
     bool open = false;                         ///< leave out the base
     std::optional<FillRange> fill_range = {};  ///< fills of a surface that can be filled and drained; not with
                                                ///< solve.no_penetration. Model::Auto is then Linear, where every

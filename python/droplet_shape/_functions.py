@@ -198,8 +198,8 @@ def make_droplet(
 
     Liquid:
       contact_angle [rad]: Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of
-        the liquid on what it lies on. Without any amount, the largest angle that exists is taken if the default does
-        not (default: 40deg)
+        the liquid on what it lies on. By default no droplet is higher than a puddle of 40deg; by default and with
+        natural, the largest angle that exists is taken if that one does not (default: 40deg)
       on: glass, ptfe, wax, lotus: What the liquid lies on, for contact_angle natural (default: glass)
       volume [m³]: Amount of liquid, by its volume
       height [m]: Amount of liquid, by its largest height; if two droplets have it, the one with less liquid
@@ -208,8 +208,8 @@ def make_droplet(
       liquid: water, ethanol, glycerol, mercury, honey: Liquid, at 20 C (default: water)
       surface_tension [N/m]: Surface tension, instead of the liquid's own
       density [kg/m³]: Density, instead of the liquid's own
-      model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 9deg, exact for all slopes,
-        also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
+      model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all
+        slopes, also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
 
     Gravity and ground:
       gravity [m/s²]: Gravity into the ground; negative under a ceiling (default: 9.81m/s2)
@@ -226,7 +226,7 @@ def make_droplet(
       receding [rad]: Receding contact angle, at most advancing
 
     Surface:
-      triangles: Approximate number of triangles on the footprint: 5000, 5k, 1M (default: 40k)
+      triangles: Number of triangles of the liquid's surface, within 10 %: 5000, 5k, 1M (default: 40k)
       edge [m]: Edge length of the triangles, instead of triangles
       grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
         rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
@@ -337,8 +337,8 @@ def glyphs(
 
     Liquid:
       contact_angle [rad]: Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of
-        the liquid on what it lies on. Without any amount, the largest angle that exists is taken if the default does
-        not (default: 40deg)
+        the liquid on what it lies on. By default no droplet is higher than a puddle of 40deg; by default and with
+        natural, the largest angle that exists is taken if that one does not (default: 40deg)
       on: glass, ptfe, wax, lotus: What the liquid lies on, for contact_angle natural (default: glass)
       volume [m³]: Amount of liquid, by its volume
       height [m]: Amount of liquid, by its largest height; if two droplets have it, the one with less liquid
@@ -347,8 +347,8 @@ def glyphs(
       liquid: water, ethanol, glycerol, mercury, honey: Liquid, at 20 C (default: water)
       surface_tension [N/m]: Surface tension, instead of the liquid's own
       density [kg/m³]: Density, instead of the liquid's own
-      model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 9deg, exact for all slopes,
-        also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
+      model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all
+        slopes, also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
 
     Gravity and ground:
       gravity [m/s²]: Gravity into the ground; negative under a ceiling (default: 9.81m/s2)
@@ -365,7 +365,7 @@ def glyphs(
       receding [rad]: Receding contact angle, at most advancing
 
     Surface:
-      triangles: Approximate number of triangles on the footprint: 5000, 5k, 1M (default: 40k)
+      triangles: Number of triangles of the liquid's surface, within 10 %: 5000, 5k, 1M (default: 40k)
       edge [m]: Edge length of the triangles, instead of triangles
       grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
         rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
@@ -483,8 +483,8 @@ def animate(
 
     Liquid:
       contact_angle [rad]: Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of
-        the liquid on what it lies on. Without any amount, the largest angle that exists is taken if the default does
-        not (default: 40deg)
+        the liquid on what it lies on. By default no droplet is higher than a puddle of 40deg; by default and with
+        natural, the largest angle that exists is taken if that one does not (default: 40deg)
       on: glass, ptfe, wax, lotus: What the liquid lies on, for contact_angle natural (default: glass)
       volume [m³]: Amount of liquid, by its volume
       height [m]: Amount of liquid, by its largest height; if two droplets have it, the one with less liquid
@@ -493,8 +493,8 @@ def animate(
       liquid: water, ethanol, glycerol, mercury, honey: Liquid, at 20 C (default: water)
       surface_tension [N/m]: Surface tension, instead of the liquid's own
       density [kg/m³]: Density, instead of the liquid's own
-      model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 9deg, exact for all slopes,
-        also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
+      model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all
+        slopes, also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
 
     Gravity and ground:
       gravity [m/s²]: Gravity into the ground; negative under a ceiling (default: 9.81m/s2)
@@ -508,7 +508,7 @@ def animate(
       no_penetration: Keep the liquid above the ground; where it would sink in, the ground stays dry
 
     Surface:
-      triangles: Approximate number of triangles on the footprint: 5000, 5k, 1M (default: 40k)
+      triangles: Number of triangles of the liquid's surface, within 10 %: 5000, 5k, 1M (default: 40k)
       edge [m]: Edge length of the triangles, instead of triangles
       grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
         rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)

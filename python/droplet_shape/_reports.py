@@ -160,11 +160,12 @@ class ReportFill(_Report):
     amount: float  # The value asked for
     sharing: str  # Whether each droplet gets it, or all together
     range: tuple[float, ...] | None  # Range of the slider
+    limited_by: str  # What makes the amount smaller
 
 
 @dataclass(frozen=True)
 class ReportMesh(_Report):
-    """Triangles on the ground."""
+    """Triangles of the liquid's surface."""
 
     vertices: int  # Number of vertices
     triangles: int  # Number of triangles
@@ -254,6 +255,7 @@ class ReportDroplet(_Report):
     driving_force_n: float | None  # Weight along the slope
     retention_force_n: float | None  # Largest force that the rim holds
     colour: str | None  # Colour of its region, as #rrggbb; null unless droplets are made by colour
+    limited_by: str  # What makes the amount smaller
 
 
 @dataclass(frozen=True)
@@ -284,7 +286,7 @@ class Report(_Report):
     no_penetration: bool  # Whether the liquid was kept above the ground
     onto: ReportOnto | None  # The object that the droplets were laid on
     fill: ReportFill  # Amount of liquid that was asked for
-    mesh: ReportMesh  # Triangles on the ground
+    mesh: ReportMesh  # Triangles of the liquid's surface
     solve: ReportSolve  # How the equations were solved
     shape: ReportShape  # Figures of all droplets together
     droplets: tuple[ReportDroplet, ...]  # The droplets

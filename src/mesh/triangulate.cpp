@@ -71,6 +71,15 @@ double areaOf(const Domain& domain)
     return total;
 }
 
+double rimLengthOf(const Domain& domain)
+{
+    double total = 0.0;
+    for (const Footprint& footprint : domain.droplets) {
+        total += rimLength(footprint);
+    }
+    return total;
+}
+
 std::vector<Vec2> innerPoints(const std::vector<RimPolygon>& polygons, double edge, Growth growth)
 {
     return growth.layer > 0.0 ? layeredPoints(polygons, edge, growth.longest, growth.layer)
@@ -138,22 +147,27 @@ void checkDetail(double predicted, double wanted)
     }
 }
 
-/// Meshes with the longest edges that are allowed along the rim, if they have more triangles than requested.
-std::optional<std::vector<PlanarMesh>> meshWithLongest(const std::vector<RimSampler>& samplers,
-                                                       const TriangulateOptions& options, Growth growth)
+/// Rejects rims on which the longest edges that are allowed take far more triangles than requested.
+void checkLongest(double count, const TriangulateOptions& options)
 {
-    const double count = predictTriangles(samplers, *options.max_edge, growth);
-    const auto wanted = static_cast<double>(options.triangles);
-    if (count <= kSlack * wanted) {
-        return std::nullopt;
-    }
-    const double max = std::max(kMaxDetailTriangles, wanted);
+    const double max = std::max(kMaxDetailTriangles, static_cast<double>(options.triangles));
     if (count > max) {
         throw Error(ErrorCode::InvalidInput, "edges of " + numberText(*options.max_edge) +
                                                  " m along the rim, over which the surface bends, take " +
                                                  numberText(std::round(count), 9) + " triangles, over the limit of " +
                                                  numberText(std::floor(max), 9) + "; check the footprint's width");
     }
+}
+
+/// Meshes with these edges, if they have more triangles than requested.
+std::optional<std::vector<PlanarMesh>> meshWithLongest(const std::vector<RimSampler>& samplers,
+                                                       const TriangulateOptions& options, Growth growth)
+{
+    const double count = predictTriangles(samplers, *options.max_edge, growth);
+    if (count <= kSlack * static_cast<double>(options.triangles)) {
+        return std::nullopt;
+    }
+    checkLongest(count, options);
     return meshAll(samplers, *options.max_edge, growth);
 }
 
@@ -249,11 +263,7 @@ int gradingOf(const Domain& domain, const TriangulateOptions& options)
         return options.grading.value_or(1);
     }
     const double total_area = areaOf(domain);
-    double rim_length = 0.0;
-    for (const Footprint& footprint : domain.droplets) {
-        rim_length += rimLength(footprint);
-    }
-    const bool is_wide = total_area > kWide * *options.layer * rim_length;
+    const bool is_wide = total_area > kWide * *options.layer * rimLengthOf(domain);
     return is_wide && kEdgesPerLayer * evenEdge(total_area, options.triangles) > *options.layer ? kMaxGrading : 1;
 }
 
@@ -271,6 +281,10 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
     const double even = evenEdge(total_area, options.triangles);
     const double widest =
         std::min(1.5 * options.edge.value_or(even), options.max_edge.value_or(std::numeric_limits<double>::infinity()));
+    if (options.max_edge) {
+        // Every edge along the rim has a triangle, and sampling takes time.
+        checkLongest(rimLengthOf(domain) / *options.max_edge, options);
+    }
     std::vector<std::optional<RimSampler>> made(domain.droplets.size());
     tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t k) { made[k].emplace(domain.droplets[k], widest); });
     std::vector<RimSampler> samplers;

@@ -234,7 +234,7 @@ TEST(Report, DropletsHaveTheKeysOfTheShape)
     const std::string text = written(sampleReport());
     auto keys = keysOf(text, "/shape");
     keys.insert(keys.begin(), {"footprint_area_m2", "rim_length_m", "holes"});
-    keys.emplace_back("colour");
+    keys.insert(keys.end(), {"colour", "limited_by"});
     EXPECT_EQ(keysOf(text, "/droplets/0"), keys);
 }
 
