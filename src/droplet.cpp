@@ -106,8 +106,9 @@ std::string heightWarning(const Droplet& droplet, SolveOptions options)
                                   ? "the droplet is "
                                   : std::to_string(count) + " of " + std::to_string(droplet.figures.size()) +
                                         (count == 1 ? " droplets stands" : " droplets stand") + " too high, up to ";
-    return which + rounded(worst->height_max / kMillimetre) + " mm high, but a " +
-           (options.gravity == 0.0 ? "round droplet of its area" : "puddle of this liquid") +
+    return which + rounded(worst->height_max / kMillimetre) +
+           (options.gravity == 0.0 ? " mm high, but a round droplet of its area"
+                                   : " mm high, but a puddle of this liquid") +
            " with a mean contact angle of " + rounded(worst->contact_angle.mean / kDegree) + " degrees is at most " +
            rounded(bound / kMillimetre) + " mm; check its footprint, or ask for less liquid";
 }

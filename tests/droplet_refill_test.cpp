@@ -134,6 +134,7 @@ DropletOptions hangingOptions(double degrees, FillRange range)
 {
     DropletOptions result = options(FillSharing::Each);
     result.solve.model = Model::Exact;
+    result.mesh.triangles = 3000;
     result.solve.fill = {FillBy::ContactAngle, degrees * kDegree, FillSharing::Each};
     result.fill_range = range;
     return result;

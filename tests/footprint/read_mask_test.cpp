@@ -127,7 +127,7 @@ TEST(ReadMask, ErrorsNameThePathAndTheReason)
     EXPECT_THAT(message(""), HasSubstr("No such file"));
     EXPECT_THAT(message(folder / ""), HasSubstr("Is a directory"));
     EXPECT_THAT(message(folder / "missing.png/x"), HasSubstr("No such file"));
-    EXPECT_THAT(message(folder / "two\nlines"), HasSubstr("two?lines"));
+    EXPECT_THAT(message(folder / "two\nlines"), HasSubstr(R"(two\nlines)"));
     EXPECT_THAT(message("/proc/self/mem"), HasSubstr("/proc/self/mem: Input/output error"));
 
     writeFile(folder / "empty.png", {});

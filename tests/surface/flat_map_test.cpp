@@ -69,7 +69,7 @@ TEST(FlatMap, CoversTheFootprintOnce)
         {"bead of 160", bead(160.0)},
         {"square", sheetOver(square, 0.05, FillBy::ContactAngle, 140.0 * kDegree)},
         {"L", sheetOver(l, 0.05, FillBy::ContactAngle, 80.0 * kDegree)},
-        {"U", sheetOver(u, 0.06, FillBy::Volume, 1.0)},
+        {"U", sheetOver(u, 0.045, FillBy::Volume, 1.0)},
         {"ring", sheetOver(ring, 0.05, FillBy::Volume, 0.7)},
         {"A", sheetOver(letter, 0.035, FillBy::ContactAngle, 55.0 * kDegree)}};
     for (const auto& [name, sheet] : sheets) {
