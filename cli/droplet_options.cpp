@@ -374,10 +374,11 @@ void declareMaskOut(CommandLine& line)
 void declareLiquid(CommandLine& line)
 {
     constexpr const char* kGroup = "Liquid";
-    line.add(kGroup, "--contact-angle", "ANGLE",
-             "Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of the liquid on "
-             "what it lies on. By default no droplet is higher than a puddle of 40deg; by default and with natural, the "
-             "largest angle that exists is taken if that one does not [40deg]");
+    line.add(
+        kGroup, "--contact-angle", "ANGLE",
+        "Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of the liquid on "
+        "what it lies on. By default no droplet is higher than a puddle of 40deg; by default and with natural, the "
+        "largest angle that exists is taken if that one does not [40deg]");
     line.add(kGroup, "--on", "glass|ptfe|wax|lotus", "What the liquid lies on, for --contact-angle natural [glass]");
     line.add(kGroup, "--volume", "VOLUME", "Amount of liquid, by its volume");
     line.add(kGroup, "--height", "LENGTH",

@@ -543,9 +543,9 @@ class Reports:
         """Type of a value, and the name of its dataclass or an empty text."""
         kinds = schema.get("type", [])
         kinds = [kinds] if isinstance(kinds, str) else list(kinds)
-        if "const" in schema or "enum" in schema:
-            return "str"
         optional = " | None" if "null" in kinds else ""
+        if "const" in schema or "enum" in schema:
+            return "str" + optional
         kinds = [kind for kind in kinds if kind != "null"]
         kind = kinds[0] if len(kinds) == 1 else ""
         if kind == "object" and "properties" not in schema:

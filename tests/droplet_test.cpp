@@ -737,7 +737,8 @@ TEST(Droplet, NamesNeighboursThatWouldTouch)
     // Caps of 104° touch: 19 mm (1/sin θ − 1) = 0.6 mm.
     EXPECT_LT(less.total.contact_angle.mean, 105.0 * kDegree);
     EXPECT_GT(less.total.contact_angle.mean, 100.0 * kDegree);
-    EXPECT_THAT(less.warnings, ElementsAre(HasSubstr("does not exist on 2 of 2 footprints; the largest that was found was taken")));
+    EXPECT_THAT(less.warnings,
+                ElementsAre(HasSubstr("does not exist on 2 of 2 footprints; the largest that was found was taken")));
 }
 
 /// Two discs at one pressure, one larger: it takes the liquid.

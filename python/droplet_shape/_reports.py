@@ -78,9 +78,9 @@ class ReportInput(_Report):
     drawn: bool | None  # Whether the picture is an SVG
     own_size: bool | None  # Whether the page states its own size
     pixel_size_m: float | None  # Size of one pixel
-    channel: str  # Channel that was used
+    channel: str | None  # Channel that was used
     inverted: bool | None  # Whether dark or transparent pixels are liquid
-    segment: str  # How liquid was separated from dry
+    segment: str | None  # How liquid was separated from dry
     segment_confidence: float | None  # How much the picture looks like a mask, from 0 to 1
     threshold: float | None  # Coverage at which liquid begins
     level_dry: float | None  # Channel level of dry ground, from 0 to 1
@@ -160,7 +160,7 @@ class ReportFill(_Report):
     amount: float  # The value asked for
     sharing: str  # Whether each droplet gets it, or all together
     range: tuple[float, ...] | None  # Range of the slider
-    limited_by: str  # What makes the amount smaller
+    limited_by: str | None  # What makes the amount smaller
 
 
 @dataclass(frozen=True)
@@ -255,7 +255,7 @@ class ReportDroplet(_Report):
     driving_force_n: float | None  # Weight along the slope
     retention_force_n: float | None  # Largest force that the rim holds
     colour: str | None  # Colour of its region, as #rrggbb; null unless droplets are made by colour
-    limited_by: str  # What makes the amount smaller
+    limited_by: str | None  # What makes the amount smaller
 
 
 @dataclass(frozen=True)

@@ -128,8 +128,9 @@ TEST(Three, SeesTheSameLooksInEveryFormat)
                 }
                 EXPECT_EQ(usd.at(k).at("open_edges"), 0);
                 for (std::size_t channel = 0; channel < 3; ++channel) {
-                    EXPECT_NEAR(usd.at(k).at("material").at("colour").at(channel),
-                                glb.at(k).at("material").at("depth_colour").at(channel), 1e-6);
+                    // Absorption leaves a little of every colour; USD has none.
+                    const double colour = usd.at(k).at("material").at("colour").at(channel);
+                    EXPECT_NEAR(std::max(colour, 0.02), glb.at(k).at("material").at("depth_colour").at(channel), 1e-6);
                 }
             }
         }
