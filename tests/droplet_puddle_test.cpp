@@ -95,6 +95,29 @@ TEST(Puddle, WarnsWhereTrianglesAreTooLong)
     EXPECT_THAT(fine.warnings, ElementsAre(HasSubstr("shorten the edges to 1.44mm for 1 %")));
 }
 
+/// The error that is stated is that of the height, within a factor of two, for sheets, too.
+TEST(Puddle, StatesTheErrorOfItsHeight)
+{
+    for (const double degrees : {40.0, 60.0, 117.0}) {
+        DropletOptions options;
+        options.solve.model = Model::Auto;
+        options.solve.fill.amount = degrees * kDegree;
+        options.mesh.triangles = 3000;
+        const Droplet droplet = makeDroplet(testing::domainOf(testing::ellipseLoop(0.25, 0.25)), options);
+        const double sine = std::sin(0.5 * degrees * kDegree);
+        const double rest = 1.0 - std::pow(std::cos(0.5 * degrees * kDegree), 3.0);
+        const double exact = layer() * std::sqrt(4.0 * sine * sine + 8.0 * layer() / 0.75 * rest);
+        const double error = std::abs(droplet.total.height_max / exact - 1.0);
+        ASSERT_FALSE(droplet.warnings.empty());
+        const std::string& warning = droplet.warnings.back();
+        const auto at = warning.find("off by about ");
+        ASSERT_NE(at, std::string::npos) << warning;
+        const double stated = 0.01 * std::stod(warning.substr(at + 13));
+        EXPECT_LT(stated, 2.0 * error) << degrees;
+        EXPECT_GT(stated, 0.5 * error) << degrees;
+    }
+}
+
 /// A width in the wrong unit: edges longer than the layer would make a film of a puddle, 47 times too low.
 TEST(Puddle, IsRefinedOrRefusedWhereTrianglesAreLongerThanTheLayer)
 {
