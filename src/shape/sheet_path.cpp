@@ -33,8 +33,8 @@ constexpr double kRefused = 0.4;
 constexpr double kGrowth = 1.25;
 /// First step of the volume, in cubes of the radius of a disc as large as the footprint.
 constexpr double kFirstPart = 0.02;
-/// Cost of new triangles, for each of them, measured from 5000 to 400 000.
-constexpr double kRemeshWork = 1400.0;
+/// Cost of new triangles, for each of them, measured from 5000 to 400 000; twice that for a given number of them.
+constexpr double kRemeshWork = 3000.0;
 /// Factorisations that a sheet on new triangles is worth at least: one with too many for its work is not solved.
 constexpr double kLeastFactorisations = 30.0;
 /// Work on the final triangles, in factorisations, whatever the way there took.

@@ -27,6 +27,8 @@ std::uint64_t writePng(const GreyPicture& picture, std::ostream& out, PngEffort 
 
 /// Writes grey data with 8 bits if that loses nothing, else as a DeepPicture with 16.
 /// @param picture  valid, with one channel
+/// @param out      binary
+/// @return         number of bytes
 /// @throws Error   InvalidArgument
 std::uint64_t writeShortestPng(const DeepPicture& picture, std::ostream& out);
 
