@@ -74,7 +74,7 @@ double uprightShare(const Droplet& droplet)
 /// than an endless puddle for small angles, where (I₀(x) − 1)/I₁(x) has its maximum. A jagged rim has small angles that
 /// lower the mean but not the height: real drawings reach 33 %.
 /// @param options  the droplet was solved with
-std::string heightWarning(const Droplet& droplet, SolveOptions options)
+std::string heightWarning(const Droplet& droplet, const SolveOptions& options)
 {
     constexpr double kRoundAndJagged = 1.4;
     // In the linear model the height of a puddle goes to infinity at 90°; it is no guide above 50°.
@@ -474,6 +474,7 @@ std::vector<double> volumesOf(const std::vector<PlanarMesh>& meshes, const Dropl
     const std::vector<ShapeFigures> figures = figuresOf(meshes, shapes, solved);
     requireLiquid(figures, solved.no_penetration);
     std::vector<double> volumes;
+    volumes.reserve(figures.size());
     for (const ShapeFigures& droplet : figures) {
         volumes.push_back(droplet.volume);
     }

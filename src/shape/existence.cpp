@@ -123,6 +123,7 @@ public:
         : members_(&members), options_(&options), report_(&reached)
     {
         std::vector<const PlanarMesh*> meshes;
+        meshes.reserve(members.size());
         for (const Member& member : members) {
             meshes.push_back(&member.energy->mesh());
         }

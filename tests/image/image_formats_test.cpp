@@ -489,7 +489,7 @@ TEST(ReadTga, ColoursGreyPaletteAndRunLengths)
     appendLittle(palette, 0x0001, 2);
     EXPECT_THAT(decodeMask(palette, only(Channel::Luma)).coverage, ElementsAre(0, 65535)) << "from the right";
     Bytes high = tgaHeader(2, 1, {2, 16, 1, {}});
-    appendLittle(high, 0x7fff | 0x83e0 << 16, 4);
+    appendLittle(high, 0x83e07fffU, 4);
     expectLevels(
         high, 2, 1, [](int x, int) { return x == 0 ? 1.0 : luma(0, 1, 0); },
         [](int x, int) { return x == 0 ? 0.0 : 1.0; });
