@@ -722,7 +722,7 @@ TEST(Droplet, NamesNeighboursThatWouldTouch)
     }
     // Where the work does not suffice to find that angle, none is named.
     DropletOptions short_of_work = options;
-    short_of_work.solve.max_work = 4e4;
+    short_of_work.solve.max_work = 1e5;
     try {
         (void)makeDroplet(nearDiscs(), short_of_work);
         FAIL();

@@ -205,8 +205,8 @@ public:
         for (xmlNode* element : elements_) {
             replaceValues(*element);
         }
-        for (auto element = elements_.rbegin(); element != elements_.rend(); ++element) {
-            placeTransform(**element);
+        for (std::size_t k = elements_.size(); k > 0; --k) {
+            placeTransform(*elements_[k - 1]);
         }
         for (xmlNode* element : elements_) {
             replaceClip(*element);
@@ -362,7 +362,7 @@ private:
             for (const std::string_view part : partsOf(value->value, ',')) {
                 arguments += (arguments.empty() ? "" : ",") + std::string(part);
             }
-            const auto matrix = parseTransform(name + "(" + arguments + ")");
+            const auto matrix = parseTransform(fmt::format("{}({})", name, arguments));
             if (!matrix) {
                 note("the property " + name + " in three dimensions or with percentages");
                 return;
@@ -717,9 +717,9 @@ private:
     /// Whether an element is drawn by reference, at a scale that depends on where.
     [[nodiscard]] bool isReferred(const xmlNode& element) const
     {
-        static const std::set<std::string_view> kReferred{"defs", "symbol", "pattern", "marker", "mask", "clipPath"};
+        static const std::set<std::string_view> referred{"defs", "symbol", "pattern", "marker", "mask", "clipPath"};
         for (const xmlNode* here = &element; isElement(here); here = here->parent) {
-            if (kReferred.contains(nameOf(*here))) {
+            if (referred.contains(nameOf(*here))) {
                 return true;
             }
         }
@@ -728,17 +728,17 @@ private:
 
     void noteMissing(const xmlNode& element)
     {
-        static const std::map<std::string_view, const char*> kLacking{{"textPath", "textPath (convert text to paths)"},
-                                                                      {"flowRoot", "flowRoot (convert text to paths)"},
-                                                                      {"foreignObject", "foreignObject"},
-                                                                      {"meshgradient", "meshgradient"},
-                                                                      {"hatch", "hatch"},
-                                                                      {"animate", "animations"},
-                                                                      {"animateTransform", "animations"},
-                                                                      {"animateMotion", "animations"}};
+        static const std::map<std::string_view, const char*> known{{"textPath", "textPath (convert text to paths)"},
+                                                                   {"flowRoot", "flowRoot (convert text to paths)"},
+                                                                   {"foreignObject", "foreignObject"},
+                                                                   {"meshgradient", "meshgradient"},
+                                                                   {"hatch", "hatch"},
+                                                                   {"animate", "animations"},
+                                                                   {"animateTransform", "animations"},
+                                                                   {"animateMotion", "animations"}};
         const std::string_view name = nameOf(element);
         const bool is_chosen = isElement(element.parent) && nameOf(*element.parent) == "switch";
-        if (const auto lacking = kLacking.find(name); lacking != kLacking.end() && !is_chosen) {
+        if (const auto lacking = known.find(name); lacking != known.end() && !is_chosen) {
             note(lacking->second);
         }
         const std::string target(trimmed(attributeOf(element, "href").value_or("")));
@@ -778,9 +778,9 @@ private:
                 note(std::string(property) + " (convert text to paths)");
             }
         }
-        static const std::set<std::string_view> kGeneric{"serif",    "sans-serif",    "monospace",
-                                                         "cursive",  "fantasy",       "system-ui",
-                                                         "ui-serif", "ui-sans-serif", "ui-monospace"};
+        static const std::set<std::string_view> generic{"serif",    "sans-serif",    "monospace",
+                                                        "cursive",  "fantasy",       "system-ui",
+                                                        "ui-serif", "ui-sans-serif", "ui-monospace"};
         const auto families = styles_.inherited(element, "font-family");
         if (!families || installedFonts().empty()) {
             return;
@@ -796,7 +796,7 @@ private:
             if (family.empty()) {
                 continue;
             }
-            const bool is_generic = kGeneric.contains(lowered(family));
+            const bool is_generic = generic.contains(lowered(family));
             if (is_generic ? first.empty() : installedFonts().contains(lowered(family))) {
                 return;
             }
