@@ -406,13 +406,10 @@ private:
     {
         constexpr double kMany = 2000.0;
         if (const double steps = source_->stepsPerFrame(); steps > kMany) {
-            report_.warnings.push_back(fmt::format(
+            warn(fmt::format(
                 "a frame takes about {:.2g} steps, so the run takes very long: gravity, speeds or forces are "
                 "large for the spacing of the particles",
                 steps));
-            if (!options_.quiet) {
-                progress_.warn(report_.warnings.back());
-            }
         }
     }
 

@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -174,11 +173,8 @@ bool readPreviewFile(const CommandLine& line, PreviewOptions& options)
         return false;
     }
     options.path = preview->text;
-    std::string extension = std::filesystem::path(options.path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const bool is_video = isVideo(options.path);
-    if (!isStream(options.path) && extension != ".png" && !is_video) {
+    if (!isStream(options.path) && lowerExtension(options.path) != ".png" && !is_video) {
         refuse(*preview, "a file that ends in .png, or -; with --turntable also a .mp4, .mkv, .mov or .webm");
     }
     if (is_video && !options.turns) {

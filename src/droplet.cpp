@@ -141,8 +141,8 @@ std::string coarseWarning(const Droplet& droplet, const DropletOptions& options,
     // 60°.
     constexpr double kLinear = 0.036;
     constexpr double kSteepest = 64.0 * kDegree;
-    constexpr double kFew = 0.058;
-    constexpr double kFewer = 0.05;
+    constexpr double kCoarse = 0.058;
+    constexpr double kCoarseSquared = 0.05;
     const double angle =
         droplet.solution.report.model == Model::Exact ? std::min(droplet.total.contact_angle.mean, kSteepest) : 0.0;
     const double error = kLinear / std::pow(std::cos(angle), 3.0);
@@ -151,7 +151,7 @@ std::string coarseWarning(const Droplet& droplet, const DropletOptions& options,
         longest = std::max(longest, rimLength(mesh) / static_cast<double>(mesh.rimVertexCount()));
     }
     const double relative = longest / *layer;
-    const double share = std::min(error * relative * relative, (kFew + kFewer * relative) * relative);
+    const double share = std::min(error * relative * relative, (kCoarse + kCoarseSquared * relative) * relative);
     if (share <= kVisible) {
         return {};
     }

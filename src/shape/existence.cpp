@@ -171,8 +171,7 @@ private:
     {
         std::size_t unknowns = 0;
         for (const Member& member : *members_) {
-            const PlanarMesh& mesh = member.energy->mesh();
-            unknowns += mesh.vertices.size() - mesh.rimVertexCount();
+            unknowns += unknownsOf(member.energy->mesh());
         }
         return options_->max_work.value_or(fieldWork(unknowns));
     }

@@ -48,7 +48,7 @@ constexpr double kContactWork = 10.0;
 constexpr double kLeastShare = 0.5;
 
 /// Mean contact angle that is tried where the search for one beyond 90° ends below it: that of a fill by default [rad].
-constexpr double kModestAngle = 40.0 * kDegree;
+constexpr double kModestAngle = Fill{}.amount;
 
 /// Largest mean contact angle of sheets that sink to the ground on a straight way [rad].
 constexpr double kFlat = 30.0 * kDegree;
@@ -223,7 +223,7 @@ std::size_t unknownsOf(const std::vector<PlanarMesh>& meshes)
 {
     std::size_t unknowns = 0;
     for (const PlanarMesh& mesh : meshes) {
-        unknowns += mesh.vertices.size() - mesh.rimVertexCount();
+        unknowns += unknownsOf(mesh);
     }
     return unknowns;
 }
@@ -432,8 +432,7 @@ void describe(const std::vector<PlanarMesh>& meshes, const std::string& method, 
     std::size_t most = 0;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         const std::optional<ParametricSheet>& sheet = shapes.sheets[k];
-        const std::size_t own =
-            sheet ? sheet->places.size() - sheet->rim : meshes[k].vertices.size() - meshes[k].rimVertexCount();
+        const std::size_t own = sheet ? sheet->places.size() - sheet->rim : unknownsOf(meshes[k]);
         report.unknowns += own;
         if (own > most) {
             most = own;

@@ -189,14 +189,16 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
     std::size_t wanted = 0;
     std::vector<const PlanarMesh*> all;
     for (const PlanarMesh& footprint : footprints) {
-        const double edge = share * edgeOf(footprint);
+        const double size = area(footprint);
+        const double own_edge = edgeOf(footprint);
+        const double edge = share * own_edge;
         std::optional<PlanarMesh> changed = roundInward(footprint, kInnerRadius * edge, edge);
         rounded.push_back(changed ? *std::move(changed) : footprint);
-        covered += area(footprint);
-        wanted += static_cast<std::size_t>(std::round(trianglesOf(area(footprint), edgeOf(footprint))));
+        covered += size;
+        wanted += static_cast<std::size_t>(std::round(trianglesOf(size, own_edge)));
         all.push_back(&footprint);
-        triangles += trianglesOf(area(footprint), edge);
-        path_edge = std::max(path_edge, std::min(kPathEdge * edge, kPathPart * std::sqrt(area(footprint))));
+        triangles += trianglesOf(size, edge);
+        path_edge = std::max(path_edge, std::min(kPathEdge * edge, kPathPart * std::sqrt(size)));
     }
     SheetResult result;
     PlanarMesh& pinned = result.sheet.footprint;

@@ -124,15 +124,15 @@ public:
         smooth();
         flip();
         findSizes();
-        for (int k = 0; k < kCountRounds && options_.triangles > 0 && changeSizes(trianglesOfSizes()); ++k) {
+        const int count_rounds = options_.triangles > 0 ? kCountRounds : 0;
+        bool is_near = false;
+        for (int round = 0; round < count_rounds && !is_near; ++round) {
+            is_near = !changeSizes(trianglesOfSizes());
         }
         for (int round = 0; round < options_.rounds; ++round) {
             changeTriangles();
         }
-        for (int round = 0; round < kCountRounds && options_.triangles > 0; ++round) {
-            if (!changeSizes(static_cast<double>(faceCount()))) {
-                break;
-            }
+        for (int round = 0; round < count_rounds && changeSizes(static_cast<double>(faceCount())); ++round) {
             changeTriangles();
         }
         flip();
@@ -359,7 +359,7 @@ private:
             }
         }
         std::stable_sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-        auto triangles = static_cast<std::size_t>(std::distance(mesh_.faces_sbegin(), mesh_.faces_end()));
+        std::size_t triangles = faceCount();
         for (const auto& [ratio, edge] : edges) {
             if (triangles >= options_.max_triangles) {
                 return;

@@ -26,6 +26,7 @@
 #include "shape/existence.h"
 #include "shape/hanging.h"
 #include "shape/own_options.h"
+#include "shape/work.h"
 
 namespace droplet {
 namespace {
@@ -34,11 +35,6 @@ namespace {
 /// for others. Measured in bench/RESULTS.md.
 constexpr std::size_t kSmall = 500;
 constexpr std::size_t kSmallIrregular = 50'000;
-
-std::size_t unknownsOf(const PlanarMesh& mesh)
-{
-    return mesh.vertices.size() - mesh.rimVertexCount();
-}
 
 Solver chooseSolver(const PlanarMesh& mesh)
 {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "droplet/mesh/planar_mesh.h"
+
 namespace droplet {
 
 // Work is counted, never timed: the same input ends at the same place on every machine. Two models have their own unit:
@@ -34,6 +36,12 @@ struct Work {
     [[nodiscard]] double left() const { return std::fmax(most - done, 0.0); }
     [[nodiscard]] bool isLeft() const { return done < most; }
 };
+
+/// Unknowns of a height field: vertices inside.
+inline std::size_t unknownsOf(const PlanarMesh& mesh)
+{
+    return mesh.vertices.size() - mesh.rimVertexCount();
+}
 
 /// Most work of a height field by default: half a minute for about ten thousand unknowns.
 inline double fieldWork(std::size_t unknowns)
