@@ -658,7 +658,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
             Shape lesser = solveShape(own, modest, {}, SheetEffort::Modest, report);
             lesser.work += shape.work;
             if (!lesser.fields.empty() || (lesser.sheet && lesser.sheet->contact_angle > shape.sheet->contact_angle)) {
-                lesser.lesser = kModestAngle;
+                lesser.lesser = lesser.lesser.value_or(kModestAngle);
                 shape = std::move(lesser);
             }
         }
