@@ -40,9 +40,9 @@ constexpr double kInnerRadius = 0.5;
 /// took 30 and one 310 at 40°, half 41 and one 620 at 60°; of drawings of 40 000 a butterfly took 370.
 constexpr double kWork = 1500.0;
 /// Least limit of the work of a full effort, half a minute, and of the others. A U of 600 triangles took 1.5e7 in all;
-/// a cock of 8000 took 1.4e9.
+/// a cock of 8000 took 1.4e9; to 140°, discs of 1000 to 4000 took more than 1.2e7.
 constexpr double kLeastFullWork = 1e10;
-constexpr double kLeastWork = 3e8;
+constexpr double kLeastWork = 9e7;
 /// Most work of a full effort, one and a half minutes: masks full of holes take a hundred thousand triangles and more.
 constexpr double kMostWork = 4e10;
 /// Turn of the rim at a corner [rad].
@@ -207,9 +207,10 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
         weightOf(options), kFinalEdge * std::sqrt(4.0 / std::numbers::sqrt3 * covered / triangles), path_edge, wanted};
     sheet_options.is_end_confirmed = effort == SheetEffort::Full;
     const double work = std::min(kWork * std::pow(triangles, 1.5), kMostWork);
-    sheet_options.max_work = effort == SheetEffort::Full ? std::max(kLeastFullWork, work)
-                                                         : (effort == SheetEffort::Modest ? kModestWork : kSlightWork) *
-                                                               std::max(kLeastWork, work);
+    sheet_options.max_work =
+        effort == SheetEffort::Full
+            ? std::max(kLeastFullWork, work)
+            : std::max(kLeastWork, (effort == SheetEffort::Modest ? kModestWork : kSlightWork) * work);
     if (options.max_work) {
         sheet_options.max_work = std::min(sheet_options.max_work, kSheetUnits * *options.max_work);
     }

@@ -252,6 +252,12 @@ TEST_F(ShapeCommandTest, TakesTheAngleThatALiquidHasByItself)
     EXPECT_NEAR(angle({}), 20.0, 1e-4);
     EXPECT_NEAR(angle({"--on", "ptfe"}), 110.0, 1e-4);
     EXPECT_NEAR(angle({"--liquid", "mercury", "--width", "4mm"}), 140.0, 1e-4);
+    for (const char* triangles : {"1000", "4000", "12000"}) {
+        const auto made = run({"disc.pgm", "a.glb", "--contact-angle", "natural", "--liquid", "mercury", "--width",
+                               "4mm", "--triangles", triangles});
+        EXPECT_EQ(made.exit_code, 0);
+        EXPECT_THAT(made.output + made.error, HasSubstr("contact angle 140.0°")) << triangles;
+    }
     const auto refused = run({"disc.pgm", "b.glb", "--contact-angle", "natural", "--liquid", "ethanol"});
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.error, HasSubstr("ethanol on glass spreads"));
