@@ -55,9 +55,12 @@ std::string windshield(const std::filesystem::path& output, const Arguments& arg
     all.insert(all.end(), {"--quiet", argumentOf(output)});
     const auto options = parsed(cli::parseWindshield, all);
     const Work work(options.threads);
-    cli::checkWindshieldFiles(options);
+    checkFiles(filesOf(options), options.output_options);
+    cli::ProgressDisplay progress(cli::ProgressMode::None);
+    const droplet::WindshieldReport report = cli::simulateWindshield(options, progress);
+    progress.finish();
     std::ostringstream out;
-    writeWindshieldReport(out, cli::simulateWindshield(options));
+    writeWindshieldReport(out, report);
     return std::move(out).str();
 }
 
@@ -72,7 +75,7 @@ std::string flow(const std::optional<std::filesystem::path>& object, const std::
     all.push_back(argumentOf(output));
     const auto options = parsed(cli::parseFlow, all);
     const Work work(options.threads);
-    cli::checkFlowFiles(options);
+    checkFiles(filesOf(options), options.output_options);
     cli::ProgressDisplay progress(cli::ProgressMode::None);
     const droplet::FlowReport report = cli::simulateFlow(options, progress);
     progress.finish();
