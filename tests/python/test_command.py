@@ -12,7 +12,7 @@ from support import DATA, FONT, program, run
 
 CASES = [
     ("ampersand.png", {}),
-    ("raindrops.png", {"fill": "total", "volume": "30uL"}),
+    ("raindrops.png", {"fill": "total", "volume": "5uL"}),
     ("letter_g_1bit.png", {"model": "exact", "contact_angle": "50deg", "tilt": "20deg"}),
     ("inkscape.png", {"model": "linear", "liquid": "glycerol", "height": "0.6mm"}),
     ("raindrops.png", {"width": "30mm", "smooth": "0.7mm", "liquid": "mercury", "contact_angle": "30deg"}),
