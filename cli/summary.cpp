@@ -131,10 +131,12 @@ std::string amount(const Report& report)
                                    [](const auto& droplet) { return droplet.limit == droplet::FillLimit::Puddle; });
     const std::string which =
         report.droplets.size() == 1 ? "the" : fmt::format("{} of {}", low, report.droplets.size());
-    return fmt::format("the height of {} with a contact angle of {}, {}, limits {} {}; ask for more with --height",
-                       report.physics.gravity == 0.0 ? "a round droplet" : "a puddle",
-                       degrees(report.physics.fill.amount), millimetres(report.total.height_max), which,
-                       report.droplets.size() == 1 ? "droplet" : "droplets");
+    const bool is_puddle = droplet::bendingLayer(report.physics).has_value();
+    const bool is_one = report.droplets.size() == 1;
+    return fmt::format("the height of {} with a contact angle of {}{} limits {} {}; ask for more with --height",
+                       is_puddle ? "a puddle" : "a round droplet of its area", degrees(report.physics.fill.amount),
+                       is_puddle || is_one ? ", " + millimetres(report.total.height_max) + "," : "", which,
+                       is_one ? "droplet" : "droplets");
 }
 
 std::string table(const Report& report)

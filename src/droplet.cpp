@@ -88,7 +88,7 @@ std::string heightWarning(const Droplet& droplet, const SolveOptions& options)
     for (std::size_t k = 0; k < droplet.figures.size(); ++k) {
         const ShapeFigures& figures = droplet.figures[k];
         const double mean = figures.contact_angle.mean;
-        const bool is_linear_puddle = options.model == Model::Linear && options.gravity != 0.0;
+        const bool is_linear_puddle = options.model == Model::Linear && bendingLayer(options);
         const double angle = is_linear_puddle ? std::min(mean, kSteepestLinear) : mean;
         const double height = puddleHeight(options, angle, figures.footprint_area);
         if (droplet.limits[k] != FillLimit::Puddle && figures.height_max > kRoundAndJagged * height) {
@@ -107,17 +107,10 @@ std::string heightWarning(const Droplet& droplet, const SolveOptions& options)
                                   : std::to_string(count) + " of " + std::to_string(droplet.figures.size()) +
                                         (count == 1 ? " droplets stands" : " droplets stand") + " too high, up to ";
     return which + rounded(worst->height_max / kMillimetre) +
-           (options.gravity == 0.0 ? " mm high, but a round droplet of its area"
-                                   : " mm high, but a puddle of this liquid") +
+           (bendingLayer(options) ? " mm high, but a puddle of this liquid"
+                                  : " mm high, but a round droplet of its area") +
            " with a mean contact angle of " + rounded(worst->contact_angle.mean / kDegree) + " degrees is at most " +
            rounded(bound / kMillimetre) + " mm; check its footprint, or ask for less liquid";
-}
-
-/// Width of the layer along the rim in which a puddle's surface bends [m]; empty for a liquid that gravity does not
-/// press onto the ground.
-std::optional<double> bendingLayer(const SolveOptions& options)
-{
-    return capillaryLength(options.liquid, std::max(planeGravity(options).normal, 0.0));
 }
 
 /// Whether a surface bends at the rim alone: not over ground with relief, nor where liquid ends on a tilted plane.
@@ -166,7 +159,8 @@ std::string coarseWarning(const Droplet& droplet, const DropletOptions& options,
 }
 
 /// Warning about height fields that are upright along a part of their rims; empty if there are none.
-std::string uprightWarning(const Droplet& droplet, const LiquidShapes& shapes)
+/// @param model  that was asked for
+std::string uprightWarning(const Droplet& droplet, const LiquidShapes& shapes, Model model)
 {
     const double share = droplet.solution.report.model == Model::Exact ? uprightShare(droplet) : 0.0;
     if (share == 0.0) {
@@ -181,8 +175,74 @@ std::string uprightWarning(const Droplet& droplet, const LiquidShapes& shapes)
     }
     // Upright angles stand for those from 90° to 180°.
     return "the liquid stands upright along " + percent(share) + " of its rim, where a real droplet would hang over" +
-           why + "; its mean contact angle may be off by " + rounded(90.0 * share) +
-           " degrees; ask for less liquid, or use the exact model";
+           why + "; its mean contact angle may be off by " + rounded(90.0 * share) + " degrees; ask for less liquid" +
+           (model == Model::Exact ? "" : ", or use the exact model");
+}
+
+/// Warning about ground under a footprint that sheets leave dry; empty if there is none.
+std::string dryWarning(const Droplet& droplet)
+{
+    constexpr double kVisible = 0.01;  // of the footprint
+    const double share = droplet.total.dry_area / droplet.total.footprint_area;
+    return share < kVisible ? ""
+                            : "gravity pulls the liquid off " + percent(share) +
+                                  " of the footprint, which stays dry; ask for more liquid, or for a smaller width";
+}
+
+/// Warning about one droplet of several that has gathered most of what they share; empty if there is none.
+std::string gatheredWarning(const Droplet& droplet, const Fill& fill)
+{
+    constexpr double kMost = 0.5;  // of the liquid
+    if (fill.sharing != FillSharing::Total || droplet.figures.size() < 2) {
+        return {};
+    }
+    const auto largest = std::max_element(droplet.figures.begin(), droplet.figures.end(),
+                                          [](const auto& a, const auto& b) { return a.volume < b.volume; });
+    const double share = largest->volume / droplet.total.volume;
+    const bool is_small =
+        largest->footprint_area - largest->dry_area >= kMost * (droplet.total.footprint_area - droplet.total.dry_area);
+    if (share < kMost || is_small || largest->contact_angle.mean < 0.5 * std::numbers::pi) {
+        return {};
+    }
+    return fmt::format(
+        "one pressure drives {} of the liquid into droplet {} of {}; ask for less, or for an amount for each",
+        percent(share), largest - droplet.figures.begin() + 1, droplet.figures.size());
+}
+
+/// Number of triangles of the liquid's surface.
+std::size_t trianglesOf(const Droplet& droplet)
+{
+    std::size_t triangles = 0;
+    for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
+        const bool is_sheet = !droplet.sheets.empty() && droplet.sheets[k];
+        triangles += is_sheet ? droplet.sheets[k]->triangles.size() : droplet.meshes[k].triangles.size();
+    }
+    return triangles;
+}
+
+/// Warning about a number of triangles that is not the wanted one; empty if it is near.
+/// @param triangles  of the liquid's surface
+/// @param is_fine    whether they are short enough for the layer along the rim
+std::string countWarning(const Droplet& droplet, const TriangulateOptions& mesh, std::size_t triangles, bool is_fine)
+{
+    // Liquid that hangs over adds surface to the footprints' triangles.
+    constexpr double kOff = 0.1;
+    constexpr double kHangingOff = 0.25;
+    std::size_t footprint_triangles = 0;
+    for (const PlanarMesh& footprint : droplet.meshes) {
+        footprint_triangles += footprint.triangles.size();
+    }
+    const auto off = [&](std::size_t count) {
+        return std::abs(static_cast<double>(count) / static_cast<double>(mesh.triangles) - 1.0);
+    };
+    const bool is_near = off(triangles) <= kOff || (off(triangles) <= kHangingOff && off(footprint_triangles) <= kOff);
+    if (mesh.edge || is_near) {
+        return {};
+    }
+    const std::string counts = countText(triangles) + " triangles, not the " + countText(mesh.triangles) + " asked for";
+    return triangles < mesh.triangles ? "the surface has " + counts + ": smaller ones failed where it is folded"
+           : is_fine                  ? "the footprint's detail takes " + counts
+                                      : "the bend of the liquid at its rim takes " + counts;
 }
 
 std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions& options, const LiquidShapes& shapes)
@@ -200,23 +260,22 @@ std::vector<std::string> warningsOf(const Droplet& droplet, const DropletOptions
         warnings.push_back(percent(steep) +
                            " of the surface is too steep (over 50 degrees) for the linear model; use the exact model");
     }
-    if (std::string upright = uprightWarning(droplet, shapes); !upright.empty()) {
+    if (std::string upright = uprightWarning(droplet, shapes, options.solve.model); !upright.empty()) {
         warnings.push_back(std::move(upright));
     }
     if (!options.solve.no_penetration && total.depth_max > kVisible * total.height_max) {
         warnings.push_back("the liquid's surface sinks into the ground, by up to " +
                            rounded(total.depth_max / kMillimetre) + " mm; prevent penetration to keep it above");
     }
-    std::size_t triangles = 0;
-    for (const PlanarMesh& mesh : droplet.meshes) {
-        triangles += mesh.triangles.size();
+    for (std::string warning : {dryWarning(droplet), gatheredWarning(droplet, options.solve.fill)}) {
+        if (!warning.empty()) {
+            warnings.push_back(std::move(warning));
+        }
     }
-    const auto wanted = static_cast<double>(options.mesh.triangles);
+    const std::size_t triangles = trianglesOf(droplet);
     std::string coarse = coarseWarning(droplet, options, triangles);
-    if (!options.mesh.edge && std::abs(static_cast<double>(triangles) - wanted) > 0.1 * wanted) {
-        warnings.push_back(
-            (coarse.empty() ? "the footprint's detail takes " : "the bend of the liquid at its rim takes ") +
-            countText(triangles) + " triangles, not the " + countText(options.mesh.triangles) + " asked for");
+    if (std::string count = countWarning(droplet, options.mesh, triangles, coarse.empty()); !count.empty()) {
+        warnings.push_back(std::move(count));
     }
     if (!coarse.empty()) {
         warnings.push_back(std::move(coarse));

@@ -71,6 +71,12 @@ TEST(PuddleHeight, IsThatOfAPuddleOrOfACap)
     }
     options.tilt = std::numbers::pi;
     EXPECT_EQ(puddleHeight(options, kAngle, kArea), std::numeric_limits<double>::infinity());
+    options.liquid.density = 0.0;
+    for (const double tilt : {0.0, std::numbers::pi}) {
+        options.tilt = tilt;
+        EXPECT_NEAR(puddleHeight(options, kAngle, kArea), 1e-3 * std::tan(0.5 * kAngle), 1e-15);
+        EXPECT_FALSE(bendingLayer(options));
+    }
     options = {.model = Model::Linear};
     EXPECT_NEAR(puddleHeight(options, kAngle, kArea), length * std::tan(kAngle), 1e-15);
 }
@@ -110,6 +116,63 @@ TEST(Amounts, ReliefOfTheGroundAddsToAPuddle)
     const Droplet droplet = makeDroplet(comb(), options);
     EXPECT_GT(droplet.total.height_max, puddle(options, droplet.total.footprint_area));
     EXPECT_LT(droplet.total.height_max, puddle(options, droplet.total.footprint_area) + 3e-3);
+}
+
+TEST(Amounts, WithoutDensityAreThoseWithoutGravity)
+{
+    DropletOptions options = byDefault();
+    options.solve.gravity = 0.0;
+    const Droplet floating = makeDroplet(comb(), options);
+    options.solve.gravity = kStandardGravity;
+    options.solve.liquid.density = 0.0;
+    EXPECT_EQ(makeDroplet(comb(), options).surface.positions, floating.surface.positions);
+}
+
+/// On a wall liquid gathers at the lower end of a wide footprint. The ground above it is dry, and what is wet is
+/// covered: the area of the liquid's surface is at least that of its base.
+TEST(Amounts, OnAWallTheDryPartIsTold)
+{
+    DropletOptions options = byDefault(2000);
+    options.solve.tilt = 0.5 * std::numbers::pi;
+    for (const double width : {2e-3, 30e-3, 50e-3}) {
+        const Droplet droplet = makeDroplet(testing::domainOf(testing::polygonLoop({{0, 0},
+                                                                                    {width, 0},
+                                                                                    {width, 0.3 * width},
+                                                                                    {0.3 * width, 0.3 * width},
+                                                                                    {0.3 * width, width},
+                                                                                    {0, width}})),
+                                            options);
+        const ShapeFigures& figures = droplet.total;
+        EXPECT_GT(figures.volume, 0.0) << width;
+        const bool is_dry = width > 10e-3;
+        EXPECT_EQ(figures.dry_area > 0.01 * figures.footprint_area, is_dry) << figures.dry_area;
+        EXPECT_GE(figures.liquid_area, figures.footprint_area - figures.dry_area);
+        EXPECT_DOUBLE_EQ(figures.surface_energy, options.solve.liquid.surface_tension * figures.liquid_area);
+        const auto told = Contains(HasSubstr("of the footprint, which stays dry"));
+        EXPECT_THAT(droplet.warnings, ::testing::Conditional(is_dry, told, ::testing::Not(told))) << width;
+    }
+}
+
+/// Of discs at one pressure, all but one stay below a half ball: more liquid goes to that one.
+TEST(Amounts, ADropletThatGathersWhatAllShareIsTold)
+{
+    Domain discs;
+    discs.extent = {0.1, 0.1};
+    for (int k = 0; k < 5; ++k) {
+        Loop disc = testing::ellipseLoop(k == 0 ? 1.2e-3 : 1e-3, k == 0 ? 1.2e-3 : 1e-3);
+        for (Vec2& point : disc.points) {
+            point.x += k * 12e-3;
+        }
+        discs.droplets.push_back(testing::domainOf(disc).droplets.front());
+    }
+    DropletOptions options;
+    options.mesh.triangles = 4000;
+    options.solve.gravity = 0.0;
+    options.solve.fill = {FillBy::Volume, 4e-9, FillSharing::Total};
+    const auto told = Contains(HasSubstr("of the liquid into droplet 1 of 5"));
+    EXPECT_THAT(makeDroplet(discs, options).warnings, IsEmpty());
+    options.solve.fill.amount = 40e-9;
+    EXPECT_THAT(makeDroplet(discs, options).warnings, told);
 }
 
 TEST(Amounts, SmallRoundDropletsKeepTheirAngle)

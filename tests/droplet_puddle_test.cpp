@@ -118,6 +118,34 @@ TEST(Puddle, StatesTheErrorOfItsHeight)
     }
 }
 
+/// Corners that point inward are upright in a height field, and need sheets at 60°. Neither may lose the layer along
+/// the rim: the error is at most about what is stated, and the middle is flat.
+TEST(Puddle, StatesTheErrorOfItsHeightWithInnerCorners)
+{
+    for (const double width : {0.3, 1.0}) {
+        for (const double degrees : {40.0, 100.0}) {
+            SCOPED_TRACE(width);
+            SCOPED_TRACE(degrees);
+            DropletOptions options;
+            options.solve.fill.amount = degrees * kDegree;
+            options.mesh.triangles = 5000;
+            const double arm = 0.3 * width;
+            const Droplet droplet = makeDroplet(
+                testing::domainOf(
+                    testing::polygonLoop({{0, 0}, {width, 0}, {width, arm}, {arm, arm}, {arm, width}, {0, width}})),
+                options);
+            const double endless = 2.0 * layer() * std::sin(0.5 * degrees * kDegree);
+            const std::string& warning = droplet.warnings.back();
+            const auto at = warning.find("off by about ");
+            const double stated = at == std::string::npos ? 0.01 : 0.01 * std::stod(warning.substr(at + 13));
+            EXPECT_NEAR(droplet.total.height_max / endless, 1.0, 2.0 * stated);
+            // The layer holds less than a puddle with upright walls, by about its width times half of the height.
+            const double rim = layer() * droplet.total.rim_length;
+            EXPECT_GT(droplet.total.volume, (1.0 - 2.0 * stated) * endless * (droplet.total.footprint_area - rim));
+        }
+    }
+}
+
 /// A width in the wrong unit: edges longer than the layer would make a film of a puddle, 47 times too low.
 TEST(Puddle, IsRefinedOrRefusedWhereTrianglesAreLongerThanTheLayer)
 {

@@ -9,6 +9,9 @@
 namespace droplet {
 namespace {
 
+/// Part of gravity across a wall that is none: the cosine of 90° is not exactly 0.
+constexpr double kAcross = 1e-9;
+
 /// Difference between the highest and the lowest ground under a footprint [m].
 double reliefUnder(const PlanarMesh& footprint, const BaseSurface& ground)
 {
@@ -27,19 +30,23 @@ double reliefUnder(const PlanarMesh& footprint, const BaseSurface& ground)
 
 }  // namespace
 
+std::optional<double> bendingLayer(const SolveOptions& options)
+{
+    const double normal = planeGravity(options).normal;
+    return normal > kAcross * std::abs(options.gravity) ? capillaryLength(options.liquid, normal) : std::nullopt;
+}
+
 double puddleHeight(const SolveOptions& options, double angle, double area)
 {
-    constexpr double kNone = 1e-9;  // of gravity across a wall: the cosine of 90° is not exactly 0
-    const double normal = planeGravity(options).normal;
     const bool is_linear = options.model == Model::Linear;
-    const double slope = is_linear ? 0.5 * std::tan(angle) : std::tan(0.5 * angle);
-    if (std::abs(normal) <= kNone * std::abs(options.gravity)) {
-        return slope * std::sqrt(area / std::numbers::pi);
+    if (const std::optional<double> layer = bendingLayer(options)) {
+        return *layer * (is_linear ? std::tan(angle) : 2.0 * std::sin(0.5 * angle));
     }
-    if (normal < 0.0) {
+    const bool is_ceiling = planeGravity(options).normal < -kAcross * std::abs(options.gravity);
+    if (is_ceiling && options.liquid.density > 0.0) {
         return std::numeric_limits<double>::infinity();
     }
-    return *capillaryLength(options.liquid, normal) * (is_linear ? std::tan(angle) : 2.0 * std::sin(0.5 * angle));
+    return std::sqrt(area / std::numbers::pi) * (is_linear ? 0.5 * std::tan(angle) : std::tan(0.5 * angle));
 }
 
 std::optional<double> maxHeight(const std::vector<const PlanarMesh*>& footprints, const SolveOptions& options)

@@ -33,6 +33,8 @@ constexpr double kLeastPart = 0.08;
 constexpr double kPathPart = 0.15;
 /// Triangles of a footprint up to which a refusal is confirmed on edges half as long.
 constexpr std::size_t kConfirmed = 10'000;
+/// Edges along the rim in the layer of a puddle from which on they may be as long as the others: as triangulate().
+constexpr double kEdgesPerLayer = 6.0;
 /// Radius of corners that point inward, over the same: with half of it all slits of drawings were filled, with none a
 /// third of them failed.
 constexpr double kInnerRadius = 0.5;
@@ -50,6 +52,9 @@ constexpr double kCorner = 0.5;
 /// Share of it for slight and modest efforts: of the masks of data/, none is made with 0.1 that is not with 0.03.
 constexpr double kSlightWork = 0.04;
 constexpr double kModestWork = 0.3;
+
+/// Clearance of ground that a sheet leaves dry, over the root of the footprint's area: round-off.
+constexpr double kTouching = 1e-12;
 
 /// Gradient of gravity's potential over the surface tension [1/m²].
 Vec3 weightOf(const SolveOptions& options)
@@ -182,6 +187,7 @@ double edgeOf(const PlanarMesh& footprint)
 SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, double share,
                       SheetEffort effort, const std::function<void(double)>& reached)
 {
+    const std::optional<double> layer = bendingLayer(options);
     std::vector<PlanarMesh> rounded;
     double covered = 0.0;
     double triangles = 0.0;
@@ -192,7 +198,10 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
         const double size = area(footprint);
         const double own_edge = edgeOf(footprint);
         const double edge = share * own_edge;
-        std::optional<PlanarMesh> changed = roundInward(footprint, kInnerRadius * edge, edge);
+        // In wide puddles edges are shorter along the rim, where alone the surface bends.
+        const double own_rim_edge = share * rimLength(footprint) / static_cast<double>(footprint.rimVertexCount());
+        const double rim_edge = layer ? std::min(edge, std::max(own_rim_edge, *layer / kEdgesPerLayer)) : edge;
+        std::optional<PlanarMesh> changed = roundInward(footprint, kInnerRadius * rim_edge, rim_edge);
         rounded.push_back(changed ? *std::move(changed) : footprint);
         covered += size;
         wanted += static_cast<std::size_t>(std::round(trianglesOf(size, own_edge)));
@@ -314,7 +323,6 @@ ShapeFigures measure(const ParametricSheet& sheet, const SolveOptions& options)
     figures.footprint_area = area(sheet.footprint);
     figures.volume = sums.volume - base.integrals.volume;
     figures.liquid_area = sums.area;
-    figures.surface_energy = sigma * sums.area;
     figures.gravity_energy = sigma * (sums.gravity - base.integrals.gravity);
     for (const Vec3& p : sheet.places) {
         const double clearance = base.clearance(p);
@@ -323,10 +331,21 @@ ShapeFigures measure(const ParametricSheet& sheet, const SolveOptions& options)
             figures.depth_max = std::max(figures.depth_max, -clearance);
         }
     }
+    const double touching = kTouching * std::sqrt(figures.footprint_area);
+    std::vector<std::uint8_t> is_grounded;
+    for (const Vec3& p : sheet.places) {
+        is_grounded.push_back(base.clearance(p) <= touching ? 1 : 0);
+    }
     for (const Triangle& t : sheet.triangles) {
         const Vec3 normal = areaVector(sheet.places, t);
+        // Liquid that lies on the ground beside the footprint has its surface upside down there.
+        if (normal.z > 0.0 && std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return is_grounded[v] != 0; })) {
+            figures.dry_area += normal.z;
+            figures.liquid_area -= length(normal);
+        }
         figures.slope_max = std::max(figures.slope_max, std::atan2(std::hypot(normal.x, normal.y), normal.z));
     }
+    figures.surface_energy = sigma * figures.liquid_area;
     figures.overhang = overhangOf(sheet);
     addRimFigures(sheet.footprint, sheet.contact_angle, options, figures);
     return figures;

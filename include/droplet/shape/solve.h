@@ -114,8 +114,12 @@ struct PlaneGravity {
 /// Splits gravity into its components across and along the plane.
 PlaneGravity planeGravity(const SolveOptions& options);
 
-/// Height of an endless puddle, 2 √(σ/ρg⊥) sin(θ/2), or, without gravity into the ground, that of a cap on a disc,
-/// r tan(θ/2); in the linear model √(σ/ρg⊥) tan θ and r tan(θ)/2.
+/// Width of the layer along the rim in which the surface of a puddle bends, √(σ/ρg⊥) [m]. Empty where gravity does not
+/// press liquid onto the ground: without it or without density, on a wall, and under a ceiling.
+std::optional<double> bendingLayer(const SolveOptions& options);
+
+/// Height of an endless puddle, 2 √(σ/ρg⊥) sin(θ/2), or, where gravity does not press liquid onto the ground, that of a
+/// cap on a disc, r tan(θ/2); in the linear model √(σ/ρg⊥) tan θ and r tan(θ)/2.
 /// @param options  liquid, gravity, tilt and model
 /// @param angle    contact angle θ, 0 … π [rad]; below π/2 in the linear model
 /// @param area     of the disc [m²], > 0
