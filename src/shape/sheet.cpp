@@ -47,6 +47,8 @@ constexpr double kLeastFullWork = 1e10;
 constexpr double kLeastWork = 9e7;
 /// Most work of a full effort, one and a half minutes: masks full of holes take a hundred thousand triangles and more.
 constexpr double kMostWork = 4e10;
+/// Work of rounding a rim, over the square of its vertices. Noise is the worst case: 174 000 took two minutes.
+constexpr double kRoundingWork = 2.0;
 /// Turn of the rim at a corner [rad].
 constexpr double kCorner = 0.5;
 /// Share of it for slight and modest efforts: of the masks of data/, none is made with 0.1 that is not with 0.03.
@@ -183,14 +185,32 @@ double edgeOf(const PlanarMesh& footprint)
     return std::min(meanEdge(size, footprint.triangles.size()), kLeastPart * std::sqrt(size));
 }
 
+/// Most work of a sheet, as SheetOptions::max_work.
+/// @param most  as SolveOptions::max_work
+double workOf(double triangles, SheetEffort effort, std::optional<double> most)
+{
+    const double work = std::min(kWork * std::pow(triangles, 1.5), kMostWork);
+    const double own = effort == SheetEffort::Full
+                           ? std::max(kLeastFullWork, work)
+                           : std::max(kLeastWork, (effort == SheetEffort::Modest ? kModestWork : kSlightWork) * work);
+    return most ? std::min(own, kSheetUnits * *most) : own;
+}
+
 /// @param share  of the triangles' edges over those of the footprints
 SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, double share,
                       SheetEffort effort, const std::function<void(double)>& reached)
 {
+    double triangles = 0.0;
+    double rounding = 0.0;
+    for (const PlanarMesh& footprint : footprints) {
+        triangles += trianglesOf(area(footprint), share * edgeOf(footprint));
+        rounding += hasInnerCorner(footprint) ? kRoundingWork * std::pow(footprint.rimVertexCount(), 2.0) : 0.0;
+    }
+    const double most = workOf(triangles, effort, options.max_work);
+    const bool may_round = rounding < most;
     const std::optional<double> layer = bendingLayer(options);
     std::vector<PlanarMesh> rounded;
     double covered = 0.0;
-    double triangles = 0.0;
     double path_edge = 0.0;
     std::size_t wanted = 0;
     std::vector<const PlanarMesh*> all;
@@ -201,12 +221,12 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
         // In wide puddles edges are shorter along the rim, where alone the surface bends.
         const double own_rim_edge = share * rimLength(footprint) / static_cast<double>(footprint.rimVertexCount());
         const double rim_edge = layer ? std::min(edge, std::max(own_rim_edge, *layer / kEdgesPerLayer)) : edge;
-        std::optional<PlanarMesh> changed = roundInward(footprint, kInnerRadius * rim_edge, rim_edge);
+        std::optional<PlanarMesh> changed =
+            may_round ? roundInward(footprint, kInnerRadius * rim_edge, rim_edge) : std::nullopt;
         rounded.push_back(changed ? *std::move(changed) : footprint);
         covered += size;
         wanted += static_cast<std::size_t>(std::round(trianglesOf(size, own_edge)));
         all.push_back(&footprint);
-        triangles += trianglesOf(size, edge);
         path_edge = std::max(path_edge, std::min(kPathEdge * edge, kPathPart * std::sqrt(size)));
     }
     SheetResult result;
@@ -215,14 +235,7 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
     SheetOptions sheet_options{
         weightOf(options), kFinalEdge * std::sqrt(4.0 / std::numbers::sqrt3 * covered / triangles), path_edge, wanted};
     sheet_options.is_end_confirmed = effort == SheetEffort::Full;
-    const double work = std::min(kWork * std::pow(triangles, 1.5), kMostWork);
-    sheet_options.max_work =
-        effort == SheetEffort::Full
-            ? std::max(kLeastFullWork, work)
-            : std::max(kLeastWork, (effort == SheetEffort::Modest ? kModestWork : kSlightWork) * work);
-    if (options.max_work) {
-        sheet_options.max_work = std::min(sheet_options.max_work, kSheetUnits * *options.max_work);
-    }
+    sheet_options.max_work = may_round ? most - rounding : 0.0;
     sheet_options.ground = options.ground;
     sheet_options.reached = reached;
     SolveOptions exact = options;
