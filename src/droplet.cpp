@@ -185,8 +185,8 @@ std::string dryWarning(const Droplet& droplet)
     constexpr double kVisible = 0.01;  // of the footprint
     const double share = droplet.total.dry_area / droplet.total.footprint_area;
     return share < kVisible ? ""
-                            : "gravity pulls the liquid off " + percent(share) +
-                                  " of the footprint, which stays dry; ask for more liquid, or for a smaller width";
+                            : "the liquid leaves " + percent(share) +
+                                  " of the footprint dry; ask for more liquid, or for a smaller width";
 }
 
 /// Warning about one droplet of several that has gathered most of what they share; empty if there is none.

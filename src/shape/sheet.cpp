@@ -42,9 +42,9 @@ constexpr double kInnerRadius = 0.5;
 /// took 30 and one 310 at 40°, half 41 and one 620 at 60°; of drawings of 40 000 a butterfly took 370.
 constexpr double kWork = 1500.0;
 /// Least limit of the work of a full effort, half a minute, and of the others. A U of 600 triangles took 1.5e7 in all;
-/// a cock of 8000 took 1.4e9; to 140°, discs of 1000 to 4000 took more than 1.2e7.
+/// a cock of 8000 took 1.4e9.
 constexpr double kLeastFullWork = 1e10;
-constexpr double kLeastWork = 9e7;
+constexpr double kLeastWork = 3e8;
 /// Most work of a full effort, one and a half minutes: masks full of holes take a hundred thousand triangles and more.
 constexpr double kMostWork = 4e10;
 /// Work of rounding a rim, over the square of its vertices. Noise is the worst case: 174 000 took two minutes.
@@ -190,9 +190,9 @@ double edgeOf(const PlanarMesh& footprint)
 double workOf(double triangles, SheetEffort effort, std::optional<double> most)
 {
     const double work = std::min(kWork * std::pow(triangles, 1.5), kMostWork);
-    const double own = effort == SheetEffort::Full
-                           ? std::max(kLeastFullWork, work)
-                           : std::max(kLeastWork, (effort == SheetEffort::Modest ? kModestWork : kSlightWork) * work);
+    const double share = effort == SheetEffort::Modest ? kModestWork : kSlightWork;
+    const double own =
+        effort == SheetEffort::Full ? std::max(kLeastFullWork, work) : share * std::max(kLeastWork, work);
     return most ? std::min(own, kSheetUnits * *most) : own;
 }
 
