@@ -32,7 +32,7 @@ export interface Options {
     keep?: string | number;
     /** Drop spots and holes smaller than F square pixels [3] */
     speckSize?: number;
-    /** Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of the liquid on what it lies on. Without any amount, the largest angle that exists is taken if the default does not; a number is in rad [40deg] */
+    /** Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of the liquid on what it lies on. By default no droplet is higher than a puddle of 40deg; by default and with natural, the largest angle that exists is taken if that one does not; a number is in rad [40deg] */
     contactAngle?: string | number;
     /** What the liquid lies on, for contactAngle natural [glass] */
     on?: 'glass' | 'ptfe' | 'wax' | 'lotus';
@@ -48,7 +48,7 @@ export interface Options {
     surfaceTension?: string | number;
     /** Density, instead of the liquid's own; a number is in kg/m³ */
     density?: string | number;
-    /** Model of the surface's area: linear is within 1 % up to 9deg, exact for all slopes, also where liquid hangs over its rim; auto takes linear where it is within 1 % [auto] */
+    /** Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all slopes, also where liquid hangs over its rim; auto takes linear where it is within 1 % [auto] */
     model?: 'auto' | 'linear' | 'exact';
     /** Gravity into the ground; negative under a ceiling; a number is in m/s² [9.81m/s2] */
     gravity?: string | number;
@@ -64,7 +64,7 @@ export interface Options {
     advancing?: string | number;
     /** Receding contact angle, at most advancing; a number is in rad */
     receding?: string | number;
-    /** Approximate number of triangles on the footprint: 5000, 5k, 1M [40k] */
+    /** Number of triangles of the liquid's surface, within 10 %: 5000, 5k, 1M [40k] */
     triangles?: string | number;
     /** Edge length of the triangles, instead of triangles; a number is in m */
     edge?: string | number;
