@@ -199,9 +199,9 @@ std::string gatheredWarning(const Droplet& droplet, const Fill& fill)
     const auto largest = std::max_element(droplet.figures.begin(), droplet.figures.end(),
                                           [](const auto& a, const auto& b) { return a.volume < b.volume; });
     const double share = largest->volume / droplet.total.volume;
-    const bool is_small =
+    const bool is_widest =
         largest->footprint_area - largest->dry_area >= kMost * (droplet.total.footprint_area - droplet.total.dry_area);
-    if (share < kMost || is_small || largest->contact_angle.mean < 0.5 * std::numbers::pi) {
+    if (share < kMost || is_widest || largest->contact_angle.mean < 0.5 * std::numbers::pi) {
         return {};
     }
     return fmt::format(

@@ -70,11 +70,14 @@ constexpr int kMaxPairs = 8;
 
 /// Whether a footprint is a wide puddle, with triangles that are much smaller along the rim. A sheet there is no better
 /// at corners, which are as small as the triangles, and takes many times the work of a height field.
-bool isWidePuddle(const PlanarMesh& mesh)
+/// @param layer  bendingLayer()
+bool isWidePuddle(const PlanarMesh& mesh, double layer)
 {
-    constexpr double kShorter = 0.5;  // the & of data/: 0.58 at 20 cm, in 1.6 s; 0.28 at 1 m, 3.6 s; 5 m, 16 s
+    constexpr double kEdgesPerLayer = 6.0;  // from which on even triangles do, as of triangulate()
+    constexpr double kShorter = 0.5;        // the & of data/: 0.58 at 20 cm, in 1.6 s; 0.28 at 1 m, 3.6 s; 5 m, 16 s
     const double rim_edge = rimLength(mesh) / static_cast<double>(mesh.rimVertexCount());
-    return rim_edge < kShorter * meanEdge(area(mesh), mesh.triangles.size());
+    const double edge = meanEdge(area(mesh), mesh.triangles.size());
+    return rim_edge < kShorter * edge && kEdgesPerLayer * edge > layer;
 }
 
 /// Whether liquid may hang over its rim. With no_penetration, ground that is dry inside of the footprint is cut out of
@@ -345,7 +348,9 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
     }
     // A height field that is upright in a few places may stand, unless the exact shape was asked for.
     const bool has_stand_in = !shape.fields.empty() && options.model == Model::Auto;
-    if (has_stand_in && std::all_of(meshes.begin(), meshes.end(), isWidePuddle)) {
+    const std::optional<double> layer = bendingLayer(options);
+    if (has_stand_in && layer &&
+        std::all_of(meshes.begin(), meshes.end(), [&](const PlanarMesh& mesh) { return isWidePuddle(mesh, *layer); })) {
         return shape;
     }
     SolveOptions rest = options;

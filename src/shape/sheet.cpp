@@ -337,17 +337,15 @@ ShapeFigures measure(const ParametricSheet& sheet, const SolveOptions& options)
     figures.volume = sums.volume - base.integrals.volume;
     figures.liquid_area = sums.area;
     figures.gravity_energy = sigma * (sums.gravity - base.integrals.gravity);
+    const double touching = kTouching * std::sqrt(figures.footprint_area);
+    std::vector<std::uint8_t> is_grounded;
     for (const Vec3& p : sheet.places) {
         const double clearance = base.clearance(p);
+        is_grounded.push_back(clearance <= touching ? 1 : 0);
         if (std::isfinite(clearance)) {
             figures.height_max = std::max(figures.height_max, clearance);
             figures.depth_max = std::max(figures.depth_max, -clearance);
         }
-    }
-    const double touching = kTouching * std::sqrt(figures.footprint_area);
-    std::vector<std::uint8_t> is_grounded;
-    for (const Vec3& p : sheet.places) {
-        is_grounded.push_back(base.clearance(p) <= touching ? 1 : 0);
     }
     for (const Triangle& t : sheet.triangles) {
         const Vec3 normal = areaVector(sheet.places, t);
