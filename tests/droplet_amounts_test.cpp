@@ -214,6 +214,16 @@ TEST(Amounts, AnglesThatDoNotExistBecomeTheLargestThatDo)
     EXPECT_THAT(droplet.warnings, Contains(HasSubstr("a mean contact angle of 140 degrees does not exist on this")));
 }
 
+/// Short triangles along the rim do not make a letter of 20 mm the wide puddle that a height field stands in for.
+TEST(Amounts, GradedMeshesKeepTheirSheets)
+{
+    const Domain el = testing::domainOf(
+        testing::polygonLoop({{0, 0}, {20e-3, 0}, {20e-3, 5e-3}, {5e-3, 5e-3}, {5e-3, 20e-3}, {0, 20e-3}}));
+    DropletOptions options = byDefault(4000);
+    options.mesh.grading = 8;
+    EXPECT_TRUE(makeDroplet(el, options).sheets.front());
+}
+
 /// A letter's default is a sheet: as many triangles as were asked for, and the same ones as for that angle.
 TEST(Amounts, SheetsHaveTheTrianglesThatWereAskedFor)
 {

@@ -7,6 +7,10 @@
 
 namespace droplet {
 
+/// Edges of even triangles in the length over which a surface bends (bendingLayer()) that are enough: heights of wide
+/// puddles are then 0.25 % too low at 40°.
+inline constexpr double kEdgesPerLayer = 6.0;
+
 /// Edge of equilateral triangles that cover an area together.
 inline double meanEdge(double area, std::size_t triangles)
 {

@@ -20,6 +20,7 @@
 #include "droplet/error.h"
 #include "mesh/band.h"
 #include "mesh/lattice_core.h"
+#include "mesh/mean_edge.h"
 #include "mesh/rim_sampling.h"
 #include "number_text.h"
 
@@ -43,9 +44,6 @@ constexpr double kMaxDetailTriangles = 1 << 20;
 constexpr double kSlack = 1.1;
 
 constexpr int kMaxGrading = 64;
-
-/// Edges per layer from which even triangles do: heights of wide puddles are then 0.25 % too low at 40°.
-constexpr double kEdgesPerLayer = 6.0;
 
 /// Layers that fit into the area over the length of the rim from which on liquid is wide: a disc of a radius of 4.
 constexpr double kWide = 2.0;

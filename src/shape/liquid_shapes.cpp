@@ -73,8 +73,7 @@ constexpr int kMaxPairs = 8;
 /// @param layer  bendingLayer()
 bool isWidePuddle(const PlanarMesh& mesh, double layer)
 {
-    constexpr double kEdgesPerLayer = 6.0;  // from which on even triangles do, as of triangulate()
-    constexpr double kShorter = 0.5;        // the & of data/: 0.58 at 20 cm, in 1.6 s; 0.28 at 1 m, 3.6 s; 5 m, 16 s
+    constexpr double kShorter = 0.5;  // the & of data/: 0.58 at 20 cm, in 1.6 s; 0.28 at 1 m, 3.6 s; 5 m, 16 s
     const double rim_edge = rimLength(mesh) / static_cast<double>(mesh.rimVertexCount());
     const double edge = meanEdge(area(mesh), mesh.triangles.size());
     return rim_edge < kShorter * edge && kEdgesPerLayer * edge > layer;

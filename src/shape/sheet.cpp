@@ -33,8 +33,6 @@ constexpr double kLeastPart = 0.08;
 constexpr double kPathPart = 0.15;
 /// Triangles of a footprint up to which a refusal is confirmed on edges half as long.
 constexpr std::size_t kConfirmed = 10'000;
-/// Edges along the rim in the layer of a puddle from which on they may be as long as the others: as triangulate().
-constexpr double kEdgesPerLayer = 6.0;
 /// Radius of corners that point inward, over the same: with half of it all slits of drawings were filled, with none a
 /// third of them failed.
 constexpr double kInnerRadius = 0.5;

@@ -88,6 +88,15 @@ TEST_F(Glyphs, PreviewLooksFromTheFrontAndIsAsHighAsTheTextNeeds)
     EXPECT_EQ(preview("above.png", {"--view", "top", "--preview-size", "64x48"}).height, 48);
 }
 
+TEST_F(Glyphs, TurntableIsAVideo)
+{
+    succeeds({"--text", "W", "-o", "w.glb", "--triangles", "500", "--turntable", "w.mp4", "--preview-size", "64x48"});
+    const auto seen =
+        testing::runProgram({"ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames", "-of",
+                             "csv=p=0", (directory() / "w.mp4").string()});
+    EXPECT_EQ(seen.output, "120\n");
+}
+
 TEST_F(Glyphs, WritesATextToOneFile)
 {
     succeeds({"--text", "Water", "-o", "water.glb", "--triangles", "3k", "--json", "water.json"});

@@ -104,6 +104,15 @@ TEST_F(PreviewTest, TurntableIsOneVideo)
     EXPECT_GT(readFile(directory() / "best.mkv").size(), readFile(directory() / "worst.mkv").size());
 }
 
+TEST_F(PreviewTest, TurntableAloneNamesItsVideo)
+{
+    EXPECT_THAT(made({"--turntable", "turn.mp4", "-q"}).error, IsEmpty());
+    const auto seen = testing::runProgram({"ffprobe", "-v", "error", "-count_frames", "-show_entries",
+                                           "stream=nb_read_frames,avg_frame_rate,width,height", "-of", "csv=p=0",
+                                           (directory() / "turn.mp4").string()});
+    EXPECT_EQ(seen.output, "64,48,24/1,120\n");
+}
+
 TEST_F(PreviewTest, BackgroundNoneIsTransparent)
 {
     made({"--preview", "cut.png", "--background", "none"});

@@ -99,6 +99,28 @@ TEST(Three, SeesTheSameDropletInEveryFormat)
     }
 }
 
+// The page lights the ground through the liquid's surface, of which the part below an overhang faces down, as the base
+// does: what is taken for it has no hole and ends on the ground.
+TEST(Three, PageKnowsTheSurfaceBelowAnOverhang)
+{
+    testing::ScratchDirectory scratch;
+    const auto path = [&](const char* name) { return (scratch.path() / name).string(); };
+    writeFile(scratch.path() / "disc.pgm", testing::discPicture(64, 24.0));
+    const auto made = runDroplet({path("disc.pgm"), path("disc.glb"), "--triangles", "2000", "--liquid", "mercury",
+                                  "--contact-angle", "140deg", "--json", path("disc.json"), "-q"});
+    ASSERT_EQ(made.exit_code, 0) << made.error;
+    const auto run = runProgram({"node", testing::inSource("tests/page/surface.mjs"), testing::kThree, path("disc.glb"),
+                                 testing::inSource("src/page/liquid_triangles.js")});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto seen = nlohmann::json::parse(run.output, nullptr, false);
+    const auto mesh = nlohmann::json::parse(testing::readFile(path("disc.json"))).at("mesh");
+    const int triangles = mesh.at("triangles");
+    EXPECT_EQ(seen.at("triangles"), triangles);
+    EXPECT_GT(seen.at("facing_down"), 100);
+    EXPECT_EQ(seen.at("rim"), 2 * mesh.at("vertices").get<int>() - triangles - 2) << "Euler's formula of a disc";
+    EXPECT_EQ(seen.at("rim_height"), 0.0);
+}
+
 // Every look is on its own droplets.
 TEST(Three, SeesTheSameLooksInEveryFormat)
 {
