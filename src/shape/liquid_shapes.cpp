@@ -408,22 +408,61 @@ std::vector<std::size_t> clustersOf(const std::vector<PlanarMesh>& meshes)
     return clusters;
 }
 
-/// First place where two droplets touch whose footprints are apart. Droplets that share boundaries may lean over them.
+/// Least box around a surface, along the axes.
+struct Box {
+    Vec3 low;
+    Vec3 high;
+
+    explicit Box(const std::vector<Vec3>& places) : low(places.front()), high(low)
+    {
+        for (const Vec3& p : places) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    }
+
+    [[nodiscard]] bool meets(const Box& other) const
+    {
+        return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y &&
+               low.z <= other.high.z && other.low.z <= high.z;
+    }
+};
+
+/// First place where two droplets touch whose footprints are apart. Droplets that share boundaries may lean over them;
+/// that none touches itself, its own solver has seen.
 std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes)
 {
+    if (meshes.size() == 1) {
+        return std::nullopt;
+    }
     std::vector<SheetMesh> sheets;
-    std::vector<const SheetMesh*> all;
-    sheets.reserve(meshes.size());
-    all.reserve(meshes.size());
+    std::vector<Box> boxes;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         const std::optional<ParametricSheet>& sheet = shapes.sheets[k];
         sheets.push_back(sheet ? SheetMesh{sheet->places, sheet->triangles, sheet->rim}
                                : sheetOf(meshes[k], shapes.solution.droplets[k]));
+        boxes.emplace_back(sheets.back().places);
     }
-    for (const SheetMesh& sheet : sheets) {
-        all.push_back(&sheet);
+    const std::vector<std::size_t> clusters = clustersOf(meshes);
+    std::vector<const SheetMesh*> near;
+    std::vector<std::size_t> near_clusters;
+    std::vector<std::size_t> droplets;
+    for (std::size_t k = 0; k < meshes.size(); ++k) {
+        for (std::size_t other = 0; other < meshes.size(); ++other) {
+            if (clusters[other] != clusters[k] && boxes[other].meets(boxes[k])) {
+                near.push_back(&sheets[k]);
+                near_clusters.push_back(clusters[k]);
+                droplets.push_back(k);
+                break;
+            }
+        }
     }
-    return firstContact(all, clustersOf(meshes));
+    std::optional<SheetContact> contact = near.empty() ? std::nullopt : firstContact(near, near_clusters);
+    if (contact) {
+        contact->first = droplets[contact->first];
+        contact->second = droplets[contact->second];
+    }
+    return contact;
 }
 
 /// Takes up the result of droplets that are sheets.
@@ -486,15 +525,16 @@ double contactWork(const std::vector<PlanarMesh>& meshes, const LiquidShapes& sh
 }
 
 /// Lowers the contact angles of droplets that touch until they do not, or no work is left.
-void lowerUntilApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, Work& work,
-                     LiquidShapes& shapes)
+/// @return  where two still do
+std::optional<SheetContact> lowerUntilApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options,
+                                            Work& work, LiquidShapes& shapes)
 {
     std::vector<double> lowerings(meshes.size(), kLower);
     for (int round = 0; round < kMaxLowerings && work.isLeft(); ++round) {
         const std::optional<SheetContact> contact = neighbourContact(meshes, shapes);
         work.done += contactWork(meshes, shapes);
         if (!contact) {
-            return;
+            return std::nullopt;
         }
         for (const std::size_t k : {contact->first, contact->second}) {
             if (!shapes.sheets[k]) {
@@ -518,6 +558,7 @@ void lowerUntilApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& 
             }
         }
     }
+    return neighbourContact(meshes, shapes);
 }
 
 /// Solves the height fields again with other volumes.
@@ -891,10 +932,9 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
     }
     const double most = runWork(meshes, options, allow_less);
     Work work{std::max(most - shapes.work, kContactShare * most)};
-    if (allow_less) {
-        lowerUntilApart(meshes, options, work, shapes);
-    }
-    if (const std::optional<SheetContact> contact = neighbourContact(meshes, shapes)) {
+    const std::optional<SheetContact> contact =
+        allow_less ? lowerUntilApart(meshes, options, work, shapes) : neighbourContact(meshes, shapes);
+    if (contact) {
         throw Error(ErrorCode::NoSuchDroplet, refusal(meshes, options, *contact, work));
     }
     return shapes;

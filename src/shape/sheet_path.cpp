@@ -465,8 +465,8 @@ private:
         const State coarse = now_;
         const auto stands = [&](const RemeshOptions& triangles) {
             now_ = coarse;
-            is_final_ = renew(now_, triangles);
-            return is_final_ && (!has_target || settle());
+            is_final_ = renew(now_, triangles, true);
+            return is_final_ && (!has_target || settle()) && isFree();
         };
         RemeshOptions finest = trianglesOf(options_.edge);
         finest.triangles = options_.triangles;
@@ -512,8 +512,9 @@ private:
     }
 
     /// Gives an equilibrium new triangles at the same volume.
-    /// @return  false if it is another one on them; then nothing has changed
-    bool renew(State& state, const RemeshOptions& triangles)
+    /// @param is_last  whether isFree() is asked later
+    /// @return         false if it is another one on them, or touches itself; then nothing has changed
+    bool renew(State& state, const RemeshOptions& triangles, bool is_last = false)
     {
         State next = state;
         std::unique_ptr<SheetSolver> solver;
@@ -537,9 +538,11 @@ private:
         if (!solver || !next.newton.converged) {
             return false;
         }
-        contact_ = firstContact({&next.sheet});
-        if (contact_) {
-            return false;
+        if (!is_last) {
+            contact_ = firstContact({&next.sheet});
+            if (contact_) {
+                return false;
+            }
         }
         use(std::move(solver), next.sheet);
         state = std::move(next);
