@@ -12,9 +12,14 @@ namespace droplet {
 inline constexpr double kEdgesPerLayer = 6.0;
 
 /// Edge of equilateral triangles that cover an area together.
+inline double meanEdge(double area, double triangles)
+{
+    return std::sqrt(4.0 / std::numbers::sqrt3 * area / triangles);
+}
+
 inline double meanEdge(double area, std::size_t triangles)
 {
-    return std::sqrt(4.0 / std::numbers::sqrt3 * area / static_cast<double>(triangles));
+    return meanEdge(area, static_cast<double>(triangles));
 }
 
 /// Number of equilateral triangles with such an edge that cover an area together.

@@ -33,8 +33,9 @@ constexpr double kArcTurn = 0.5;
 constexpr std::size_t kArcParts = 4;
 /// Units of Clipper's integers in a radius.
 constexpr double kUnits = 1e5;
-/// Edges over the mean edge of a mesh from which on new triangles are needed.
+/// Edges over the mean edge of a mesh between which no new triangles are needed.
 constexpr double kFiner = 0.8;
+constexpr double kCoarser = 1.5;
 /// Area of loops that vanish, over the squared edge.
 constexpr double kSpeck = 1e-3;
 /// Largest growth of the footprint.
@@ -184,7 +185,8 @@ std::optional<PlanarMesh> roundInward(const PlanarMesh& footprint, double radius
 {
     const std::vector<std::vector<Vec2>> loops = loopsOf(footprint);
     const bool has_corner = hasInnerCorner(loops);
-    if (!has_corner && edge > kFiner * meanEdge(area(footprint), footprint.triangles.size())) {
+    const double own_edge = meanEdge(area(footprint), footprint.triangles.size());
+    if (!has_corner && edge > kFiner * own_edge && edge < kCoarser * own_edge) {
         return std::nullopt;
     }
     for (int round = 0; round < kRounds; ++round, radius *= 0.5) {

@@ -15,7 +15,7 @@ namespace droplet {
 /// @param footprint  valid
 /// @param radius     > 0 [m]
 /// @param edge       mean edge of the new triangles [m], > 0
-/// @return           new triangles; none if there is no such corner and edges are not much shorter
+/// @return           new triangles; none if there is no such corner and edges are much as they were
 std::optional<PlanarMesh> roundInward(const PlanarMesh& footprint, double radius, double edge);
 
 /// Whether a rim has a corner that points inward and that roundInward() rounds.

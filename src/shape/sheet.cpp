@@ -17,6 +17,7 @@
 #include "shape/sheet_base.h"
 #include "shape/sheet_energy.h"
 #include "shape/sheet_follow.h"
+#include "shape/sheet_levels.h"
 #include "shape/sheet_path.h"
 #include "shape/sheet_remesh.h"
 #include "shape/work.h"
@@ -31,6 +32,9 @@ constexpr double kPathEdge = 5.0;
 /// dozen triangles, as in large pictures, have no shape.
 constexpr double kLeastPart = 0.08;
 constexpr double kPathPart = 0.15;
+/// Most triangles of the coarsest level of nested iteration: with fewer than 3000 a star and a g failed at the first
+/// motion of their rims.
+constexpr double kCoarsest = 12'000.0;
 /// Triangles of a footprint up to which a refusal is confirmed on edges half as long.
 constexpr std::size_t kConfirmed = 10'000;
 /// Radius of corners that point inward, over the same: with half of it all slits of drawings were filled, with none a
@@ -194,52 +198,86 @@ double workOf(double triangles, SheetEffort effort, std::optional<double> most)
     return most ? std::min(own, kSheetUnits * *most) : own;
 }
 
+/// Length of edges at a level of nested iteration.
+struct LevelEdges {
+    double scale = 1.0;  ///< over those of the finest level
+    double share = 1.0;  ///< of the finest level over those of the footprints, for shapes; not for their final number
+};
+
+/// Footprints with their corners rounded, and what a sheet over them takes, but for the work.
+/// @param may_round  otherwise they stay as they are
+SheetLevel levelOf(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, const LevelEdges& edges,
+                   bool may_round)
+{
+    const std::optional<double> layer = bendingLayer(options);
+    std::vector<PlanarMesh> rounded;
+    double covered = 0.0;
+    double triangles = 0.0;
+    double wanted = 0.0;
+    double path_edge = 0.0;
+    for (const PlanarMesh& footprint : footprints) {
+        const double size = area(footprint);
+        const double own_edge = edges.scale * edgeOf(footprint);
+        const double edge = edges.share * own_edge;
+        // In wide puddles edges are shorter along the rim, where alone the surface bends.
+        const double own_rim_edge =
+            edges.scale * edges.share * rimLength(footprint) / static_cast<double>(footprint.rimVertexCount());
+        const double rim_edge = layer ? std::min(edge, std::max(own_rim_edge, *layer / kEdgesPerLayer)) : edge;
+        std::optional<PlanarMesh> changed =
+            may_round ? roundInward(footprint, kInnerRadius * rim_edge, rim_edge) : std::nullopt;
+        rounded.push_back(changed ? *std::move(changed) : footprint);
+        covered += size;
+        triangles += trianglesOf(size, edge);
+        wanted += std::round(trianglesOf(size, own_edge));
+        path_edge = std::max(path_edge, std::min(kPathEdge * edge, kPathPart * std::sqrt(size)));
+    }
+    return {rounded.size() == 1 ? std::move(rounded.front()) : join(rounded),
+            {.weight = weightOf(options),
+             .edge = kFinalEdge * meanEdge(covered, triangles),
+             .path_edge = path_edge,
+             .triangles = static_cast<std::size_t>(wanted),
+             .ground = options.ground}};
+}
+
 /// @param share  of the triangles' edges over those of the footprints
 SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, double share,
                       SheetEffort effort, const std::function<void(double)>& reached)
 {
     double triangles = 0.0;
     double rounding = 0.0;
+    std::vector<const PlanarMesh*> all;
     for (const PlanarMesh& footprint : footprints) {
         triangles += trianglesOf(area(footprint), share * edgeOf(footprint));
         rounding += hasInnerCorner(footprint) ? kRoundingWork * std::pow(footprint.rimVertexCount(), 2.0) : 0.0;
+        all.push_back(&footprint);
     }
     const double most = workOf(triangles, effort, options.max_work);
     const bool may_round = rounding < most;
-    const std::optional<double> layer = bendingLayer(options);
-    std::vector<PlanarMesh> rounded;
-    double covered = 0.0;
-    double path_edge = 0.0;
-    std::size_t wanted = 0;
-    std::vector<const PlanarMesh*> all;
-    for (const PlanarMesh& footprint : footprints) {
-        const double size = area(footprint);
-        const double own_edge = edgeOf(footprint);
-        const double edge = share * own_edge;
-        // In wide puddles edges are shorter along the rim, where alone the surface bends.
-        const double own_rim_edge = share * rimLength(footprint) / static_cast<double>(footprint.rimVertexCount());
-        const double rim_edge = layer ? std::min(edge, std::max(own_rim_edge, *layer / kEdgesPerLayer)) : edge;
-        std::optional<PlanarMesh> changed =
-            may_round ? roundInward(footprint, kInnerRadius * rim_edge, rim_edge) : std::nullopt;
-        rounded.push_back(changed ? *std::move(changed) : footprint);
-        covered += size;
-        wanted += static_cast<std::size_t>(std::round(trianglesOf(size, own_edge)));
-        all.push_back(&footprint);
-        path_edge = std::max(path_edge, std::min(kPathEdge * edge, kPathPart * std::sqrt(size)));
-    }
-    SheetResult result;
-    PlanarMesh& pinned = result.sheet.footprint;
-    pinned = rounded.size() == 1 ? std::move(rounded.front()) : join(rounded);
-    SheetOptions sheet_options{
-        weightOf(options), kFinalEdge * std::sqrt(4.0 / std::numbers::sqrt3 * covered / triangles), path_edge, wanted};
-    sheet_options.is_end_confirmed = effort == SheetEffort::Full;
-    sheet_options.max_work = may_round ? most - rounding : 0.0;
-    sheet_options.ground = options.ground;
-    sheet_options.reached = reached;
     SolveOptions exact = options;
     exact.model = Model::Exact;
     const SheetTarget target{options.fill.by, options.fill.amount, maxHeight(all, exact)};
-    take(fillSheet(pinned, target, sheet_options), options, result);
+    // On ground that is not flat, what lies under a coarse rim is not under the fine one.
+    const bool has_levels = may_round && options.ground.flat();
+    std::vector<SheetLevel> levels;
+    double scale = 1.0;
+    do {
+        levels.insert(levels.begin(), levelOf(footprints, options, {scale, share}, may_round));
+        SheetOptions& own = levels.front().options;
+        own.is_end_confirmed = effort == SheetEffort::Full;
+        own.max_work = may_round ? most - rounding : 0.0;
+        own.reached = reached;
+        scale *= 2.0;
+    } while (has_levels && static_cast<double>(levels.front().options.triangles) > kCoarsest);
+    SheetResult result;
+    double work = 0.0;
+    std::optional<FilledSheet> filled =
+        levels.size() > 1 ? fillByLevels(levels, target, work) : std::nullopt;
+    if (!filled) {
+        filled = fillSheet(levels.back().footprint, target, levels.back().options);
+        filled->work += work;
+    }
+    result.sheet.footprint = std::move(levels.back().footprint);
+    take(*std::move(filled), options, result);
     return result;
 }
 

@@ -123,19 +123,38 @@ SheetIntegrals integrate(const SheetMesh& sheet, Vec3 weight)
     return total;
 }
 
-SheetGradients gradientsOf(const SheetMesh& sheet, Vec3 weight)
+namespace {
+
+/// @param count  of vertices from the first on, whose gradients are wanted
+SheetGradients gradientsOfFirst(std::size_t count, const SheetMesh& sheet, Vec3 weight)
 {
-    const std::size_t count = sheet.places.size();
     SheetGradients result{std::vector<Vec3>(count), std::vector<Vec3>(count), std::vector<double>(count, 0.0)};
     for (const Triangle& t : sheet.triangles) {
+        if (std::min({t[0], t[1], t[2]}) >= count) {
+            continue;
+        }
         const Forces forces = forcesOn(Facet(sheet, t), weight);
         for (std::size_t a = 0; a < 3; ++a) {
-            result.energy[t[a]] = result.energy[t[a]] + forces.energy[a];
-            result.volume[t[a]] = result.volume[t[a]] + forces.volume;
-            result.area[t[a]] += forces.area;
+            if (t[a] < count) {
+                result.energy[t[a]] = result.energy[t[a]] + forces.energy[a];
+                result.volume[t[a]] = result.volume[t[a]] + forces.volume;
+                result.area[t[a]] += forces.area;
+            }
         }
     }
     return result;
+}
+
+}  // namespace
+
+SheetGradients gradientsOf(const SheetMesh& sheet, Vec3 weight)
+{
+    return gradientsOfFirst(sheet.places.size(), sheet, weight);
+}
+
+SheetGradients rimGradientsOf(const SheetMesh& sheet, Vec3 weight)
+{
+    return gradientsOfFirst(sheet.rim, sheet, weight);
 }
 
 SheetPattern::Gathering SheetPattern::gather(const std::vector<std::int32_t>& sum_of, std::size_t sums)

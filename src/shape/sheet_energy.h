@@ -33,6 +33,9 @@ struct SheetGradients {
 /// Gradients at all vertices, on the rim too: there they are forces.
 SheetGradients gradientsOf(const SheetMesh& sheet, Vec3 weight);
 
+/// The same at the rim's vertices alone.
+SheetGradients rimGradientsOf(const SheetMesh& sheet, Vec3 weight);
+
 /// Entries of a sheet's matrices: one unknown for every vertex inside, its way along a direction of its own.
 class SheetPattern {
 public:

@@ -37,6 +37,10 @@ constexpr double kSolved = 1e-11;
 /// Relative residual of an equilibrium from which on its matrix serves for the next place as well: the places differ by
 /// as much, and Newton's next step ends.
 constexpr double kSamePlace = 1e-5;
+/// Relative residual of a place from which on its factors serve for chord steps, and show the inertia at their end; and
+/// the most of its residual that a chord step may leave. Full steps leave less, but cost three times as much.
+constexpr double kChordPlace = 1e-2;
+constexpr double kChordRate = 0.2;
 /// Work of moving and integrating a triangle, and of finding the ground under it.
 constexpr double kPassWork = 8.0;
 constexpr double kGroundWork = 30.0;
@@ -83,7 +87,7 @@ SheetSolver::SheetSolver(const SheetMesh& sheet, Vec3 weight, SheetBase base)
     factor_ = SheetFactor(linear_.matrix, {sheet.places.begin() + rim_, sheet.places.end()});
 }
 
-void SheetSolver::linearise(const SheetMesh& sheet, double pressure)
+void SheetSolver::linearise(const SheetMesh& sheet)
 {
     const SheetGradients gradients = pattern_.gradients(sheet, weight_);
     const std::size_t count = sheet.places.size() - rim_;
@@ -113,6 +117,10 @@ void SheetSolver::linearise(const SheetMesh& sheet, double pressure)
         linear_.volume[k] = dot(direction, gradients.volume[v]);
         linear_.mass[k] = gradients.area[v];
     }
+}
+
+void SheetSolver::assemble(const SheetMesh& sheet, double pressure)
+{
     linear_.full = pattern_.hessian(sheet, linear_.directions, weight_, pressure);
 }
 
@@ -135,9 +143,11 @@ bool SheetSolver::factor(double shift)
             }
         }
     }
-    if (!factor_.factorize(matrix)) {
-        return false;
-    }
+    return factor_.factorize(matrix) && respond();
+}
+
+bool SheetSolver::respond()
+{
     Vector border = linear_.volume;
     for (std::size_t i = 0; i < held_.size(); ++i) {
         if (held_[i] != 0) {
@@ -197,6 +207,39 @@ SheetSolver::Step SheetSolver::solveBordered(const Vector& forces, double volume
     }
     step.motion += given;
     return step;
+}
+
+bool SheetSolver::changeHeld(const Step& step, const Vector& forces, bool may_release)
+{
+    bool has_changed = false;
+    const Vector pushed =
+        linear_.full.selfadjointView<Eigen::Lower>() * step.motion - forces - step.pressure * linear_.volume;
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+        const auto k = static_cast<Eigen::Index>(i);
+        const double rise = linear_.rise[i];
+        if (held_[i] != 0) {
+            if (may_release && rise * pushed[k] < 0.0) {
+                held_[i] = 0;
+                has_changed = true;
+            }
+        } else if (std::abs(rise) > kLevel && linear_.clearance[i] + step.motion[k] * rise < 0.0) {
+            held_[i] = 1;
+            held_motion_[i] = -linear_.clearance[i] / rise;
+            has_changed = true;
+        }
+    }
+    return has_changed;
+}
+
+std::optional<SheetSolver::Step> SheetSolver::chord(const SheetMesh& sheet, double pressure, double missing)
+{
+    if (!respond()) {
+        return std::nullopt;
+    }
+    const Vector forces = pressure * linear_.volume - linear_.gradient;
+    Step step = solveBordered(forces, missing);
+    const bool is_fit = step.motion.allFinite() && !changeHeld(step, forces, true) && !damp(sheet, step);
+    return is_fit ? std::optional(std::move(step)) : std::nullopt;
 }
 
 bool SheetSolver::damp(const SheetMesh& sheet, const Step& step)
@@ -325,13 +368,19 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
     };
     const std::vector<double> angles = limits.worn > 0.0 ? minAngles(sheet) : std::vector<double>{};
     SheetIntegrals sums = liquidUnder(sheet);
-    std::vector<std::uint8_t> same_held;  // with the last factorisation, if it was that of an equilibrium, nearly
     std::fill(damping_.begin(), damping_.end(), 0.0);
     std::fill(held_.begin(), held_.end(), 1);  // until it turns out that they are above the ground
+    if (limits.chord == 0.0) {
+        factored_held_.clear();
+    }
+    const auto has_factors = [&](double residual) {
+        return !factored_held_.empty() && factored_held_ == held_ && factored_residual_ <= residual;
+    };
+    bool was_chord = false;
     int shifted = 0;
     double last = std::numeric_limits<double>::infinity();
     for (;; ++result.steps) {
-        linearise(sheet, pressure);
+        linearise(sheet);
         std::fill(held_motion_.begin(), held_motion_.end(), 0.0);
         for (std::size_t i = 0; i < held_.size(); ++i) {
             // Vertices on the ground are held while the energy presses them down.
@@ -352,23 +401,37 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
                                          (result.residual <= limits.stagnated && result.residual > 0.3 * last));
         if (is_done) {
             std::fill(damping_.begin(), damping_.end(), 0.0);
-            if ((!same_held.empty() && same_held == held_) || (factor(0.0) && negatives() == 1)) {
-                describe(result);
+            if (!has_factors(limits.chord > 0.0 ? kChordPlace : kSamePlace)) {
+                assemble(sheet, pressure);
+                factored_held_.clear();
+                if (!factor(0.0) || negatives() != 1) {
+                    return result;
+                }
+                factored_held_ = held_;
+                factored_residual_ = result.residual;
             }
+            describe(result);
             return result;
         }
         if (result.steps >= limits.steps || result.factorisations >= limits.factorisations || !has_work()) {
             return result;
         }
+        const bool may_chord = result.residual <= limits.chord && has_factors(kChordPlace) &&
+                               (!was_chord || result.residual <= kChordRate * last);
         last = is_full ? result.residual : last;
         for (double& damping : damping_) {
             damping = kReleased * damping < kUndamped ? 0.0 : kReleased * damping;
         }
 
-        Step step;
+        std::optional<Step> step = may_chord ? chord(sheet, pressure, missing) : std::nullopt;
+        was_chord = step.has_value();
+        if (!was_chord) {
+            assemble(sheet, pressure);
+            factored_held_.clear();
+        }
         bool is_plain = true;  // without shift and damping
         int damped = 0;
-        for (int round = 0;; ++round) {
+        for (int round = 0; !was_chord; ++round) {
             double shift = 0.0;
             for (++result.factorisations; !factor(shift) || negatives() != 1; ++result.factorisations) {
                 shift = shift == 0.0 ? least : 3.0 * shift;
@@ -380,45 +443,29 @@ NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressur
             is_plain = shift == 0.0 && std::all_of(damping_.begin(), damping_.end(), [](double d) { return d == 0.0; });
             const Vector forces = pressure * linear_.volume - linear_.gradient;
             step = solveBordered(forces, missing);
-            if (!step.motion.allFinite()) {
+            if (!step->motion.allFinite()) {
                 return result;
             }
-            bool has_changed = false;
-            const Vector pushed =
-                linear_.full.selfadjointView<Eigen::Lower>() * step.motion - forces - step.pressure * linear_.volume;
-            for (std::size_t i = 0; i < held_.size(); ++i) {
-                const auto k = static_cast<Eigen::Index>(i);
-                const double rise = linear_.rise[i];
-                if (held_[i] != 0) {
-                    if (round < kReleaseRounds && rise * pushed[k] < 0.0) {
-                        held_[i] = 0;
-                        has_changed = true;
-                    }
-                } else if (std::abs(rise) > kLevel && linear_.clearance[i] + step.motion[k] * rise < 0.0) {
-                    held_[i] = 1;
-                    held_motion_[i] = -linear_.clearance[i] / rise;
-                    has_changed = true;
-                }
-            }
+            const bool has_changed = changeHeld(*step, forces, round < kReleaseRounds);
             if (!has_work()) {
                 return result;
             }
             if (has_changed && round < kGroundRounds) {
                 continue;
             }
-            if (damped++ == kDampingRounds || !damp(sheet, step)) {
+            if (damped++ == kDampingRounds || !damp(sheet, *step)) {
                 break;
             }
         }
-        same_held.clear();
-        if (is_plain && result.residual <= kSamePlace) {
-            same_held = held_;
+        if (!was_chord && is_plain) {
+            factored_held_ = held_;
+            factored_residual_ = result.residual;
         }
-        const bool has_moved = shifted <= limits.shifted_steps && moveWithin(sheet, step, volume, sums);
+        const bool has_moved = shifted <= limits.shifted_steps && moveWithin(sheet, *step, volume, sums);
         if (!has_moved || !has_work()) {
             return result;
         }
-        pressure += step.pressure;
+        pressure += step->pressure;
         if (limits.worn > 0.0 && isWorn(angles, sheet, limits.worn)) {
             return result;
         }

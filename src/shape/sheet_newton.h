@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "shape/sheet_base.h"
@@ -19,6 +20,7 @@ struct NewtonLimits {
     int shifted_steps = 4;     ///< most steps with a matrix that had to be shifted to have a minimum
     double tolerance = 1e-9;   ///< relative residual at which it ends
     double stagnated = 1e-7;   ///< relative residual that is good enough when steps no longer lower it
+    double chord = 0.0;        ///< relative residual from which on steps take the factors of the last one; 0: none do
     double worn = 0.0;         ///< smallest angle of a triangle, over that at the start, below which it ends
     int factorisations = 150;  ///< after which no step begins
     double max_work = std::numeric_limits<double>::infinity();  ///< as of SheetOptions; nothing is factorised beyond
@@ -66,8 +68,16 @@ private:
         double pressure = 0.0;  ///< change
     };
 
-    void linearise(const SheetMesh& sheet, double pressure);
+    void linearise(const SheetMesh& sheet);
+    void assemble(const SheetMesh& sheet, double pressure);
     bool factor(double shift);
+    /// Solves for the response to the pressure.
+    bool respond();
+    /// Step with the last factors.
+    [[nodiscard]] std::optional<Step> chord(const SheetMesh& sheet, double pressure, double missing);
+    /// Takes up vertices that a step would move below the ground, and releases those that it would pull up.
+    /// @return  whether there are any
+    bool changeHeld(const Step& step, const Eigen::VectorXd& forces, bool may_release);
     /// Damps vertices of triangles that a step would turn or squeeze too much.
     /// @return  whether there are any
     bool damp(const SheetMesh& sheet, const Step& step);
@@ -96,6 +106,8 @@ private:
     std::vector<double> held_motion_;  ///< their motion in the current step
     std::vector<double> damping_;      ///< of every unknown, over its diagonal entry
     std::size_t passes_ = 0;           ///< integrations over all triangles in the current solve()
+    std::vector<std::uint8_t> factored_held_;  ///< held unknowns of the factors; empty if these are of no use any more
+    double factored_residual_ = 0.0;           ///< relative residual where they were made
 };
 
 /// How far triangles may change.

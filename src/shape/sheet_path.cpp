@@ -67,6 +67,10 @@ constexpr double kLower = 0.99;
 /// Error of the share of a target that is met, on the final triangles and before.
 constexpr double kMet = 1e-9;
 constexpr double kNear = 1e-4;
+/// Relative residual, and error of the share, of sheets that are a start for finer triangles, which change them by more.
+constexpr double kLoose = 1e-3;
+/// Relative residual from which on Newton's method keeps its factors on such a way.
+constexpr double kChord = 1e-3;
 
 double heightOf(const SheetMesh& sheet, const SheetBase& base)
 {
@@ -147,6 +151,38 @@ public:
         now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, kSettling);
         count(now_, false);
         firm_ = {now_};
+    }
+
+    /// Begins near an equilibrium, on the last triangles.
+    Path(SheetStart start, const SheetTarget& target, const SheetOptions& options)
+        : target_(target),
+          options_(options),
+          now_{std::move(start.mesh), start.pressure, start.volume, {}},
+          is_final_(true),
+          met_(start.is_last ? kMet : kLoose)
+    {
+        corrector_.chord = kChord;
+        corrector_.tolerance = start.is_last ? corrector_.tolerance : kLoose;
+        use(solverOf(now_.sheet), now_.sheet);
+    }
+
+    /// Leads the start to the target.
+    /// @return  none if there is no such equilibrium near
+    std::optional<FilledSheet> settled(bool is_last)
+    {
+        options_.max_work = kFinalFactorisations * factorWork(now_.sheet.triangles.size());
+        const double pressure = now_.pressure;
+        NewtonLimits first = kSettling;
+        first.chord = kChord;
+        first.tolerance = kLoose;
+        now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, within(first));
+        count(now_, true);
+        firm_ = {now_};
+        const bool is_same = std::abs(now_.pressure - pressure) <= kSamePressure * std::abs(pressure);
+        if (!now_.newton.converged || !is_same || !advance(wayTo()) || !settle() || (is_last && !isFree())) {
+            return std::nullopt;
+        }
+        return filled(SheetEnd::Reached);
     }
 
     FilledSheet run()
@@ -297,7 +333,7 @@ private:
         }
         const double missing = 1.0 - shareOf(now_.sheet, now_.pressure);
         // On the way to the final triangles a target need not be met better than they change it.
-        if (std::abs(missing) <= (is_final_ ? kMet : kNear)) {
+        if (std::abs(missing) <= (is_final_ ? met_ : kNear)) {
             return 0.0;
         }
         const double slope = slopeOfShare();
@@ -337,7 +373,7 @@ private:
         State next{now_.sheet, now_.pressure + size * now_.newton.pressure_slope, now_.volume + size, {}};
         next.sheet.places = movedPlaces(now_, size);
         base_.lift(next.sheet.places, next.sheet.rim);
-        next.newton = solver_->solve(next.sheet, next.volume, next.pressure, within({}));
+        next.newton = solver_->solve(next.sheet, next.volume, next.pressure, within(corrector_));
         count(next, false);
         if (!next.newton.converged) {
             return false;
@@ -620,7 +656,9 @@ private:
     std::vector<double> meshed_angles_;                     ///< of every triangle then [rad]
     std::deque<State> firm_;                                ///< last equilibria that were confirmed on new triangles
     double gap_ = std::numeric_limits<double>::infinity();  ///< change of the volume, over it, until the next one
+    NewtonLimits corrector_;                                ///< of a step of the volume
     bool is_final_ = false;                                 ///< the triangles stay until the target
+    double met_ = kMet;                                     ///< error of the share of the target that is met then
     bool keeps_triangles_ = false;                          ///< they stay for good
     bool has_allowance_ = false;                            ///< whether the final triangles got their work
     std::optional<SheetContact> contact_;                   ///< of the sheet with itself, if that stopped the last step
@@ -644,7 +682,7 @@ double RimAngles::mean() const
 
 RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure, const BaseSurface& ground)
 {
-    const SheetGradients gradients = gradientsOf(sheet, weight);
+    const SheetGradients gradients = rimGradientsOf(sheet, weight);
     RimAngles rim;
     rim.angle.resize(sheet.rim);
     rim.weight.resize(sheet.rim, 0.0);
@@ -681,6 +719,12 @@ RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure, const 
 FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, const SheetOptions& options)
 {
     return Path(footprint, target, options).run();
+}
+
+std::optional<FilledSheet> settleSheet(SheetStart start, const SheetTarget& target, const SheetOptions& options)
+{
+    const bool is_last = start.is_last;
+    return Path(std::move(start), target, options).settled(is_last);
 }
 
 FilledSheet refillSheet(const SheetMesh& sheet, double pressure, const SheetTarget& target, Vec3 weight,

@@ -69,6 +69,18 @@ struct FilledSheet {
 /// @param footprint  of one droplet, or of several at one pressure, which touch each other no more than themselves
 FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, const SheetOptions& options);
 
+/// Sheet near an equilibrium, on flat ground.
+struct SheetStart {
+    SheetMesh mesh;
+    double pressure = 0.0;  ///< λ over the surface tension [1/m]
+    double volume = 0.0;    ///< near that of the target [m³]
+    bool is_last = true;    ///< meets the target, and must not touch itself; otherwise the result is a start in its turn
+};
+
+/// Leads a sheet to a target on the triangles that it has.
+/// @return  none if there is no such equilibrium near
+std::optional<FilledSheet> settleSheet(SheetStart start, const SheetTarget& target, const SheetOptions& options);
+
 /// Fills or drains an equilibrium to a target on the same triangles. They can follow only so far: the end is Unstable
 /// where they wear out.
 /// @param sheet     an equilibrium

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Nested iteration, as multigrid methods begin: U. Trottenberg, C. Oosterlee, A. Schüller, "Multigrid" (2001), 2.6. The
+// liquid's way from dry ground is followed where triangles are few, and the number of Newton's steps on a finer mesh
+// does not grow with its size: E. Allgower, K. Böhmer, F. Potra, W. Rheinboldt, "A mesh-independence principle for
+// operator equations and their discretizations" (1986).
+#include "shape/sheet_levels.h"
+
+#include <utility>
+
+#include "shape/sheet_divide.h"
+#include "shape/sheet_remesh.h"
+
+namespace droplet {
+namespace {
+
+/// Share of a path's most work that the coarsest one may take, for where it fails the finest one follows.
+constexpr double kCoarsestShare = 0.2;
+/// Rounds of new triangles after a division, which makes them even already.
+constexpr int kRounds = 1;
+
+}  // namespace
+
+std::optional<FilledSheet> fillByLevels(const std::vector<SheetLevel>& levels, const SheetTarget& target, double& work)
+{
+    SheetOptions first = levels.front().options;
+    first.max_work *= kCoarsestShare;
+    first.is_end_confirmed = false;
+    FilledSheet filled = fillSheet(levels.front().footprint, target, first);
+    work = filled.work;
+    double change = 0.0;  // of the volume, by the last level
+    for (std::size_t k = 1; k < levels.size(); ++k) {
+        if (filled.end != SheetEnd::Reached) {
+            return std::nullopt;
+        }
+        const SheetOptions& options = levels[k].options;
+        const std::optional<SheetMesh> divided =
+            divide(filled.mesh, levels[k - 1].footprint, levels[k].footprint);
+        if (!divided) {
+            return std::nullopt;
+        }
+        const RemeshOptions triangles{.edge = options.edge,
+                                      .min_edge = options.edge / 8.0,
+                                      .rounds = kRounds,
+                                      .triangles = options.triangles};
+        // The angle of a volume converges with the first power of the mesh size.
+        const double volume = target.by == FillBy::Volume ? target.amount : filled.volume + 0.5 * change;
+        std::optional<FilledSheet> settled = settleSheet(
+            {remesh(*divided, triangles), filled.pressure, volume, k + 1 == levels.size()}, target, options);
+        if (!settled) {
+            return std::nullopt;
+        }
+        change = settled->volume - filled.volume;
+        settled->work += filled.work;
+        settled->newton_steps += filled.newton_steps;
+        filled = *std::move(settled);
+        work = filled.work;
+    }
+    return filled.end == SheetEnd::Reached ? std::optional(std::move(filled)) : std::nullopt;
+}
+
+}  // namespace droplet
