@@ -184,13 +184,13 @@ bool hasInnerCorner(const PlanarMesh& footprint)
 std::optional<PlanarMesh> roundInward(const PlanarMesh& footprint, double radius, double edge)
 {
     const std::vector<std::vector<Vec2>> loops = loopsOf(footprint);
-    const bool has_corner = hasInnerCorner(loops);
+    const bool has_corner = radius > 0.0 && hasInnerCorner(loops);
     const double own_edge = meanEdge(area(footprint), footprint.triangles.size());
     if (!has_corner && edge > kFiner * own_edge && edge < kCoarser * own_edge) {
         return std::nullopt;
     }
     for (int round = 0; round < kRounds; ++round, radius *= 0.5) {
-        const double unit = radius / kUnits;
+        const double unit = (has_corner ? radius : edge) / kUnits;
         Paths paths;
         for (const std::vector<Vec2>& loop : loops) {
             Path& path = paths.emplace_back();

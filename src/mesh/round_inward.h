@@ -13,7 +13,7 @@ namespace droplet {
 /// the next, no triangles can follow. The footprint only grows, by less the finer it is meshed and by no more than
 /// 0.75 %; holes stay, and none are made. Where this needs it, the radius is smaller.
 /// @param footprint  valid
-/// @param radius     > 0 [m]
+/// @param radius     ≥ 0 [m]; with 0, there are new triangles alone
 /// @param edge       mean edge of the new triangles [m], > 0
 /// @return           new triangles; none if there is no such corner and edges are much as they were
 std::optional<PlanarMesh> roundInward(const PlanarMesh& footprint, double radius, double edge);

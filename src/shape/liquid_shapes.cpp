@@ -18,6 +18,7 @@
 #include "droplet/shape/figures.h"
 #include "droplet/units.h"
 #include "mesh/mean_edge.h"
+#include "mesh/round_inward.h"
 #include "number_text.h"
 #include "shape/own_options.h"
 #include "shape/sheet_base.h"
@@ -67,6 +68,9 @@ constexpr int kMaxLowerings = 60;
 /// Error of the largest share of an amount at which neighbours do not touch, and most pairs that are looked at.
 constexpr double kShareError = 0.01;
 constexpr int kMaxPairs = 8;
+
+/// Triangles of a probe: some 5 ms.
+constexpr double kProbe = 2500.0;
 
 /// Whether a footprint is a wide puddle, with triangles that are much smaller along the rim. A sheet there is no better
 /// at corners, which are as small as the triangles, and takes many times the work of a height field.
@@ -185,6 +189,50 @@ Solution findFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
         return none;
     }
 }
+
+bool areWidePuddles(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
+{
+    const std::optional<double> layer = bendingLayer(options);
+    return layer && std::all_of(meshes.begin(), meshes.end(),
+                                [&](const PlanarMesh& mesh) { return isWidePuddle(mesh, *layer); });
+}
+
+/// What coarse triangles tell of height fields, before fine ones are solved that hang over their rims.
+struct Probe {
+    bool exists = false;    ///< whether there are any
+    bool is_steep = false;  ///< whether their rims are upright somewhere, or would be
+};
+
+/// @return  none where fine triangles are few, or stay with height fields
+std::optional<Probe> probe(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
+{
+    std::vector<PlanarMesh> coarse;
+    bool is_fine = false;
+    for (const PlanarMesh& mesh : meshes) {
+        const bool is_large = static_cast<double>(mesh.triangles.size()) > 4.0 * kProbe;
+        std::optional<PlanarMesh> changed =
+            is_large ? roundInward(mesh, 0.0, meanEdge(area(mesh), kProbe)) : std::nullopt;
+        is_fine = is_fine || changed;
+        coarse.push_back(changed ? *std::move(changed) : mesh);
+    }
+    if (!is_fine || areWidePuddles(meshes, options)) {
+        return std::nullopt;
+    }
+    SolveOptions quick = options;
+    quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
+    const Solution solution = findFields(coarse, quick, {});
+    const bool exists = solution.report.usable() && haveLiquid(coarse, solution.droplets, options);
+    const bool is_steep = exists ? std::any_of(solution.droplets.begin(), solution.droplets.end(), isUpright)
+                                 : solution.report.termination != Termination::Unstable;
+    return Probe{exists, is_steep};
+}
+
+/// What was found of droplets before their shape is solved.
+struct Before {
+    std::vector<HeightField> fields = {};    ///< one per droplet, or empty
+    std::optional<Probe> probed = {};        ///< of them alone
+    std::optional<SolveReport> failed = {};  ///< of height fields that do not exist
+};
 
 /// Shapes of the linear model in place of exact ones, if there are any.
 std::optional<LiquidShapes> linearStandIn(const std::vector<PlanarMesh>& meshes, SolveOptions options)
@@ -327,35 +375,49 @@ Shape lesserFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& op
 }
 
 /// Shape of droplets at one pressure, which may hang over their rims.
-/// @param fields   height fields, if they were found before
 /// @param reached  as of solveSheet()
-Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, std::vector<HeightField> fields,
-                 SheetEffort effort, const std::function<void(double)>& reached)
+Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, Before before, SheetEffort effort,
+                 const std::function<void(double)>& reached)
 {
     const double most = options.max_work.value_or(kRunWork);
     const double field_work = fieldWork(unknownsOf(meshes));
-    Shape shape{.fields = std::move(fields)};
-    if (shape.fields.empty() && !mustHang(options)) {
-        SolveOptions quick = options;
-        quick.max_work = std::min(field_work, most);
-        quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
-        shape = solveFields(meshes, quick);
+    Shape shape{.fields = std::move(before.fields)};
+    if (shape.fields.empty() && !mustHang(options) && !before.probed && !before.failed) {
+        before.probed = probe(meshes, options);
     }
-    if (shape.fields.empty() ? shape.report.termination == Termination::Unstable
-                             : std::none_of(shape.fields.begin(), shape.fields.end(), isUpright)) {
+    const bool is_steep = shape.fields.empty() && before.probed && before.probed->is_steep;
+    if (before.failed) {
+        shape.report = *before.failed;
+    }
+    const auto solve_quickly = [&] {
+        SolveOptions quick = options;
+        quick.max_work = std::min(field_work, std::max(most - shape.work, 0.0));
+        quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
+        Shape quick_shape = solveFields(meshes, quick);
+        quick_shape.sheet = std::move(shape.sheet);
+        quick_shape.work += shape.work;
+        shape = std::move(quick_shape);
+    };
+    if (shape.fields.empty() && !mustHang(options) && !is_steep && !before.failed) {
+        solve_quickly();
+    }
+    if (!is_steep && (shape.fields.empty() ? shape.report.termination == Termination::Unstable
+                                           : std::none_of(shape.fields.begin(), shape.fields.end(), isUpright))) {
         return shape;
     }
     // A height field that is upright in a few places may stand, unless the exact shape was asked for.
-    const bool has_stand_in = !shape.fields.empty() && options.model == Model::Auto;
-    const std::optional<double> layer = bendingLayer(options);
-    if (has_stand_in && layer &&
-        std::all_of(meshes.begin(), meshes.end(), [&](const PlanarMesh& mesh) { return isWidePuddle(mesh, *layer); })) {
+    const bool has_stand_in =
+        (is_steep ? before.probed->exists : !shape.fields.empty()) && options.model == Model::Auto;
+    if (has_stand_in && areWidePuddles(meshes, options)) {
         return shape;
     }
     SolveOptions rest = options;
     rest.max_work = std::max(most - shape.work, 0.0);
     shape.sheet = solveSheet(meshes, rest, has_stand_in ? SheetEffort::Slight : effort, reached);
     shape.work += shape.sheet->work;
+    if (shape.sheet->end != SheetEnd::Reached && is_steep) {
+        solve_quickly();
+    }
     if (shape.sheet->end == SheetEnd::Reached) {
         shape.fields.clear();
     } else if (shape.fields.empty() && !mustHang(options)) {
@@ -686,7 +748,9 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     followed.resize(options.fill.sharing == FillSharing::Total ? 1 : count);
     const bool any_followed = std::any_of(followed.begin(), followed.end(), [](const auto& one) { return !!one; });
     bool has_fields = false;
-    if (!mustHang(options) && !any_followed) {
+    const std::optional<Probe> probed = !mustHang(options) && !any_followed ? probe(meshes, options) : std::nullopt;
+    const bool tried = !mustHang(options) && !any_followed && !(probed && probed->is_steep);
+    if (tried) {
         SolveOptions quick = options;
         quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
         solution = findFields(meshes, quick, progress);
@@ -710,18 +774,22 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
             return;
         }
         std::vector<PlanarMesh> own;
-        std::vector<HeightField> fields;
+        Before before;
+        if (groups.size() == 1) {
+            before.probed = probed;
+            before.failed = tried && !has_fields ? std::optional(solution.report) : std::nullopt;
+        }
         for (const std::size_t k : groups[g]) {
             own.push_back(meshes[k]);
             if (has_fields) {
-                fields.push_back(std::move(solution.droplets[k]));
+                before.fields.push_back(std::move(solution.droplets[k]));
             }
         }
         SolveOptions own_options = ownOptions(options, g);
         own_options.max_work = parts[g] * most;
         const auto report = [&](double share) { reached.reach(g, share); };
         const bool is_small = unknownsOf(own) <= kSmall;
-        found[g] = solveShape(own, own_options, std::move(fields),
+        found[g] = solveShape(own, own_options, std::move(before),
                               has_linear || (allow_less && mustHang(options) && !is_small) ? SheetEffort::Slight
                               : allow_less                                                 ? SheetEffort::Modest
                                                                                            : SheetEffort::Full,
@@ -748,7 +816,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     shapes.limits.assign(count, FillLimit::None);
     shapes.least_angle = std::numbers::pi;
     // Only what was found counts, not what was tried.
-    const SolveReport tried = std::exchange(solution.report, {});
+    const SolveReport field_report = std::exchange(solution.report, {});
     SolveReport& report = solution.report;
     report.model = Model::Exact;
     report.termination = Termination::Converged;
@@ -758,7 +826,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         shapes.work += shape.work;
         const Refused refused{groups.size() == 1 ? "" : ofDroplet(g, count), groups[g].size(), gravity};
         if (!shape.fields.empty()) {
-            const SolveReport& own = shape.report.usable() ? shape.report : tried;
+            const SolveReport& own = shape.report.usable() ? shape.report : field_report;
             report.iterations = std::max(report.iterations, own.iterations);
             report.newton_steps = std::max(report.newton_steps, own.newton_steps);
             report.residual = std::max(report.residual, own.residual);

@@ -2,6 +2,7 @@
 #include "droplet/shape/sheet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -80,56 +81,97 @@ SheetMesh meshOf(const ParametricSheet& sheet)
     return {sheet.places, sheet.triangles, sheet.rim};
 }
 
-/// Distance of a place to the footprint, 0 inside [m].
-double distanceTo(const PlanarMesh& footprint, Vec2 place)
-{
-    const auto for_sides = [&](const auto& use) {
+/// Sides of a footprint's rim, and which of them are beside a place.
+class RimSides {
+public:
+    explicit RimSides(const PlanarMesh& footprint)
+    {
         for (std::size_t loop = 0; loop < footprint.loopCount(); ++loop) {
             Vec2 a = footprint.vertices[footprint.loop_starts[loop + 1] - 1];
             for (std::uint32_t v = footprint.loop_starts[loop]; v < footprint.loop_starts[loop + 1]; ++v) {
-                const Vec2 b = footprint.vertices[v];
-                use(a, b);
-                a = b;
+                sides_.push_back({a, footprint.vertices[v]});
+                a = footprint.vertices[v];
+                low_ = std::min(low_, a.y);
+                high_ = std::max(high_, a.y);
             }
         }
-    };
-    // Most places are inside: these need no distance.
-    bool is_inside = false;
-    for_sides([&](Vec2 a, Vec2 b) {
-        const Vec2 side = b - a;
-        if ((a.y > place.y) != (b.y > place.y) && place.x < a.x + (place.y - a.y) / side.y * side.x) {
-            is_inside = !is_inside;
+        rows_.resize(sides_.size());
+        for (std::size_t k = 0; k < sides_.size(); ++k) {
+            const auto [first, last] = std::minmax({rowOf(sides_[k][0].y), rowOf(sides_[k][1].y)});
+            for (std::size_t row = first; row <= last; ++row) {
+                rows_[row].push_back(k);
+            }
         }
-    });
-    if (is_inside) {
-        return 0.0;
     }
-    double nearest = std::numeric_limits<double>::infinity();
-    for_sides([&](Vec2 a, Vec2 b) {
+
+    [[nodiscard]] bool isInside(Vec2 place) const
+    {
+        bool is_inside = false;
+        for (const std::size_t k : rows_[rowOf(place.y)]) {
+            const auto& [a, b] = sides_[k];
+            if ((a.y > place.y) != (b.y > place.y) && place.x < a.x + (place.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
+                is_inside = !is_inside;
+            }
+        }
+        return is_inside;
+    }
+
+    /// Squared distance of a place, if it is more than another one; otherwise something below that [m²].
+    /// @param near  side that is likely near; receives the nearest one that was looked at
+    [[nodiscard]] double squaredIfMore(Vec2 place, double least, std::size_t& near) const
+    {
+        double nearest = squaredTo(place, near);
+        for (std::size_t k = 0; k < sides_.size() && nearest > least; ++k) {
+            const double squared = squaredTo(place, k);
+            if (squared < nearest) {
+                nearest = squared;
+                near = k;
+            }
+        }
+        return nearest;
+    }
+
+private:
+    [[nodiscard]] std::size_t rowOf(double y) const
+    {
+        const auto count = static_cast<double>(rows_.size());
+        return static_cast<std::size_t>(std::clamp((y - low_) / (high_ - low_) * count, 0.0, count - 1.0));
+    }
+
+    [[nodiscard]] double squaredTo(Vec2 place, std::size_t k) const
+    {
+        const auto& [a, b] = sides_[k];
         const Vec2 side = b - a;
-        const double along = std::clamp(dot(place - a, side) / dot(side, side), 0.0, 1.0);
-        const Vec2 arm = place - a - along * side;
-        nearest = std::min(nearest, dot(arm, arm));
-    });
-    return std::sqrt(nearest);
-}
+        const Vec2 arm = place - a - std::clamp(dot(place - a, side) / dot(side, side), 0.0, 1.0) * side;
+        return dot(arm, arm);
+    }
+
+    std::vector<std::array<Vec2, 2>> sides_;
+    std::vector<std::vector<std::size_t>> rows_;  ///< sides that reach into strips of equal width
+    double low_ = std::numeric_limits<double>::infinity();
+    double high_ = -std::numeric_limits<double>::infinity();
+};
 
 /// How far a sheet leans out over its rim [m].
 double overhangOf(const ParametricSheet& sheet)
 {
+    const RimSides rim(sheet.footprint);
     double overhang = 0.0;
     for (const double part :
          mapBlocks<double>(sheet.places.size() - sheet.rim, [&](std::size_t begin, std::size_t end) {
              double farthest = 0.0;
+             std::size_t near = 0;
              for (std::size_t i = begin; i < end; ++i) {
                  const Vec3& p = sheet.places[sheet.rim + i];
-                 farthest = std::max(farthest, distanceTo(sheet.footprint, {p.x, p.y}));
+                 if (!rim.isInside({p.x, p.y})) {
+                     farthest = std::max(farthest, rim.squaredIfMore({p.x, p.y}, farthest, near));
+                 }
              }
              return farthest;
          })) {
         overhang = std::max(overhang, part);
     }
-    return overhang;
+    return std::sqrt(overhang);
 }
 
 /// Takes the noise of single triangles out of angles along a rim, between its corners. A mean over a vertex and its
@@ -270,8 +312,7 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
     } while (has_levels && static_cast<double>(levels.front().options.triangles) > kCoarsest);
     SheetResult result;
     double work = 0.0;
-    std::optional<FilledSheet> filled =
-        levels.size() > 1 ? fillByLevels(levels, target, work) : std::nullopt;
+    std::optional<FilledSheet> filled = levels.size() > 1 ? fillByLevels(levels, target, work) : std::nullopt;
     if (!filled) {
         filled = fillSheet(levels.back().footprint, target, levels.back().options);
         filled->work += work;

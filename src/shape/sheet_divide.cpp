@@ -132,8 +132,12 @@ std::optional<std::vector<std::size_t>> match(const Loop& coarse, const Loop& fi
         return std::nullopt;
     }
     const auto [first, fine_first] = startOf(coarse, fine);
-    const auto coarse_at = [&, begin = first](int i) { return (begin + static_cast<std::size_t>(i)) % coarse.places.size(); };
-    const auto fine_at = [&, begin = fine_first](int j) { return (begin + static_cast<std::size_t>(j)) % fine.places.size(); };
+    const auto coarse_at = [&, begin = first](int i) {
+        return (begin + static_cast<std::size_t>(i)) % coarse.places.size();
+    };
+    const auto fine_at = [&, begin = fine_first](int j) {
+        return (begin + static_cast<std::size_t>(j)) % fine.places.size();
+    };
     const double edge = coarse.length / count;
     const double ratio = static_cast<double>(fine_count) / count;
     std::vector<std::array<Cell, 2 * kBand + 1>> rows(static_cast<std::size_t>(count));
@@ -203,7 +207,8 @@ std::optional<RimMatch> matchRims(const PlanarMesh& coarse, const PlanarMesh& fi
     if (!pairs) {
         return std::nullopt;
     }
-    RimMatch rim{std::vector<std::uint32_t>(coarse.rimVertexCount()), std::vector<std::uint32_t>(coarse.rimVertexCount()),
+    RimMatch rim{std::vector<std::uint32_t>(coarse.rimVertexCount()),
+                 std::vector<std::uint32_t>(coarse.rimVertexCount()),
                  std::vector<std::uint32_t>(fine.rimVertexCount())};
     for (std::size_t k = 0; k < coarse_loops.size(); ++k) {
         const Loop& loop = coarse_loops[k];

@@ -8,15 +8,12 @@
 #include <utility>
 
 #include "shape/sheet_divide.h"
-#include "shape/sheet_remesh.h"
 
 namespace droplet {
 namespace {
 
 /// Share of a path's most work that the coarsest one may take, for where it fails the finest one follows.
 constexpr double kCoarsestShare = 0.2;
-/// Rounds of new triangles after a division, which makes them even already.
-constexpr int kRounds = 1;
 
 }  // namespace
 
@@ -33,19 +30,14 @@ std::optional<FilledSheet> fillByLevels(const std::vector<SheetLevel>& levels, c
             return std::nullopt;
         }
         const SheetOptions& options = levels[k].options;
-        const std::optional<SheetMesh> divided =
-            divide(filled.mesh, levels[k - 1].footprint, levels[k].footprint);
+        const std::optional<SheetMesh> divided = divide(filled.mesh, levels[k - 1].footprint, levels[k].footprint);
         if (!divided) {
             return std::nullopt;
         }
-        const RemeshOptions triangles{.edge = options.edge,
-                                      .min_edge = options.edge / 8.0,
-                                      .rounds = kRounds,
-                                      .triangles = options.triangles};
         // The angle of a volume converges with the first power of the mesh size.
         const double volume = target.by == FillBy::Volume ? target.amount : filled.volume + 0.5 * change;
-        std::optional<FilledSheet> settled = settleSheet(
-            {remesh(*divided, triangles), filled.pressure, volume, k + 1 == levels.size()}, target, options);
+        std::optional<FilledSheet> settled =
+            settleSheet({*divided, filled.pressure, volume, k + 1 == levels.size()}, target, options);
         if (!settled) {
             return std::nullopt;
         }

@@ -11,7 +11,8 @@ namespace droplet {
 
 /// A footprint at one mesh size, and how a sheet over it is made.
 struct SheetLevel {
-    PlanarMesh footprint;  ///< of one droplet, or of several at one pressure; inner corners are rounded by the mesh size
+    PlanarMesh
+        footprint;  ///< of one droplet, or of several at one pressure; inner corners are rounded by the mesh size
     SheetOptions options;
 };
 

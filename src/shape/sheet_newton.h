@@ -101,11 +101,11 @@ private:
     SheetPattern pattern_;
     SheetFactor factor_;
     Linear linear_;
-    Eigen::VectorXd response_;         ///< w = L⁻¹b
-    std::vector<std::uint8_t> held_;   ///< unknowns that the ground holds
-    std::vector<double> held_motion_;  ///< their motion in the current step
-    std::vector<double> damping_;      ///< of every unknown, over its diagonal entry
-    std::size_t passes_ = 0;           ///< integrations over all triangles in the current solve()
+    Eigen::VectorXd response_;                 ///< w = L⁻¹b
+    std::vector<std::uint8_t> held_;           ///< unknowns that the ground holds
+    std::vector<double> held_motion_;          ///< their motion in the current step
+    std::vector<double> damping_;              ///< of every unknown, over its diagonal entry
+    std::size_t passes_ = 0;                   ///< integrations over all triangles in the current solve()
     std::vector<std::uint8_t> factored_held_;  ///< held unknowns of the factors; empty if these are of no use any more
     double factored_residual_ = 0.0;           ///< relative residual where they were made
 };

@@ -67,7 +67,8 @@ constexpr double kLower = 0.99;
 /// Error of the share of a target that is met, on the final triangles and before.
 constexpr double kMet = 1e-9;
 constexpr double kNear = 1e-4;
-/// Relative residual, and error of the share, of sheets that are a start for finer triangles, which change them by more.
+/// Relative residual, and error of the share, of sheets that are a start for finer triangles, which change them by
+/// more.
 constexpr double kLoose = 1e-3;
 /// Relative residual from which on Newton's method keeps its factors on such a way.
 constexpr double kChord = 1e-3;
@@ -88,6 +89,12 @@ struct State {
     double pressure = 0.0;  ///< λ over the surface tension [1/m]
     double volume = 0.0;    ///< [m³]
     NewtonResult newton;    ///< how it was reached, and where it leads
+};
+
+/// How a sheet near an equilibrium is solved on new triangles.
+struct Renewal {
+    NewtonLimits limits = kSettling;
+    bool is_last = false;  ///< whether it touches itself is asked later
 };
 
 /// Place of every vertex after a motion along the tangent, for a change of the volume.
@@ -153,7 +160,7 @@ public:
         firm_ = {now_};
     }
 
-    /// Begins near an equilibrium, on the last triangles.
+    /// Begins near an equilibrium.
     Path(SheetStart start, const SheetTarget& target, const SheetOptions& options)
         : target_(target),
           options_(options),
@@ -161,28 +168,27 @@ public:
           is_final_(true),
           met_(start.is_last ? kMet : kLoose)
     {
+        options_.max_work = kFinalFactorisations * factorWork(options_.triangles);
         corrector_.chord = kChord;
         corrector_.tolerance = start.is_last ? corrector_.tolerance : kLoose;
-        use(solverOf(now_.sheet), now_.sheet);
     }
 
     /// Leads the start to the target.
     /// @return  none if there is no such equilibrium near
     std::optional<FilledSheet> settled(bool is_last)
     {
-        options_.max_work = kFinalFactorisations * factorWork(now_.sheet.triangles.size());
-        const double pressure = now_.pressure;
-        NewtonLimits first = kSettling;
-        first.chord = kChord;
-        first.tolerance = kLoose;
-        now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, within(first));
-        count(now_, true);
-        firm_ = {now_};
-        const bool is_same = std::abs(now_.pressure - pressure) <= kSamePressure * std::abs(pressure);
-        if (!now_.newton.converged || !is_same || !advance(wayTo()) || !settle() || (is_last && !isFree())) {
+        NewtonLimits limits = kSettling;
+        limits.chord = kChord;
+        limits.tolerance = kLoose;
+        RemeshOptions triangles = trianglesOf(options_.edge);
+        triangles.triangles = options_.triangles;
+        triangles.rounds = 0;
+        if (!renew(now_, triangles, {limits, true})) {
             return std::nullopt;
         }
-        return filled(SheetEnd::Reached);
+        firm_ = {now_};
+        const bool has_reached = advance(wayTo()) && settle() && (!is_last || isFree());
+        return has_reached ? std::optional(filled(SheetEnd::Reached)) : std::nullopt;
     }
 
     FilledSheet run()
@@ -501,7 +507,7 @@ private:
         const State coarse = now_;
         const auto stands = [&](const RemeshOptions& triangles) {
             now_ = coarse;
-            is_final_ = renew(now_, triangles, true);
+            is_final_ = renew(now_, triangles, {.is_last = true});
             return is_final_ && (!has_target || settle()) && isFree();
         };
         RemeshOptions finest = trianglesOf(options_.edge);
@@ -547,10 +553,9 @@ private:
         return isWorn(meshed_angles_, sheet, kWorn) || integrate(sheet, options_.weight).area > kGrowth * meshed_area_;
     }
 
-    /// Gives an equilibrium new triangles at the same volume.
-    /// @param is_last  whether isFree() is asked later
-    /// @return         false if it is another one on them, or touches itself; then nothing has changed
-    bool renew(State& state, const RemeshOptions& triangles, bool is_last = false)
+    /// Gives a sheet near an equilibrium new triangles at the same volume.
+    /// @return  false if there is no such equilibrium on them, or it touches itself; then nothing has changed
+    bool renew(State& state, const RemeshOptions& triangles, const Renewal& renewal = {})
     {
         State next = state;
         std::unique_ptr<SheetSolver> solver;
@@ -562,7 +567,7 @@ private:
                 return false;
             }
             solver = solverOf(next.sheet);
-            next.newton = solver->solve(next.sheet, next.volume, next.pressure, within(kSettling));
+            next.newton = solver->solve(next.sheet, next.volume, next.pressure, within(renewal.limits));
             count(next, true);
             if (std::abs(next.pressure - state.pressure) > kSamePressure * std::abs(state.pressure)) {
                 return false;
@@ -574,7 +579,7 @@ private:
         if (!solver || !next.newton.converged) {
             return false;
         }
-        if (!is_last) {
+        if (!renewal.is_last) {
             contact_ = firstContact({&next.sheet});
             if (contact_) {
                 return false;

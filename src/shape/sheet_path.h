@@ -74,10 +74,10 @@ struct SheetStart {
     SheetMesh mesh;
     double pressure = 0.0;  ///< λ over the surface tension [1/m]
     double volume = 0.0;    ///< near that of the target [m³]
-    bool is_last = true;    ///< meets the target, and must not touch itself; otherwise the result is a start in its turn
+    bool is_last = true;  ///< meets the target, and must not touch itself; otherwise the result is a start in its turn
 };
 
-/// Leads a sheet to a target on the triangles that it has.
+/// Leads a sheet to a target on triangles that are much like its own, of the edges and the number of the options.
 /// @return  none if there is no such equilibrium near
 std::optional<FilledSheet> settleSheet(SheetStart start, const SheetTarget& target, const SheetOptions& options);
 

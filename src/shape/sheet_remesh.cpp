@@ -42,6 +42,8 @@ constexpr double kTurn = 0.707;
 /// Cosine of the sharpest edge that is flipped: 60°.
 constexpr double kSharp = 0.5;
 constexpr int kFlipRounds = 10;
+/// Smoothings more of a division: with none, the smallest angles of an A and a star were 2° to 6°, with two 10° to 17°.
+constexpr int kSmoothings = 2;
 /// Most rounds more, until the number of triangles is near the wanted one, and the error that is near.
 constexpr int kCountRounds = 6;
 constexpr double kCountError = 0.05;
@@ -122,6 +124,11 @@ public:
         findNormals();
         flip();
         smooth();
+        // Triangles of a division are even already, but for where their number of neighbours changes.
+        for (int k = 0; k < kSmoothings && options_.rounds == 0; ++k) {
+            findNormals();
+            smooth();
+        }
         flip();
         findSizes();
         const int count_rounds = options_.triangles > 0 ? kCountRounds : 0;
