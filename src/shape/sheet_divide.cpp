@@ -24,10 +24,11 @@ constexpr int kBand = 16;
 constexpr int kSpan = 8;
 /// Coarse vertices of a loop without corners of which the one nearest to a fine vertex begins.
 constexpr std::size_t kStarts = 64;
-/// Longest way of a rim vertex, in coarse edges: that into a rounded corner is 0.2.
-constexpr double kFar = 1.0;
-/// Sweeps of the relaxation: the motion of the rim is shorter than an edge, and fades within some triangles.
-constexpr int kSweeps = 10;
+/// Longest way of a rim vertex, in coarse edges: that into a rounded corner of 90° is 0.2, and 1.7 was seen in acute
+/// ones.
+constexpr double kFar = 4.0;
+/// Sweeps of the relaxation: such a motion fades within some triangles.
+constexpr int kSweeps = 30;
 /// Longest way from the middle of an edge to that of its curve, over the edge.
 constexpr double kBulge = 0.2;
 

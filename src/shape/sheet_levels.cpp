@@ -5,23 +5,26 @@
 // operator equations and their discretizations" (1986).
 #include "shape/sheet_levels.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "shape/sheet_divide.h"
+#include "shape/work.h"
 
 namespace droplet {
 namespace {
 
-/// Share of a path's most work that the coarsest one may take, for where it fails the finest one follows.
-constexpr double kCoarsestShare = 0.2;
+/// Most work on the coarsest mesh, in factorisations: of 255 silhouettes of 40 000 triangles half took 70 and all but
+/// two less than 200, unless the path ended early on every mesh.
+constexpr double kCoarsestFactorisations = 250.0;
 
 }  // namespace
 
 std::optional<FilledSheet> fillByLevels(const std::vector<SheetLevel>& levels, const SheetTarget& target, double& work)
 {
     SheetOptions first = levels.front().options;
-    first.max_work *= kCoarsestShare;
-    first.is_end_confirmed = false;
+    first.max_work = std::min(first.max_work, kCoarsestFactorisations * factorWork(first.triangles));
+    first.is_end_wanted = false;
     FilledSheet filled = fillSheet(levels.front().footprint, target, first);
     work = filled.work;
     double change = 0.0;  // of the volume, by the last level

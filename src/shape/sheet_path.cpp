@@ -194,7 +194,7 @@ public:
     FilledSheet run()
     {
         SheetEnd end = follow();
-        if (keeps_triangles_) {
+        if (keeps_triangles_ || (end != SheetEnd::Reached && !options_.is_end_wanted)) {
             return filled(end);
         }
         options_.max_work *= kConfirmWork;

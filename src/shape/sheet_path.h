@@ -27,6 +27,7 @@ struct SheetOptions {
     std::size_t triangles = 0;     ///< number at the end, > 0; fewer where small ones fail at a fold
     double min_step = 1e-3;        ///< smallest step of the volume, over the volume
     bool is_end_confirmed = true;  ///< on triangles of the final size
+    bool is_end_wanted = true;     ///< otherwise a path that misses its target ends with any sheet
     double max_work = 5e9;         ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds.
                                    ///< Line searches and new triangles count as well;
                                    ///< the final triangles have an allowance of their own

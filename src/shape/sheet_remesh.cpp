@@ -49,6 +49,10 @@ constexpr int kCountRounds = 6;
 constexpr double kCountError = 0.05;
 /// Classes of edges, per doubling of the length, of which the longest is split first.
 constexpr double kLengths = 4.0;
+/// Shape of a triangle, 1 if equilateral, below which its shortest edge is collapsed at the end, that of angles of 15°,
+/// and rounds of that.
+constexpr double kNarrowShape = 0.5;
+constexpr int kMendings = 3;
 /// Shape of a triangle, 1 if equilateral, below which a collapse must not make one, unless there is a worse one.
 constexpr double kGoodShape = 0.35;
 
@@ -143,6 +147,9 @@ public:
             changeTriangles();
         }
         flip();
+        for (int round = 0; round < kMendings && mend(); ++round) {
+            flip();
+        }
         return inSpaceOrder(result());
     }
 
@@ -466,6 +473,45 @@ private:
             mesh_.set_point(kept, place);
             mesh_.collapse(h);
         }
+    }
+
+    /// Collapses the shortest edges of narrow triangles.
+    /// @return  whether there were any
+    bool mend()
+    {
+        findNormals();
+        bool has_collapsed = false;
+        for (const FaceHandle face : mesh_.faces()) {
+            if (mesh_.status(face).deleted()) {
+                continue;
+            }
+            const std::array<VertexHandle, 3> corners = cornersOf(face);
+            if (shapeOf(mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2])) > kNarrowShape) {
+                continue;
+            }
+            HalfedgeHandle h;
+            for (const HalfedgeHandle side : mesh_.fh_range(face)) {
+                const bool is_inside = !onRim(mesh_.from_vertex_handle(side)) || !onRim(mesh_.to_vertex_handle(side));
+                if (is_inside && (!h.is_valid() || mesh_.calc_edge_sqr_length(side) < mesh_.calc_edge_sqr_length(h))) {
+                    h = side;
+                }
+            }
+            if (onRim(mesh_.from_vertex_handle(h))) {
+                h = mesh_.opposite_halfedge_handle(h);
+            }
+            const VertexHandle gone = mesh_.from_vertex_handle(h);
+            const VertexHandle kept = mesh_.to_vertex_handle(h);
+            if (!mesh_.is_collapse_ok(h) || !mayCollapse(h)) {
+                continue;
+            }
+            const Point place = onRim(kept) ? mesh_.point(kept) : middle(gone, kept);
+            if (staysFlat(gone, place, kept) && (onRim(kept) || staysFlat(kept, place, gone))) {
+                mesh_.set_point(kept, place);
+                mesh_.collapse(h);
+                has_collapsed = true;
+            }
+        }
+        return has_collapsed;
     }
 
     /// Whether a collapse leaves no edge inside between two rim vertices.
