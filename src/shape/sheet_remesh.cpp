@@ -147,7 +147,7 @@ public:
             changeTriangles();
         }
         flip();
-        for (int round = 0; round < kMendings && mend(); ++round) {
+        for (int round = 0; round < kMendings && options_.triangles > 0 && mend(); ++round) {
             flip();
         }
         return inSpaceOrder(result());

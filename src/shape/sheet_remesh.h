@@ -16,7 +16,8 @@ struct RemeshOptions {
     bool is_ground_flat = true;  ///< vertices on the ground, z = 0, stay there
     int rounds = 4;              ///< of splitting, collapsing, flipping and smoothing; 0: flips and smoothing alone,
                                  ///< unless the number of triangles is wrong
-    std::size_t triangles = 0;   ///< number that edge is made shorter or longer for; 0: edge stays
+    std::size_t triangles = 0;   ///< number that edge is made shorter or longer for, and narrow ones are mended; 0:
+                                 ///< edge stays
     std::size_t max_triangles = std::numeric_limits<std::size_t>::max();  ///< number at which no edge is split any more
 };
 
