@@ -12,8 +12,9 @@
 // once: the number of triangles over a point is the winding number of the boundary.
 #include "surface/flat_map.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,6 +27,7 @@
 #include <utility>
 #include <vector>
 
+#include "shape/sheet_factor.h"
 #include "shape/sheet_mesh.h"
 
 namespace droplet {
@@ -41,8 +43,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// the vertical projection more and more.
 constexpr double kNarrowest = 0.4;
 
-/// Share of folded triangles up to which the vertical projection is mended around them, so that a picture stays
-/// straight elsewhere; liquid that leans out farther is spread as a whole.
+/// Share of folded triangles up to which the vertical projection is mended around them, from the harmonic map there, so
+/// that a picture stays straight elsewhere; liquid that leans out farther is spread as a whole.
 constexpr double kFewFolds = 0.1;
 /// Folded triangles get these rings of free neighbours around them, then twice as many, up to these where the vertical
 /// projection is mended, and up to these elsewhere.
@@ -161,10 +163,19 @@ struct Density {
     }
 };
 
+/// Solves for both coordinates.
+Places solveBoth(const SheetFactor& factor, const Places& right)
+{
+    Places result(right.rows(), 2);
+    result.col(0) = factor.solve(right.col(0));
+    result.col(1) = factor.solve(right.col(1));
+    return result;
+}
+
 class Flattening {
 public:
     explicit Flattening(const ParametricSheet& sheet)
-        : rim_(sheet.rim), wanted_(wantedTriangles(sheet)), at_(sheet.places.size(), 2)
+        : rim_(sheet.rim), places_(sheet.places), wanted_(wantedTriangles(sheet)), at_(sheet.places.size(), 2)
     {
         for (std::size_t v = 0; v < sheet.places.size(); ++v) {
             at_.row(static_cast<Eigen::Index>(v)) << sheet.places[v].x, sheet.places[v].y;
@@ -184,8 +195,10 @@ private:
     [[nodiscard]] Places gradient(const Places& at, const Indices& triangles, double epsilon) const;
     [[nodiscard]] double leastDeterminant(const Indices& triangles) const;
     [[nodiscard]] double stepLimit(const Places& step, const Indices& triangles) const;
-    /// Sets the map to the harmonic one between the wanted shapes and the picture.
-    void startHarmonic();
+    /// Sets some vertices to the harmonic map between the wanted shapes and the picture.
+    /// @param triangles  those that have one of them
+    /// @return           the factors of its matrix; none if it cannot be factorised
+    std::optional<SheetFactor> startHarmonic(const Indices& triangles, const std::vector<std::uint8_t>& is_free);
     /// Moves along a step while the energy falls. @return the new energy; empty if it does not fall
     std::optional<double> moveAlong(const Places& step, const Indices& triangles, double epsilon, double energy,
                                     double slope);
@@ -203,11 +216,12 @@ private:
     void flatten();
 
     std::uint32_t rim_;
+    const std::vector<Vec3>& places_;  ///< in space
     std::vector<Wanted> wanted_;
     Places at_;
     Indices all_;
-    Eigen::SimplicialLDLT<Sparse> harmonic_;
-    std::size_t work_ = 0;  ///< triangles in Newton's steps so far
+    std::optional<SheetFactor> harmonic_;  ///< of the map of all vertices
+    std::size_t work_ = 0;                 ///< triangles in Newton's steps so far
 };
 
 double Flattening::energy(const Places& at, const Indices& triangles, double epsilon) const
@@ -265,32 +279,48 @@ double Flattening::stepLimit(const Places& step, const Indices& triangles) const
     return limit;
 }
 
-void Flattening::startHarmonic()
+std::optional<SheetFactor> Flattening::startHarmonic(const Indices& triangles, const std::vector<std::uint8_t>& is_free)
 {
-    const Eigen::Index count = at_.rows() - rim_;
+    std::vector<int> unknown(is_free.size(), -1);
+    std::vector<Vec3> places;
+    for (std::size_t v = 0; v < is_free.size(); ++v) {
+        if (is_free[v] != 0) {
+            unknown[v] = static_cast<int>(places.size());
+            places.push_back(places_[v]);
+        }
+    }
+    const auto count = static_cast<Eigen::Index>(places.size());
     std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(6 * wanted_.size());
+    entries.reserve(6 * triangles.size());
     Places load = Places::Zero(count, 2);
-    for (const Wanted& w : wanted_) {
+    for (const std::uint32_t i : triangles) {
+        const Wanted& w = wanted_[i];
         for (std::size_t j = 0; j < 3; ++j) {
-            for (std::size_t k = 0; k < 3; ++k) {
+            const int row = unknown[w.corners[j]];
+            for (std::size_t k = 0; k < 3 && row >= 0; ++k) {
+                const int column = unknown[w.corners[k]];
                 const double entry = w.weight * dot(w.slopes[j], w.slopes[k]);
-                if (w.corners[j] < rim_) {
-                    continue;
-                }
-                if (w.corners[k] < rim_) {
-                    load.row(w.corners[j] - rim_) -= entry * at_.row(w.corners[k]);
-                } else if (w.corners[k] <= w.corners[j]) {
-                    entries.emplace_back(static_cast<int>(w.corners[j] - rim_), static_cast<int>(w.corners[k] - rim_),
-                                         entry);
+                if (column < 0) {
+                    load.row(row) -= entry * at_.row(w.corners[k]);
+                } else if (column <= row) {
+                    entries.emplace_back(row, column, entry);
                 }
             }
         }
     }
     Sparse matrix(count, count);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    harmonic_.compute(matrix);
-    at_.bottomRows(count) = harmonic_.solve(load);
+    SheetFactor factor(matrix, places);
+    if (!factor.factorize(matrix)) {
+        return std::nullopt;
+    }
+    const Places found = solveBoth(factor, load);
+    for (std::size_t v = 0; v < unknown.size(); ++v) {
+        if (unknown[v] >= 0) {
+            at_.row(static_cast<Eigen::Index>(v)) = found.row(unknown[v]);
+        }
+    }
+    return factor;
 }
 
 std::optional<double> Flattening::moveAlong(const Places& step, const Indices& triangles, double epsilon, double before,
@@ -328,10 +358,14 @@ void Flattening::addHessian(const Wanted& w, double epsilon, const std::vector<i
     hessian(3, 0) += density.by_d;
     hessian(1, 2) -= density.by_d;
     hessian(2, 1) -= density.by_d;
-    const Eigen::SelfAdjointEigenSolver<Matrix4d> eigen(hessian);
-    const Matrix4d positive = w.weight * eigen.eigenvectors() *
-                              eigen.eigenvalues().cwiseMax(kLeastEigenvalue * density.stiffness).asDiagonal() *
-                              eigen.eigenvectors().transpose();
+    // Nearly all are positive as they are, which a factorisation tells sooner than the eigenvalues.
+    const double least = kLeastEigenvalue * density.stiffness;
+    if (Eigen::LLT<Matrix4d>(hessian - least * Matrix4d::Identity()).info() != Eigen::Success) {
+        const Eigen::SelfAdjointEigenSolver<Matrix4d> eigen(hessian);
+        hessian =
+            eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(least).asDiagonal() * eigen.eigenvectors().transpose();
+    }
+    const Matrix4d positive = w.weight * hessian;
     for (std::size_t a = 0; a < 3; ++a) {
         for (std::size_t b = 0; b < 3; ++b) {
             const int row = unknown[w.corners[a]];
@@ -357,14 +391,16 @@ void Flattening::addHessian(const Wanted& w, double epsilon, const std::vector<i
 void Flattening::relax(const Indices& triangles, const std::vector<std::uint8_t>& is_free, double epsilon, int steps)
 {
     std::vector<int> unknown(is_free.size(), -1);
+    std::vector<Vec3> places;
     int count = 0;
     for (std::size_t v = 0; v < is_free.size(); ++v) {
         if (is_free[v] != 0) {
             unknown[v] = count;
             count += 2;
+            places.insert(places.end(), 2, places_[v]);
         }
     }
-    Eigen::SimplicialLDLT<Sparse> factor;
+    SheetFactor factor;
     double now = energy(at_, triangles, epsilon);
     for (int n = 0; n < steps; ++n) {
         work_ += triangles.size();
@@ -375,9 +411,11 @@ void Flattening::relax(const Indices& triangles, const std::vector<std::uint8_t>
         Sparse matrix(count, count);
         matrix.setFromTriplets(entries.begin(), entries.end());
         if (n == 0) {
-            factor.analyzePattern(matrix);
+            factor = SheetFactor(matrix, places);
         }
-        factor.factorize(matrix);
+        if (!factor.factorize(matrix)) {
+            return;
+        }
         const Places slopes = gradient(at_, triangles, epsilon);
         Eigen::VectorXd forces(count);
         for (std::size_t v = 0; v < unknown.size(); ++v) {
@@ -439,6 +477,9 @@ bool Flattening::untangle(int most_rings)
                 triangles.push_back(i);
             }
         }
+        if (!harmonic_ && rings == kFirstRings) {
+            startHarmonic(triangles, is_free);
+        }
         double least = leastDeterminant(triangles);
         double epsilon = kFirstEpsilon;
         for (int round = 0; round < kRounds && !(least > 0.0) && work_ < kMostWork; ++round) {
@@ -480,7 +521,7 @@ void Flattening::flatten()
             step -= parts[i] * memory[i].change;
         }
         const Places inner = step.bottomRows(step.rows() - rim_);
-        step.bottomRows(step.rows() - rim_) = harmonic_.solve(inner);
+        step.bottomRows(step.rows() - rim_) = solveBoth(*harmonic_, inner);
         for (std::size_t i = 0; i < memory.size(); ++i) {
             step += (parts[i] - memory[i].inverse_product * product(memory[i].change, step)) * memory[i].motion;
         }
@@ -512,8 +553,10 @@ bool Flattening::run()
     if (static_cast<double>(folded) < kFewFolds * static_cast<double>(wanted_.size()) && untangle(kNearRings)) {
         return true;
     }
-    startHarmonic();
-    if (!untangle(kMostRings)) {
+    std::vector<std::uint8_t> is_free(static_cast<std::size_t>(at_.rows()), 1);
+    std::fill_n(is_free.begin(), rim_, std::uint8_t{0});
+    harmonic_ = startHarmonic(all_, is_free);
+    if (!harmonic_ || !untangle(kMostRings)) {
         return false;
     }
     flatten();
