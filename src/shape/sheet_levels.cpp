@@ -16,6 +16,8 @@ namespace {
 /// Most work on the coarsest mesh, for each of its triangles: of 255 silhouettes of 40 000 triangles, whose coarsest
 /// meshes have 10 000, half took 7000 and all but two less than 20 000, unless the path ended early on every mesh.
 constexpr double kCoarsestWork = 25'000.0;
+/// Relative residual there, below what a finer mesh changes.
+constexpr double kCoarsestTolerance = 1e-4;
 
 }  // namespace
 
@@ -24,6 +26,7 @@ std::optional<FilledSheet> fillByLevels(const std::vector<SheetLevel>& levels, c
     SheetOptions first = levels.front().options;
     first.max_work = std::min(first.max_work, kCoarsestWork * static_cast<double>(first.triangles));
     first.is_end_wanted = false;
+    first.tolerance = kCoarsestTolerance;
     FilledSheet filled = fillSheet(levels.front().footprint, target, first);
     work = filled.work;
     double change = 0.0;  // of the volume, by the last level

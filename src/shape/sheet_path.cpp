@@ -64,8 +64,7 @@ constexpr double kLaid = 0.95;
 constexpr double kFallen = std::numbers::pi / 180.0;
 /// Height over its maximum that proves the maximum.
 constexpr double kLower = 0.99;
-/// Error of the share of a target that is met, on the final triangles and before.
-constexpr double kMet = 1e-9;
+/// Error of the share of a target that is met before the final triangles.
 constexpr double kNear = 1e-4;
 /// Relative residual, and error of the share, of sheets that are a start for finer triangles, which change them by
 /// more.
@@ -165,12 +164,11 @@ public:
         : target_(target),
           options_(options),
           now_{std::move(start.mesh), start.pressure, start.volume, {}},
-          is_final_(true),
-          met_(start.is_last ? kMet : kLoose)
+          is_final_(true)
     {
         options_.max_work = kFinalFactorisations * factorWork(options_.triangles);
-        corrector_.chord = kChord;
-        corrector_.tolerance = start.is_last ? corrector_.tolerance : kLoose;
+        options_.tolerance = start.is_last ? options_.tolerance : kLoose;
+        chord_ = kChord;
     }
 
     /// Leads the start to the target.
@@ -178,7 +176,6 @@ public:
     std::optional<FilledSheet> settled(bool is_last)
     {
         NewtonLimits limits = kSettling;
-        limits.chord = kChord;
         limits.tolerance = kLoose;
         RemeshOptions triangles = trianglesOf(options_.edge);
         triangles.triangles = options_.triangles;
@@ -339,7 +336,7 @@ private:
         }
         const double missing = 1.0 - shareOf(now_.sheet, now_.pressure);
         // On the way to the final triangles a target need not be met better than they change it.
-        if (std::abs(missing) <= (is_final_ ? met_ : kNear)) {
+        if (std::abs(missing) <= (is_final_ ? options_.tolerance : kNear)) {
             return 0.0;
         }
         const double slope = slopeOfShare();
@@ -379,7 +376,7 @@ private:
         State next{now_.sheet, now_.pressure + size * now_.newton.pressure_slope, now_.volume + size, {}};
         next.sheet.places = movedPlaces(now_, size);
         base_.lift(next.sheet.places, next.sheet.rim);
-        next.newton = solver_->solve(next.sheet, next.volume, next.pressure, within(corrector_));
+        next.newton = solver_->solve(next.sheet, next.volume, next.pressure, within({}));
         count(next, false);
         if (!next.newton.converged) {
             return false;
@@ -631,6 +628,8 @@ private:
     [[nodiscard]] NewtonLimits within(NewtonLimits limits) const
     {
         limits.max_work = options_.max_work - work_;
+        limits.tolerance = std::max(limits.tolerance, options_.tolerance);
+        limits.chord = chord_;
         return limits;
     }
 
@@ -661,9 +660,8 @@ private:
     std::vector<double> meshed_angles_;                     ///< of every triangle then [rad]
     std::deque<State> firm_;                                ///< last equilibria that were confirmed on new triangles
     double gap_ = std::numeric_limits<double>::infinity();  ///< change of the volume, over it, until the next one
-    NewtonLimits corrector_;                                ///< of a step of the volume
+    double chord_ = 0.0;                                    ///< as of NewtonLimits
     bool is_final_ = false;                                 ///< the triangles stay until the target
-    double met_ = kMet;                                     ///< error of the share of the target that is met then
     bool keeps_triangles_ = false;                          ///< they stay for good
     bool has_allowance_ = false;                            ///< whether the final triangles got their work
     std::optional<SheetContact> contact_;                   ///< of the sheet with itself, if that stopped the last step

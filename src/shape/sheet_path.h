@@ -26,6 +26,7 @@ struct SheetOptions {
     double path_edge = 0.0;        ///< the same on the way; at least edge
     std::size_t triangles = 0;     ///< number at the end, > 0; fewer where small ones fail at a fold
     double min_step = 1e-3;        ///< smallest step of the volume, over the volume
+    double tolerance = 1e-9;       ///< relative residual of an equilibrium, and error of the target
     bool is_end_confirmed = true;  ///< on triangles of the final size
     bool is_end_wanted = true;     ///< otherwise a path that misses its target ends with any sheet
     double max_work = 5e9;         ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds.
