@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/error.h"
 #include "droplet/footprint/domain.h"
 #include "droplet/mesh/triangulate.h"
 #include "mesh/mean_edge.h"
@@ -200,8 +201,13 @@ std::optional<PlanarMesh> roundInward(const PlanarMesh& footprint, double radius
         }
         Footprint rounded = footprintOf(has_corner ? closed(paths) : paths, unit, edge);
         const bool has_grown = has_corner && area(rounded) > (1.0 + kGrowth) * area(footprint);
-        if (!rounded.rim.points.empty() && rounded.holes.size() + 1 == loops.size() && !has_grown) {
+        if (rounded.rim.points.empty() || rounded.holes.size() + 1 != loops.size() || has_grown) {
+            continue;
+        }
+        try {
             return triangulate({{std::move(rounded)}, {}}, {.edge = edge}).front();
+        } catch (const Error&) {
+            // Loops that leave out vertices may touch each other.
         }
     }
     return std::nullopt;

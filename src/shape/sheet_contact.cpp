@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace droplet {
@@ -18,15 +19,81 @@ using Face = Mesh::Face_index;
 
 /// Least upward part of a normal that no rounding makes.
 constexpr double kUpward = 1e-6;
+/// Triangles beside each other in a cell of the grid that finds what is above others.
+constexpr double kInCell = 2.0;
+/// Most cells along a side.
+constexpr double kMostCells = 4096.0;
 
-/// Whether a sheet is a graph over the plane: nowhere is it upright or upside down, and its rim does not cross itself,
-/// so that its projection covers every place once.
-bool isGraph(const SheetMesh& sheet)
+/// Box around a triangle, seen from above.
+struct Shadow {
+    Vec2 low;
+    Vec2 high;
+
+    Shadow(const std::vector<Vec3>& places, const Triangle& t) : low{places[t[0]].x, places[t[0]].y}, high(low)
+    {
+        for (const std::uint32_t v : t) {
+            low = {std::min(low.x, places[v].x), std::min(low.y, places[v].y)};
+            high = {std::max(high.x, places[v].x), std::max(high.y, places[v].y)};
+        }
+    }
+};
+
+/// Faces that may touch others: those above or below one that does not face up. Where all face up, sheets cover every
+/// place once; and where one breaks through another from below, it does so through its lower side, too.
+std::vector<Face> facesNearFolds(const std::vector<const SheetMesh*>& sheets)
 {
-    return std::all_of(sheet.triangles.begin(), sheet.triangles.end(), [&](const Triangle& t) {
-        const Vec3 normal = areaVector(sheet.places, t);
-        return normal.z > kUpward * length(normal);
-    });
+    std::vector<Shadow> shadows;
+    std::vector<std::uint8_t> is_upward;
+    Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    Vec2 high = -1.0 * low;
+    double width = 0.0;
+    for (const SheetMesh* sheet : sheets) {
+        for (const Triangle& t : sheet->triangles) {
+            const Vec3 normal = areaVector(sheet->places, t);
+            is_upward.push_back(normal.z > kUpward * length(normal) ? 1 : 0);
+            const Shadow& shadow = shadows.emplace_back(sheet->places, t);
+            low = {std::min(low.x, shadow.low.x), std::min(low.y, shadow.low.y)};
+            high = {std::max(high.x, shadow.high.x), std::max(high.y, shadow.high.y)};
+            width += std::max(shadow.high.x - shadow.low.x, shadow.high.y - shadow.low.y);
+        }
+    }
+    std::vector<Face> faces;
+    if (std::find(is_upward.begin(), is_upward.end(), 0) == is_upward.end()) {
+        return faces;
+    }
+    const double extent = std::max(high.x - low.x, high.y - low.y);
+    const double cell = std::max(kInCell * width / static_cast<double>(shadows.size()), extent / kMostCells);
+    const auto columns = static_cast<std::size_t>((high.x - low.x) / cell) + 1;
+    const auto rows = static_cast<std::size_t>((high.y - low.y) / cell) + 1;
+    std::vector<std::uint8_t> is_folded(columns * rows, 0);
+    /// Calls use() for the cells of a shadow, until it returns true.
+    const auto any_cell = [&](const Shadow& shadow, const auto& use) {
+        const auto first = static_cast<std::size_t>((shadow.low.x - low.x) / cell);
+        const auto last = static_cast<std::size_t>((shadow.high.x - low.x) / cell);
+        const auto top = static_cast<std::size_t>((shadow.high.y - low.y) / cell);
+        for (auto row = static_cast<std::size_t>((shadow.low.y - low.y) / cell); row <= top; ++row) {
+            for (std::size_t column = first; column <= last; ++column) {
+                if (use(is_folded[row * columns + column])) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    };
+    for (std::size_t k = 0; k < shadows.size(); ++k) {
+        if (is_upward[k] == 0) {
+            any_cell(shadows[k], [](std::uint8_t& cell_folded) {
+                cell_folded = 1;
+                return false;
+            });
+        }
+    }
+    for (std::size_t k = 0; k < shadows.size(); ++k) {
+        if (any_cell(shadows[k], [](std::uint8_t cell_folded) { return cell_folded != 0; })) {
+            faces.emplace_back(static_cast<Face::size_type>(k));
+        }
+    }
+    return faces;
 }
 
 }  // namespace
@@ -34,7 +101,8 @@ bool isGraph(const SheetMesh& sheet)
 std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets,
                                          const std::vector<std::size_t>& clusters)
 {
-    if (sheets.size() == 1 && isGraph(*sheets.front())) {
+    const std::vector<Face> faces = facesNearFolds(sheets);
+    if (faces.empty()) {
         return std::nullopt;
     }
     Mesh mesh;
@@ -51,7 +119,7 @@ std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sh
         }
     }
     std::vector<std::pair<Face, Face>> pairs;
-    CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
+    CGAL::Polygon_mesh_processing::self_intersections(faces, mesh, std::back_inserter(pairs));
     const auto sheet_of = [&](Face face) {
         const auto after = std::upper_bound(first_face.begin(), first_face.end(), static_cast<std::size_t>(face));
         return static_cast<std::size_t>(after - first_face.begin()) - 1;

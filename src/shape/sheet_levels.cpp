@@ -26,6 +26,7 @@ std::optional<FilledSheet> fillByLevels(const std::vector<SheetLevel>& levels, c
     SheetOptions first = levels.front().options;
     first.max_work = std::min(first.max_work, kCoarsestWork * static_cast<double>(first.triangles));
     first.is_end_wanted = false;
+    first.mends = true;
     first.tolerance = kCoarsestTolerance;
     FilledSheet filled = fillSheet(levels.front().footprint, target, first);
     work = filled.work;

@@ -180,6 +180,7 @@ public:
         RemeshOptions triangles = trianglesOf(options_.edge);
         triangles.triangles = options_.triangles;
         triangles.rounds = 0;
+        triangles.mends = true;
         if (!renew(now_, triangles, {limits, true})) {
             return std::nullopt;
         }
@@ -509,6 +510,7 @@ private:
         };
         RemeshOptions finest = trianglesOf(options_.edge);
         finest.triangles = options_.triangles;
+        finest.mends = options_.mends;
         bool is_done = stands(finest);
         for (double edge = options_.edge; !is_done; edge = std::min(kCoarser * edge, options_.path_edge)) {
             is_done = stands(trianglesOf(edge));

@@ -28,6 +28,7 @@ struct SheetOptions {
     double min_step = 1e-3;        ///< smallest step of the volume, over the volume
     double tolerance = 1e-9;       ///< relative residual of an equilibrium, and error of the target
     bool is_end_confirmed = true;  ///< on triangles of the final size
+    bool mends = false;            ///< the final triangles, as of RemeshOptions
     bool is_end_wanted = true;     ///< otherwise a path that misses its target ends with any sheet
     double max_work = 5e9;         ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds.
                                    ///< Line searches and new triangles count as well;

@@ -49,8 +49,8 @@ constexpr int kCountRounds = 6;
 constexpr double kCountError = 0.05;
 /// Classes of edges, per doubling of the length, of which the longest is split first.
 constexpr double kLengths = 4.0;
-/// Shape of a triangle, 1 if equilateral, below which its shortest edge is collapsed at the end, that of angles of 15°,
-/// and rounds of that.
+/// Shape of a triangle, 1 if equilateral, below which the shortest edge of a divided one is collapsed, that of angles
+/// of 15°, and rounds of that. After other rounds, sheets with folds were in equilibrium on fewer triangles with it.
 constexpr double kNarrowShape = 0.5;
 constexpr int kMendings = 3;
 /// Shape of a triangle, 1 if equilateral, below which a collapse must not make one, unless there is a worse one.
@@ -134,20 +134,22 @@ public:
             smooth();
         }
         flip();
-        findSizes();
         const int count_rounds = options_.triangles > 0 ? kCountRounds : 0;
-        bool is_near = false;
-        for (int round = 0; round < count_rounds && !is_near; ++round) {
-            is_near = !changeSizes(trianglesOfSizes());
-        }
-        for (int round = 0; round < options_.rounds; ++round) {
-            changeTriangles();
+        if (options_.rounds > 0) {
+            findSizes();
+            bool is_near = false;
+            for (int round = 0; round < count_rounds && !is_near; ++round) {
+                is_near = !changeSizes(trianglesOfSizes());
+            }
+            for (int round = 0; round < options_.rounds; ++round) {
+                changeTriangles();
+            }
         }
         for (int round = 0; round < count_rounds && changeSizes(static_cast<double>(faceCount())); ++round) {
             changeTriangles();
         }
         flip();
-        for (int round = 0; round < kMendings && options_.triangles > 0 && mend(); ++round) {
+        for (int round = 0; round < kMendings && options_.mends && mend(); ++round) {
             flip();
         }
         return inSpaceOrder(result());

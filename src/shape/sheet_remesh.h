@@ -14,10 +14,11 @@ struct RemeshOptions {
     double edge = 0.0;           ///< largest edge inside [m], > 0
     double min_edge = 0.0;       ///< smallest edge that curvature may ask for [m], > 0
     bool is_ground_flat = true;  ///< vertices on the ground, z = 0, stay there
-    int rounds = 4;              ///< of splitting, collapsing, flipping and smoothing; 0: flips and smoothing alone,
-                                 ///< unless the number of triangles is wrong
-    std::size_t triangles = 0;   ///< number that edge is made shorter or longer for, and narrow ones are mended; 0:
-                                 ///< edge stays
+    int rounds = 4;      ///< of splitting, collapsing, flipping and smoothing; 0, for divided triangles: flips and
+                         ///< smoothing alone, unless their number is wrong
+    bool mends = false;  ///< narrow triangles are collapsed at the end; in folds, where they are needed, sheets
+                         ///< may then find no equilibrium
+    std::size_t triangles = 0;  ///< number that edge is made shorter or longer for; 0: edge stays
     std::size_t max_triangles = std::numeric_limits<std::size_t>::max();  ///< number at which no edge is split any more
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "droplet/mesh/triangulate.h"
 #include "support/domains.h"
@@ -70,6 +71,31 @@ TEST(RoundInward, ClosesSlitsAndKeepsHoles)
     EXPECT_EQ(rounded->loopCount(), 2U);
     // What is left of the slit is its round mouth.
     EXPECT_NEAR(area(*rounded), 4.0 - 0.16, 2e-3);
+}
+
+// A film of liquid between rim and hole, far thinner than the edges that are left: loops may then touch each other.
+TEST(RoundInward, NeverThrowsOnCoarseTriangles)
+{
+    const auto wavy = [](double inset) {
+        std::vector<Vec2> points;
+        for (int k = 0; k < 800; ++k) {
+            const double angle = 2.0 * std::numbers::pi * k / 800.0;
+            const double radius = 1.0 - inset + 0.05 * std::cos(40.0 * angle);
+            points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+        }
+        return testing::smoothLoop(points);
+    };
+    for (const double gap : {0.03, 0.01, 0.005}) {
+        const PlanarMesh mesh = triangulate(domainOf(wavy(0.0), {reversed(wavy(gap))}), {.edge = 0.05}).front();
+        for (const double edge : {0.1, 0.4, 1.6}) {
+            for (const double radius : {0.0, 0.5 * edge}) {
+                const std::optional<PlanarMesh> rounded = roundInward(mesh, radius, edge);
+                if (rounded) {
+                    EXPECT_NO_THROW(rounded->validate());
+                }
+            }
+        }
+    }
 }
 
 }  // namespace
