@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "shape/sheet_path.h"
@@ -44,6 +46,23 @@ TEST(SheetContact, FindsNeighboursThatTouch)
     EXPECT_EQ(contact->second, 1U);
     EXPECT_NEAR(contact->place.x, 0.975 * reach, 0.2);
     EXPECT_NEAR(contact->place.y, 0.0, 0.5);
+}
+
+// A needle that faces up everywhere stands below an overhang: its tip is under it, within it, or above all of it.
+TEST(SheetContact, FindsWhatStandsBelowAnOverhang)
+{
+    const SheetMesh bead = cap();
+    const PlanarMesh disc = testing::discMeshes(0.3).front();
+    for (const double height : {0.05, 0.7, 5.0}) {
+        for (const double x : {1.25, 2.0}) {
+            SheetMesh needle{{}, disc.triangles, disc.rimVertexCount()};
+            for (const Vec2 p : disc.vertices) {
+                needle.places.push_back({x + 0.1 * p.x, 0.1 * p.y, height * std::max(0.0, 1.0 - length(p))});
+            }
+            EXPECT_FALSE(firstContact({&needle}));
+            EXPECT_EQ(firstContact({&bead, &needle}).has_value(), x < 1.5 && height > 0.1) << x << ' ' << height;
+        }
+    }
 }
 
 TEST(SheetContact, FindsASheetThatCrossesItself)
