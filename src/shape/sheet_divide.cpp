@@ -188,7 +188,8 @@ std::optional<std::vector<std::size_t>> match(const Loop& coarse, const Loop& fi
             return std::nullopt;
         }
         const auto row = static_cast<std::size_t>(i);
-        best = rows[row][static_cast<std::size_t>(best - centres[row] + kBand)].from;
+        const int column = best - centres[row] + kBand;
+        best = rows[row][static_cast<std::size_t>(column)].from;
     }
     return matched;
 }
