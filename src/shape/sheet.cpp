@@ -314,6 +314,7 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
     double work = 0.0;
     std::optional<FilledSheet> filled = levels.size() > 1 ? fillByLevels(levels, target, work) : std::nullopt;
     if (!filled) {
+        levels.back().options.max_work = std::max(levels.back().options.max_work - work, 0.0);
         filled = fillSheet(levels.back().footprint, target, levels.back().options);
         filled->work += work;
     }
