@@ -32,9 +32,6 @@ using namespace droplet;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kAngle = 140.0 * kPi / 180.0;
-/// Triangles of the sheet over those of its footprint: edges are 1.5 times as long on 8.6 times the area, with shorter
-/// ones along the rim.
-constexpr double kSheetPart = 4.3;
 constexpr int kRuns = 3;
 
 /// Times of a run [s].
@@ -93,7 +90,7 @@ void timeCaps(std::size_t threads, const std::vector<double>& sizes)
     double first_time = 0.0;
     double first_count = 0.0;
     for (const double size : sizes) {
-        const PlanarMesh mesh = disc(size / kSheetPart);
+        const PlanarMesh mesh = disc(size);
         options.fill = {FillBy::Volume, kPi / 3.0 * std::pow(radius, 3) * (2.0 + std::cos(kAngle)) * rise * rise,
                         FillSharing::Each};
         Times by_volume;

@@ -413,7 +413,7 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
     }
     SolveOptions rest = options;
     rest.max_work = std::max(most - shape.work, 0.0);
-    shape.sheet = solveSheet(meshes, rest, has_stand_in ? SheetEffort::Slight : effort, reached);
+    shape.sheet = solveSheet(meshes, rest, has_stand_in ? SheetEffort::Trial : effort, reached);
     shape.work += shape.sheet->work;
     if (shape.sheet->end != SheetEnd::Reached && is_steep) {
         solve_quickly();

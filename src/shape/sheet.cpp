@@ -306,6 +306,7 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
         levels.insert(levels.begin(), levelOf(footprints, options, {scale, share}, may_round));
         SheetOptions& own = levels.front().options;
         own.is_end_confirmed = effort == SheetEffort::Full;
+        own.is_end_wanted = effort != SheetEffort::Trial;
         own.max_work = may_round ? most - rounding : 0.0;
         own.reached = reached;
         scale *= 2.0;

@@ -41,7 +41,8 @@ enum class SheetEnd {
 
 /// How hard solveSheet() tries.
 enum class SheetEffort {
-    Slight,  ///< 4 % of the work; the end of what the footprint holds is not confirmed
+    Trial,   ///< 4 % of the work; a sheet that misses the target may have any triangles
+    Slight,  ///< 4 %; the end of what the footprint holds is not confirmed
     Modest,  ///< 30 %; likewise
     Full,    ///< at the end, finer triangles confirm it
 };
