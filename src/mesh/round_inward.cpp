@@ -12,6 +12,7 @@
 #include "droplet/footprint/domain.h"
 #include "droplet/mesh/triangulate.h"
 #include "mesh/mean_edge.h"
+#include "mesh/rim_corner.h"
 
 namespace droplet {
 namespace {
@@ -19,8 +20,6 @@ namespace {
 using ClipperLib::Path;
 using ClipperLib::Paths;
 
-/// Turn of the rim at a vertex that is a corner, and not a part of an arc [rad].
-constexpr double kCorner = 0.5;
 /// Distance between arcs and their chords, and of vertices that are dropped, over the radius.
 constexpr double kChord = 0.002;
 constexpr double kDropped = 0.004;
@@ -50,7 +49,7 @@ double turnAt(const std::vector<Vec2>& loop, std::size_t i)
     const std::size_t count = loop.size();
     const Vec2 in = loop[i] - loop[(i + count - 1) % count];
     const Vec2 out = loop[(i + 1) % count] - loop[i];
-    return std::atan2(cross(in, out), dot(in, out));
+    return turnBetween(in, out);
 }
 
 std::vector<std::vector<Vec2>> loopsOf(const PlanarMesh& mesh)

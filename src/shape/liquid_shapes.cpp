@@ -175,6 +175,13 @@ std::string refusal(const SolveReport& report, const Refused& refused)
            "); try another number of triangles";
 }
 
+/// Options of a search that ends early where there is no height field.
+SolveOptions quickly(SolveOptions options)
+{
+    options.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
+    return options;
+}
+
 /// Height fields, or none where no volume gives the amount.
 Solution findFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, const Progress& progress)
 {
@@ -206,21 +213,24 @@ struct Probe {
 /// @return  none where fine triangles are few, or stay with height fields
 std::optional<Probe> probe(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
 {
+    const auto is_large = [](const PlanarMesh& mesh) {
+        return static_cast<double>(mesh.triangles.size()) > 4.0 * kProbe;
+    };
+    if (std::none_of(meshes.begin(), meshes.end(), is_large) || areWidePuddles(meshes, options)) {
+        return std::nullopt;
+    }
     std::vector<PlanarMesh> coarse;
     bool is_fine = false;
     for (const PlanarMesh& mesh : meshes) {
-        const bool is_large = static_cast<double>(mesh.triangles.size()) > 4.0 * kProbe;
         std::optional<PlanarMesh> changed =
-            is_large ? roundInward(mesh, 0.0, meanEdge(area(mesh), kProbe)) : std::nullopt;
+            is_large(mesh) ? roundInward(mesh, 0.0, meanEdge(area(mesh), kProbe)) : std::nullopt;
         is_fine = is_fine || changed;
         coarse.push_back(changed ? *std::move(changed) : mesh);
     }
-    if (!is_fine || areWidePuddles(meshes, options)) {
+    if (!is_fine) {
         return std::nullopt;
     }
-    SolveOptions quick = options;
-    quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
-    const Solution solution = findFields(coarse, quick, {});
+    const Solution solution = findFields(coarse, quickly(options), {});
     const bool exists = solution.report.usable() && haveLiquid(coarse, solution.droplets, options);
     const bool is_steep = exists ? std::any_of(solution.droplets.begin(), solution.droplets.end(), isUpright)
                                  : solution.report.termination != Termination::Unstable;
@@ -390,9 +400,8 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
         shape.report = *before.failed;
     }
     const auto solve_quickly = [&] {
-        SolveOptions quick = options;
+        SolveOptions quick = quickly(options);
         quick.max_work = std::min(field_work, std::max(most - shape.work, 0.0));
-        quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
         Shape quick_shape = solveFields(meshes, quick);
         quick_shape.sheet = std::move(shape.sheet);
         quick_shape.work += shape.work;
@@ -628,9 +637,8 @@ bool refillFields(const std::vector<PlanarMesh>& meshes, const std::vector<doubl
                   const SolveOptions& options, LiquidShapes& shapes)
 {
     std::vector<PlanarMesh> own_meshes;
-    SolveOptions own = options;
+    SolveOptions own = quickly(options);
     own.model = shapes.solution.report.model;
-    own.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
     own.volumes.clear();
     std::vector<std::size_t> own_places;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
@@ -751,9 +759,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     const std::optional<Probe> probed = !mustHang(options) && !any_followed ? probe(meshes, options) : std::nullopt;
     const bool tried = !mustHang(options) && !any_followed && !(probed && probed->is_steep);
     if (tried) {
-        SolveOptions quick = options;
-        quick.max_newton_steps = std::min(options.max_newton_steps, kQuickSteps);
-        solution = findFields(meshes, quick, progress);
+        solution = findFields(meshes, quickly(options), progress);
         shapes.work = solution.report.work;
         has_fields = solution.report.usable() && haveLiquid(meshes, solution.droplets, options);
         if (has_fields && std::none_of(solution.droplets.begin(), solution.droplets.end(), isUpright)) {

@@ -11,6 +11,7 @@
 #include "blocks.h"
 #include "droplet/error.h"
 #include "mesh/mean_edge.h"
+#include "mesh/rim_corner.h"
 #include "mesh/round_inward.h"
 #include "number_text.h"
 #include "shape/puddle.h"
@@ -52,8 +53,6 @@ constexpr double kLeastWork = 3e8;
 constexpr double kMostWork = 4e10;
 /// Work of rounding a rim, over the square of its vertices. Noise is the worst case: 174 000 took two minutes.
 constexpr double kRoundingWork = 2.0;
-/// Turn of the rim at a corner [rad].
-constexpr double kCorner = 0.5;
 /// Share of it for slight and modest efforts: of the masks of data/, none is made with 0.1 that is not with 0.03.
 constexpr double kSlightWork = 0.04;
 constexpr double kModestWork = 0.3;
@@ -189,7 +188,7 @@ std::vector<double> smoothed(const PlanarMesh& footprint, const std::vector<doub
         const auto is_corner = [&](std::uint32_t i) {
             const Vec2 in = side(i + count - 1);
             const Vec2 out = side(i);
-            return std::abs(std::atan2(cross(in, out), dot(in, out))) > kCorner;
+            return std::abs(turnBetween(in, out)) > kCorner;
         };
         for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t next = (i + 1) % count;

@@ -13,11 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/rim_corner.h"
+
 namespace droplet {
 namespace {
 
-/// Turn of a rim at a corner, which goes to a corner [rad], and what another vertex costs, in squared edges.
-constexpr double kCorner = 0.5;
+/// What it costs if a corner does not go to a corner, in squared edges.
 constexpr double kNoCorner = 1.0;
 /// Fine vertices beside the likeliest one that are tried, and most that an edge of the coarse rim spans.
 constexpr int kBand = 16;
@@ -55,7 +56,7 @@ std::vector<Loop> loopsOf(const PlanarMesh& mesh)
         for (std::size_t i = 0; i < count; ++i) {
             const Vec2 in = loop.places[i] - loop.places[(i + count - 1) % count];
             const Vec2 out = loop.places[(i + 1) % count] - loop.places[i];
-            loop.corner.push_back(std::abs(std::atan2(cross(in, out), dot(in, out))) > kCorner ? 1 : 0);
+            loop.corner.push_back(std::abs(turnBetween(in, out)) > kCorner ? 1 : 0);
             loop.length += length(out);
             loop.middle = loop.middle + length(out) * (loop.places[i] + 0.5 * out);
             loop.area += 0.5 * cross(loop.places[i], loop.places[i] + out);
