@@ -258,6 +258,26 @@ std::vector<std::vector<double>> unknownWidths(const std::vector<Loop>& loops)
     return widths;
 }
 
+/// Reduces lengths to the distances of corners along a closed loop, which are vertices.
+void limitToCorners(std::vector<double>& lengths, const Loop& loop, const std::vector<double>& arc)
+{
+    const std::size_t n = lengths.size();
+    std::optional<std::size_t> last;
+    for (std::size_t k = 0; k < 2 * n; ++k) {
+        const std::size_t i = k % n;
+        if (loop.corner[i] == 0) {
+            continue;
+        }
+        if (last && *last % n != i) {
+            const double way = arc[i] - arc[*last % n] + (i < *last % n ? arc.back() : 0.0);
+            for (std::size_t j = *last; j <= k; ++j) {
+                lengths[j % n] = std::min(lengths[j % n], way);
+            }
+        }
+        last = k;
+    }
+}
+
 /// Reduces lengths so that they change along a closed loop no faster than kGradation.
 void grade(std::vector<double>& lengths, const std::vector<double>& arc)
 {
@@ -622,6 +642,7 @@ std::vector<RimPolygon> RimSampler::sample(double edge) const
         for (std::size_t i = 0; i < lengths.size(); ++i) {
             lengths[i] = std::min(edge, std::max(finest_, widths_[k][i]));
         }
+        limitToCorners(lengths, loops_[k], sampling.arc);
         grade(lengths, sampling.arc);
         distribute(sampling, lengths);
         splitBulges(sampling, std::min(edge, finest_));

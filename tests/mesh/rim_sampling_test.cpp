@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "support/domains.h"
 #include "support/zoo.h"
 
 namespace droplet {
@@ -64,6 +66,27 @@ TEST(RimSampler, PolygonsKeepTheLoopsAreaAndTheirOrder)
             EXPECT_NEAR(sum / area(footprint), 1.0, 5e-3);
         }
     }
+}
+
+// A side between two corners is an edge, whatever length is asked for. Next to it, edges grow little by little: in the
+// triangles between a long edge and much shorter ones, liquid that leans out found no equilibrium.
+TEST(RimSampler, EdgesGrowFromShortSides)
+{
+    constexpr double kSide = 0.02;
+    const Loop notched = testing::polygonLoop(
+        {{0, 0}, {2, 0}, {2, 1}, {1 + kSide, 1}, {1 + kSide, 1 - kSide}, {1, 1 - kSide}, {1, 1}, {0, 1}});
+    const RimPolygon polygon = RimSampler({.rim = notched, .holes = {}}, 0.2).sample(0.2).front();
+    const auto edge = [&](std::size_t i) {
+        return length(polygon[(i + 1) % polygon.size()] - polygon[i % polygon.size()]);
+    };
+    double shortest = 1.0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        shortest = std::min(shortest, edge(i));
+        EXPECT_LT(edge(i + 1), 2.2 * edge(i)) << i;
+        EXPECT_GT(edge(i + 1), edge(i) / 2.2) << i;
+        EXPECT_LT(edge(i), 0.3);
+    }
+    EXPECT_NEAR(shortest, kSide, 1e-12);
 }
 
 }  // namespace

@@ -321,9 +321,9 @@ TEST(Sheet, LeansOverInnerCornersAndLiesOnTheGround)
         grounded += result.sheet.places[v].z == 0.0 ? 1 : 0;
     }
     EXPECT_GT(grounded, 10U);
-    // The finer mesh has less energy.
+    // The finer mesh has less energy. With edges of 0.06, folds take nearly all triangles, as they do with 0.08.
     const ShapeFigures fine = [&] {
-        const PlanarMesh finer = triangulate(domainOf(loop), {.edge = 0.06}).front();
+        const PlanarMesh finer = triangulate(domainOf(loop), {.edge = 0.04}).front();
         return measure(solveSheet(finer, options).sheet, options);
     }();
     EXPECT_LT(fine.surface_energy, figures.surface_energy);
