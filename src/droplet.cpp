@@ -540,11 +540,10 @@ std::vector<double> volumesOf(const std::vector<PlanarMesh>& meshes, const Dropl
     return volumes;
 }
 
-void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
-            const Progress& progress, std::vector<std::optional<SheetResult>> followed)
+void finish(Droplet& droplet, const DropletOptions& options, const Progress& progress, FilmState film)
 {
     SolveOptions solved = solveOptions(options);
-    const LiquidShapes shapes = solveShapes(droplet.meshes, solved, options.allow_less, progress, std::move(followed));
+    const LiquidShapes shapes = solveShapes(droplet.meshes, solved, options.allow_less, progress, std::move(film.followed));
     droplet.solution = shapes.solution;
     droplet.sheets = shapes.sheets;
     solved.model = droplet.solution.report.model;
@@ -555,8 +554,11 @@ void finish(Droplet& droplet, const DropletOptions& options, const std::vector<P
     droplet.total = combine(droplet.figures);
     const std::size_t dry = requireLiquid(droplet.figures, solved.no_penetration);
     droplet.limits = limitsOf(droplet, shapes, solved);
-    LoftOptions lofting{
-        .open = options.open, .extent = droplet.domain.extent, .ground = options.solve.ground, .bases = bases};
+    LoftOptions lofting{.open = options.open,
+                        .extent = droplet.domain.extent,
+                        .ground = options.solve.ground,
+                        .bases = std::move(film.bases),
+                        .keeps_dry = film.keeps_triangles || options.fill_range};
     const bool is_affine = solved.model == Model::Linear;
     if (options.fill_range && is_affine) {
         lofting.refill = {*options.fill_range, gainsPerFill(droplet.meshes, droplet.solution.droplets, solved)};
@@ -602,7 +604,7 @@ Droplet makeDroplet(Domain domain, const DropletOptions& options, const Progress
         progress(Stage::Triangulate, 0.0);
     }
     droplet.meshes = meshesOf(droplet.domain, options).meshes;
-    finish(droplet, options, {}, progress);
+    finish(droplet, options, progress);
     return droplet;
 }
 

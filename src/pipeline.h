@@ -16,13 +16,18 @@ struct DomainMeshes {
 };
 DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options);
 
+/// What is known of a droplet in a film.
+struct FilmState {
+    std::vector<PlanarMesh> bases = {};  ///< cover() of every mesh, or of its sheet's footprint; or empty
+    /// Sheets that are solved already, one per droplet, or one for all at one pressure; or empty.
+    std::vector<std::optional<SheetResult>> followed = {};
+    bool keeps_triangles = false;  ///< those of sheets stay from frame to frame, as of LoftOptions::keeps_dry
+};
+
 /// Runs the stages after meshing: solve, measure, loft.
-/// @param droplet   with outline, domain and meshes
-/// @param bases     cover() of every mesh, or of its sheet's footprint, if known; otherwise empty
-/// @param followed  sheets that are solved already, one per droplet, or one for all at one pressure; or empty
-/// @throws Error    NoSuchDroplet if the solver failed
-void finish(Droplet& droplet, const DropletOptions& options, const std::vector<PlanarMesh>& bases,
-            const Progress& progress, std::vector<std::optional<SheetResult>> followed = {});
+/// @param droplet  with outline, domain and meshes
+/// @throws Error   NoSuchDroplet if the solver failed
+void finish(Droplet& droplet, const DropletOptions& options, const Progress& progress, FilmState film = {});
 
 /// Volumes that the fill of the options gives to droplets [m³].
 /// @throws Error  NoSuchDroplet

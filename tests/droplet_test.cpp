@@ -914,7 +914,41 @@ TEST(Droplet, RefusalsNameReasonAndLimit)
     EXPECT_NEAR(limit * kMicrolitre / (1.0970 * radius * radius * radius), 1.0, 0.01);
     EXPECT_THAT(refusal({.tilt = 90.0 * kDegree}), HasSubstr("gravity pulls more over the rim"));
     EXPECT_THAT(refusal({.tilt = 90.0 * kDegree, .no_penetration = true}),
-                HasSubstr("more liquid would hang over its rim"));
+                HasSubstr("gravity pulls more over the rim"));
+}
+
+// On a wall a height field with no_penetration ends at 62 uL, where it is upright downhill.
+TEST(Droplet, HangsOverItsRimOnAWallThatItLeavesDry)
+{
+    const double radius = 10.0 * kMillimetre;
+    DropletOptions options;
+    options.trace.pixel_size = radius / 50.0;
+    options.mesh.triangles = 4'000;
+    options.solve.model = Model::Auto;
+    options.solve.tilt = 90.0 * kDegree;
+    options.solve.fill = {FillBy::Volume, 100.0 * kMicrolitre, FillSharing::Each};
+    const Mask mask = smoothMask(128, 128, disc({64.0, 64.0}, 50.0));
+    options.solve.no_penetration = true;
+    const Droplet droplet = makeDroplet(mask, options);
+    EXPECT_NEAR(droplet.total.volume / options.solve.fill.amount, 1.0, 1e-9);
+    EXPECT_GT(droplet.total.contact_angle.max, 95.0 * kDegree);
+    EXPECT_GT(droplet.total.dry_area, 0.5 * droplet.total.footprint_area);
+    EXPECT_GE(droplet.total.depth_max, 0.0);
+    // The mesh is the liquid alone: closed, with a base under it.
+    EXPECT_TRUE(isClosed(droplet.surface));
+    EXPECT_NO_THROW(droplet.surface.validate());
+    EXPECT_NEAR(enclosedVolume(droplet.surface) / droplet.total.volume, 1.0, 1e-6);
+    const SurfacePart& part = droplet.surface.parts.front();
+    EXPECT_EQ(part.triangles, droplet.surface.triangles.size());
+    EXPECT_NEAR(part.area, droplet.total.footprint_area - droplet.total.dry_area, 1e-12);
+    double base = 0.0;
+    for (const Triangle& t : droplet.surface.triangles) {
+        const auto& p = droplet.surface.positions;
+        if (p[t[0]].z == 0.0 && p[t[1]].z == 0.0 && p[t[2]].z == 0.0) {
+            base += 0.5 * length(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
+        }
+    }
+    EXPECT_NEAR(base / part.area, 1.0, 0.02) << "no liquid without thickness";
 }
 
 TEST(Droplet, WarnsOfATriangleCountOutOfReach)

@@ -506,7 +506,8 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
         progress(Stage::Triangulate, 0.0);
     }
     FrameLineage lineage = triangulateAnew(frame.droplet.domain, options.droplet, frame.droplet.meshes);
-    finish(frame.droplet, options.droplet, lineage.bases, progress);
+    finish(frame.droplet, options.droplet, progress,
+           {.bases = lineage.bases, .keeps_triangles = options.keep_vertices});
     for (const ShapeFigures& figures : frame.droplet.figures) {
         frame.droplets.push_back({lineage.next_id++, {}, figures.volume});
     }
@@ -596,7 +597,8 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     if (!sheets) {
         sheets = FollowedSheets{{}, lineage->bases};
     }
-    finish(frame.droplet, frame_options, sheets->bases, progress, std::move(sheets->sheets));
+    finish(frame.droplet, frame_options, progress,
+           {sheets->bases, std::move(sheets->sheets), options.keep_vertices});
     if (count > 0) {
         frame.vertices_kept = keptShare(before.droplet, frame.droplet, followed, kept);
     }

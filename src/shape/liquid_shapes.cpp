@@ -83,11 +83,11 @@ bool isWidePuddle(const PlanarMesh& mesh, double layer)
     return rim_edge < kShorter * edge && kEdgesPerLayer * edge > layer;
 }
 
-/// Whether liquid may hang over its rim. With no_penetration, ground that is dry inside of the footprint is cut out of
-/// the surface, which height fields know alone.
+/// Whether liquid may hang over its rim. Ground that is not flat and dry is cut out of height fields alone, as
+/// no_penetration promises.
 bool mayHang(const SolveOptions& options)
 {
-    return options.model != Model::Linear && !options.no_penetration;
+    return options.model != Model::Linear && (options.ground.flat() || !options.no_penetration);
 }
 
 /// Whether there is no height field for sure.

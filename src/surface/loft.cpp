@@ -283,6 +283,29 @@ std::vector<SurfacePart> partsOf(const std::vector<Piece>& pieces, const std::ve
     return parts;
 }
 
+/// @return  none if the sheet has to stay whole
+std::vector<ParametricSheet> wetPartsOf(const ParametricSheet& sheet, const LoftOptions& options)
+{
+    return options.keeps_dry || !options.ground.flat() ? std::vector<ParametricSheet>{} : wetParts(sheet);
+}
+
+/// Surface of the parts of one droplet.
+Surface loftAll(const std::vector<ParametricSheet>& parts, LoftOptions options)
+{
+    options.keeps_dry = true;
+    Surface surface;
+    SurfacePart whole;
+    for (const ParametricSheet& part : parts) {
+        options.bases = {part.footprint};
+        append(surface, loft(part, options));
+        whole.area += surface.parts.back().area;
+    }
+    whole.vertices = surface.positions.size();
+    whole.triangles = surface.triangles.size();
+    surface.parts = {whole};
+    return surface;
+}
+
 }  // namespace
 
 void LoftOptions::validate() const
@@ -364,6 +387,9 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
     const PlanarMesh& footprint = sheet.footprint;
     if (sheet.rim != footprint.rimVertexCount() || sheet.contact_angle.size() != sheet.rim) {
         throw Error(ErrorCode::InvalidArgument, "the sheet's rim must be that of its footprint");
+    }
+    if (const std::vector<ParametricSheet> parts = wetPartsOf(sheet, options); !parts.empty()) {
+        return loftAll(parts, options);
     }
     HeightField ground;
     if (!options.ground.flat()) {

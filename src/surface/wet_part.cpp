@@ -2,11 +2,14 @@
 #include "surface/wet_part.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <utility>
 
+#include "droplet/mesh/triangulate.h"
+#include "shape/sheet_mesh.h"
 #include "surface/rim_normals.h"
 
 namespace droplet {
@@ -23,6 +26,17 @@ std::uint32_t nextInTriangle(std::uint32_t half_edge)
 std::uint32_t previousInTriangle(std::uint32_t half_edge)
 {
     return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
+}
+
+std::vector<Triangle> wetTriangles(const std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& is_dry)
+{
+    std::vector<Triangle> wet;
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        if (is_dry[k] == 0) {
+            wet.push_back(triangles[k]);
+        }
+    }
+    return wet;
 }
 
 std::vector<Triangle> liquidTriangles(const PlanarMesh& mesh, const HeightField& field)
@@ -108,8 +122,9 @@ Manifold manifoldOf(std::vector<Triangle> triangles, std::size_t vertex_count)
 std::vector<std::vector<std::uint32_t>> trianglesOfParts(const Manifold& liquid)
 {
     std::vector<std::vector<std::uint32_t>> parts;
-    std::vector<std::uint8_t> seen(liquid.triangles.size(), 0);
-    for (std::uint32_t start = 0; start < seen.size(); ++start) {
+    const auto count = static_cast<std::uint32_t>(liquid.triangles.size());
+    std::vector<std::uint8_t> seen(count, 0);
+    for (std::uint32_t start = 0; start < count; ++start) {
         if (seen[start] != 0) {
             continue;
         }
@@ -130,22 +145,33 @@ std::vector<std::vector<std::uint32_t>> trianglesOfParts(const Manifold& liquid)
     return parts;
 }
 
+/// Connected triangles that remain, as a manifold in numbers of its own; vertices of the rim come first, as those of a
+/// PlanarMesh.
+struct Part {
+    std::vector<std::array<std::uint32_t, 2>> origins;  ///< two vertices of the whole that each lies half-way between;
+                                                        ///< or one of them, twice
+    std::vector<std::uint32_t> loop_starts;
+    std::vector<Triangle> triangles;
+
+    [[nodiscard]] std::uint32_t rimVertexCount() const { return loop_starts.back(); }
+    [[nodiscard]] bool isMiddle(std::size_t vertex) const { return origins[vertex][0] != origins[vertex][1]; }
+};
+
 /// Makes all parts.
 class PartMaker {
 public:
-    PartMaker(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
-        : mesh_(mesh),
-          field_(field),
-          ground_(ground),
-          liquid_(manifoldOf(liquidTriangles(mesh, field), mesh.vertices.size())),
+    /// @param places  of all vertices, seen from above
+    PartMaker(std::vector<Triangle> triangles, const std::vector<Vec2>& places)
+        : places_(places),
+          liquid_(manifoldOf(std::move(triangles), places.size())),
           number_(liquid_.fan_count, kNone),
           middle_(liquid_.twins.size(), kNone)
     {
     }
 
-    std::vector<WetPart> makeAll()
+    std::vector<Part> makeAll()
     {
-        std::vector<WetPart> parts;
+        std::vector<Part> parts;
         for (const std::vector<std::uint32_t>& triangles : trianglesOfParts(liquid_)) {
             parts.push_back(make(triangles));
         }
@@ -158,41 +184,32 @@ private:
         return liquid_.triangles[half_edge / 3][half_edge % 3];
     }
 
-    WetPart make(const std::vector<std::uint32_t>& triangles)
+    Part make(const std::vector<std::uint32_t>& triangles)
     {
-        WetPart part;
-        part.field.pressure = field_.pressure;
-        const std::vector<std::uint32_t> rim = addRim(part, triangles);
+        Part part;
+        addRim(part, triangles);
         for (const std::uint32_t i : triangles) {
             for (std::uint32_t h = 3 * i; h < 3 * i + 3; ++h) {
                 std::uint32_t& number = number_[liquid_.fans[h]];
                 if (number == kNone) {
-                    number = addVertex(part, vertexAt(h));
+                    number = addVertex(part, {vertexAt(h), vertexAt(h)});
                 }
             }
         }
         for (const std::uint32_t i : triangles) {
             addTriangle(part, i);
         }
-        addSlopes(part, rim);
         return part;
     }
 
-    std::uint32_t addVertex(WetPart& part, std::uint32_t vertex) const
+    static std::uint32_t addVertex(Part& part, std::array<std::uint32_t, 2> origin)
     {
-        const auto number = static_cast<std::uint32_t>(part.mesh.vertices.size());
-        part.mesh.vertices.push_back(mesh_.vertices[vertex]);
-        part.field.height.push_back(field_.height[vertex]);
-        part.field.dry.push_back(field_.dry[vertex]);
-        if (!field_.ground.empty()) {
-            part.field.ground.push_back(field_.ground[vertex]);
-        }
-        return number;
+        part.origins.push_back(origin);
+        return static_cast<std::uint32_t>(part.origins.size() - 1);
     }
 
     /// Adds the loops of a part, the outer one first: the one with the largest area, the only positive one.
-    /// Returns the vertices of the whole mesh along them.
-    std::vector<std::uint32_t> addRim(WetPart& part, const std::vector<std::uint32_t>& triangles)
+    void addRim(Part& part, const std::vector<std::uint32_t>& triangles)
     {
         std::vector<std::vector<std::uint32_t>> loops;
         std::size_t outer = 0;
@@ -204,13 +221,13 @@ private:
                 }
                 std::vector<std::uint32_t> loop;
                 double twice_area = 0.0;
-                const Vec2 origin = mesh_.vertices[vertexAt(h)];
+                const Vec2 origin = places_[vertexAt(h)];
                 for (std::uint32_t fan = liquid_.fans[h]; number_[fan] == kNone; fan = liquid_.nextOnBoundary(fan)) {
                     const std::uint32_t along = liquid_.boundary[fan];
                     number_[fan] = 0;  // marks it as found; the number follows below
                     loop.push_back(fan);
-                    twice_area += cross(mesh_.vertices[vertexAt(along)] - origin,
-                                        mesh_.vertices[vertexAt(nextInTriangle(along))] - origin);
+                    twice_area +=
+                        cross(places_[vertexAt(along)] - origin, places_[vertexAt(nextInTriangle(along))] - origin);
                 }
                 if (twice_area > largest) {
                     largest = twice_area;
@@ -220,79 +237,172 @@ private:
             }
         }
         std::swap(loops.front(), loops[outer]);
-        std::vector<std::uint32_t> rim;
-        part.mesh.loop_starts.push_back(0);
+        part.loop_starts.push_back(0);
         for (const std::vector<std::uint32_t>& loop : loops) {
             for (const std::uint32_t fan : loop) {
                 const std::uint32_t vertex = vertexAt(liquid_.boundary[fan]);
-                number_[fan] = addVertex(part, vertex);
-                part.field.dry.back() = 0;
-                rim.push_back(vertex);
+                number_[fan] = addVertex(part, {vertex, vertex});
             }
-            part.mesh.loop_starts.push_back(static_cast<std::uint32_t>(part.mesh.vertices.size()));
+            part.loop_starts.push_back(static_cast<std::uint32_t>(part.origins.size()));
         }
-        return rim;
     }
 
     /// Vertex in the middle of an edge between two boundary vertices.
-    std::uint32_t middleOf(WetPart& part, std::uint32_t half_edge)
+    std::uint32_t middleOf(Part& part, std::uint32_t half_edge)
     {
         std::uint32_t& number = middle_[std::min(half_edge, liquid_.twins[half_edge])];
         if (number == kNone) {
-            const std::uint32_t from = vertexAt(half_edge);
-            const Vec2 p = 0.5 * (mesh_.vertices[from] + mesh_.vertices[vertexAt(nextInTriangle(half_edge))]);
-            number = addVertex(part, from);
-            part.mesh.vertices.back() = p;
-            part.field.height.back() = ground_.at(p).height;
-            part.field.dry.back() = 1;
-            if (!part.field.ground.empty()) {
-                part.field.ground.back() = part.field.height.back();
-            }
+            number = addVertex(part, {vertexAt(half_edge), vertexAt(nextInTriangle(half_edge))});
         }
         return number;
     }
 
-    void addTriangle(WetPart& part, std::uint32_t triangle)
+    void addTriangle(Part& part, std::uint32_t triangle)
     {
         const std::uint32_t h = 3 * triangle;
         const Triangle t{number_[liquid_.fans[h]], number_[liquid_.fans[h + 1]], number_[liquid_.fans[h + 2]]};
+        Triangle middle{kNone, kNone, kNone};  // of the edge from every corner
         for (std::uint32_t k = 0; k < 3; ++k) {
-            // One of its vertices is not on the ground, so at most one of its edges crosses.
-            if (liquid_.crosses(h + k)) {
-                const std::uint32_t middle = middleOf(part, h + k);
-                part.mesh.triangles.push_back({t[k], middle, t[(k + 2) % 3]});
-                part.mesh.triangles.push_back({middle, t[(k + 1) % 3], t[(k + 2) % 3]});
-                return;
-            }
+            middle[k] = liquid_.crosses(h + k) ? middleOf(part, h + k) : kNone;
         }
-        part.mesh.triangles.push_back(t);
+        const auto count = 3 - std::count(middle.begin(), middle.end(), kNone);
+        // The first edge is the only one with a middle, or the only one without.
+        const auto first = static_cast<std::size_t>(
+            std::find_if(middle.begin(), middle.end(), [&](std::uint32_t m) { return (m != kNone) == (count == 1); }) -
+            middle.begin());
+        const std::size_t i = first % 3;
+        const std::size_t j = (first + 1) % 3;
+        const std::size_t k = (first + 2) % 3;
+        std::vector<Triangle>& made = part.triangles;
+        switch (count) {
+            case 1:
+                made.insert(made.end(), {{t[i], middle[i], t[k]}, {middle[i], t[j], t[k]}});
+                break;
+            case 2:
+                made.insert(made.end(),
+                            {{t[i], t[j], middle[j]}, {t[i], middle[j], middle[k]}, {middle[k], middle[j], t[k]}});
+                break;
+            case 3:
+                made.insert(made.end(), {{t[0], middle[0], middle[2]},
+                                         {middle[0], t[1], middle[1]},
+                                         {middle[2], middle[1], t[2]},
+                                         middle});
+                break;
+            default:
+                made.push_back(t);
+        }
     }
 
-    /// Sets slopes and angles at the rim. Along a new rim the liquid has the slope of the ground.
-    void addSlopes(WetPart& part, const std::vector<std::uint32_t>& rim) const
-    {
-        const std::vector<Vec2> outward = rimNormals(part.mesh);
-        for (std::size_t v = 0; v < rim.size(); ++v) {
-            const bool is_old = mesh_.onRim(rim[v]);
-            part.field.contact_angle.push_back(is_old ? field_.contact_angle[rim[v]] : 0.0);
-            part.field.rim_slope.push_back(is_old ? field_.rim_slope[rim[v]]
-                                                  : -dot(ground_.at(part.mesh.vertices[v]).gradient, outward[v]));
-        }
-    }
-
-    const PlanarMesh& mesh_;
-    const HeightField& field_;
-    const BaseSurface& ground_;
+    const std::vector<Vec2>& places_;
     Manifold liquid_;
     std::vector<std::uint32_t> number_;  // number of every fan in its part
     std::vector<std::uint32_t> middle_;  // middle vertex of an edge, stored at its smaller half-edge
 };
 
+std::vector<Part> partsOf(std::vector<Triangle> triangles, const std::vector<Vec2>& places)
+{
+    return PartMaker(std::move(triangles), places).makeAll();
+}
+
+WetPart wetPart(Part&& part, const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
+{
+    WetPart result;
+    result.field.pressure = field.pressure;
+    for (std::size_t v = 0; v < part.origins.size(); ++v) {
+        const auto [a, b] = part.origins[v];
+        const bool is_middle = part.isMiddle(v);
+        const Vec2 p = is_middle ? 0.5 * (mesh.vertices[a] + mesh.vertices[b]) : mesh.vertices[a];
+        const bool is_inside = v >= part.rimVertexCount();
+        result.mesh.vertices.push_back(p);
+        result.field.height.push_back(is_middle ? ground.at(p).height : field.height[a]);
+        result.field.dry.push_back(is_inside && (is_middle || field.dry[a] != 0) ? 1 : 0);
+        if (!field.ground.empty()) {
+            result.field.ground.push_back(is_middle ? result.field.height.back() : field.ground[a]);
+        }
+    }
+    const std::uint32_t rim = part.rimVertexCount();
+    result.mesh.loop_starts = std::move(part.loop_starts);
+    result.mesh.triangles = std::move(part.triangles);
+    // Along a new rim the liquid has the slope of the ground.
+    const std::vector<Vec2> outward = rimNormals(result.mesh);
+    for (std::uint32_t v = 0; v < rim; ++v) {
+        const std::uint32_t origin = part.origins[v].front();
+        const bool is_old = mesh.onRim(origin);
+        result.field.contact_angle.push_back(is_old ? field.contact_angle[origin] : 0.0);
+        result.field.rim_slope.push_back(is_old ? field.rim_slope[origin]
+                                                : -dot(ground.at(result.mesh.vertices[v]).gradient, outward[v]));
+    }
+    return result;
+}
+
+/// Which triangles of a sheet lie on flat ground, face up: all but those at vertices at which liquid would touch itself.
+std::vector<std::uint8_t> dryTriangles(const ParametricSheet& sheet)
+{
+    std::vector<std::uint8_t> is_dry;
+    for (const Triangle& t : sheet.triangles) {
+        const bool is_grounded =
+            std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return sheet.places[v].z <= 0.0; });
+        is_dry.push_back(is_grounded && areaVector(sheet.places, t).z >= 0.0 ? 1 : 0);
+    }
+    for (bool has_changed = true; has_changed;) {
+        const Manifold liquid = manifoldOf(wetTriangles(sheet.triangles, is_dry), sheet.places.size());
+        std::vector<std::uint8_t> is_passed(sheet.places.size(), 0);
+        std::vector<std::uint8_t> is_pinch(sheet.places.size(), 0);
+        for (const std::uint32_t h : liquid.boundary) {
+            const std::uint32_t v = liquid.triangles[h / 3][h % 3];
+            is_pinch[v] = std::exchange(is_passed[v], std::uint8_t{1});
+        }
+        has_changed = false;
+        for (std::size_t k = 0; k < is_dry.size(); ++k) {
+            const Triangle& t = sheet.triangles[k];
+            if (is_dry[k] != 0 && std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return is_pinch[v] != 0; })) {
+                is_dry[k] = 0;
+                has_changed = true;
+            }
+        }
+    }
+    return is_dry;
+}
+
 }  // namespace
 
 std::vector<WetPart> wetParts(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
 {
-    return PartMaker(mesh, field, ground).makeAll();
+    std::vector<WetPart> result;
+    for (Part& part : partsOf(liquidTriangles(mesh, field), mesh.vertices)) {
+        result.push_back(wetPart(std::move(part), mesh, field, ground));
+    }
+    return result;
+}
+
+std::vector<ParametricSheet> wetParts(const ParametricSheet& sheet)
+{
+    const std::vector<std::uint8_t> is_dry = dryTriangles(sheet);
+    if (std::find(is_dry.begin(), is_dry.end(), 1) == is_dry.end()) {
+        return {};
+    }
+    std::vector<Vec2> seen_from_above;
+    for (const Vec3& p : sheet.places) {
+        seen_from_above.push_back({p.x, p.y});
+    }
+    std::vector<ParametricSheet> result;
+    for (Part& part : partsOf(wetTriangles(sheet.triangles, is_dry), seen_from_above)) {
+        ParametricSheet& own = result.emplace_back();
+        own.rim = part.rimVertexCount();
+        own.pressure = sheet.pressure;
+        for (std::size_t v = 0; v < part.origins.size(); ++v) {
+            const auto [a, b] = part.origins[v];
+            own.places.push_back(part.isMiddle(v) ? 0.5 * (sheet.places[a] + sheet.places[b]) : sheet.places[a]);
+            if (v < own.rim) {
+                own.contact_angle.push_back(a < sheet.rim ? sheet.contact_angle[a] : 0.0);
+                own.footprint.vertices.push_back({own.places[v].x, own.places[v].y});
+            }
+        }
+        own.triangles = std::move(part.triangles);
+        own.footprint.loop_starts = std::move(part.loop_starts);
+        own.footprint = cover(own.footprint);
+    }
+    return result;
 }
 
 }  // namespace droplet

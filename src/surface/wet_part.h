@@ -5,6 +5,7 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/shape/base_surface.h"
+#include "droplet/shape/sheet.h"
 #include "droplet/shape/solve.h"
 
 namespace droplet {
@@ -26,5 +27,12 @@ struct WetPart {
 /// @param ground  ground of the field
 /// @return        parts that share no edge, in the order of their first triangles; none if all is dry
 std::vector<WetPart> wetParts(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground);
+
+/// Removes the triangles of a sheet that lie on flat ground, face up, with all of their vertices.
+///
+/// Guarantees: as above, but a rim passes no place twice: there, triangles on the ground stay. Footprints have few
+/// triangles, as of cover().
+/// @return  parts with footprints of their own; none if nothing is removed
+std::vector<ParametricSheet> wetParts(const ParametricSheet& sheet);
 
 }  // namespace droplet

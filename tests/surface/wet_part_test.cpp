@@ -356,5 +356,88 @@ TEST(WetParts, LieOnTheGroundAlongANewRim)
     EXPECT_EQ(compared, is_new);
 }
 
+/// The same liquid as a sheet.
+ParametricSheet sheetOf(const PlanarMesh& mesh, const HeightField& field)
+{
+    ParametricSheet sheet{.footprint = mesh, .places = {}, .triangles = mesh.triangles, .rim = mesh.rimVertexCount(),
+                          .contact_angle = field.contact_angle, .pressure = field.pressure};
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        sheet.places.push_back({mesh.vertices[v].x, mesh.vertices[v].y, field.height[v]});
+    }
+    return sheet;
+}
+
+// Dry sets of all kinds, as above. What would make a rim pass a place twice stays.
+TEST(WetParts, OfSheetsAreSoundForAnyDrySet)
+{
+    std::mt19937 random(7);
+    std::size_t several = 0;
+    std::size_t holes = 0;
+    std::size_t removed = 0;
+    for (const auto& [name, domain] : testing::zoo()) {
+        const PlanarMesh mesh = triangulate(domain, {.triangles = 900, .edge = {}}).front();
+        if (mesh.triangles.size() < 30) {
+            continue;
+        }
+        double size = 0.0;
+        for (const Vec2 p : mesh.vertices) {
+            size = std::max(size, length(p));
+        }
+        for (int trial = 0; trial < 24; ++trial) {
+            SCOPED_TRACE(name + ", trial " + std::to_string(trial));
+            const double share =
+                std::vector<double>{0.01, 0.1, 0.3, 0.6, 0.9, 0.99}[static_cast<std::size_t>(trial) % 6];
+            std::vector<Vec2> middles;
+            for (int k = 0; k < 6; ++k) {
+                middles.push_back(mesh.vertices[random() % mesh.vertices.size()]);
+            }
+            const HeightField field = fieldWith(mesh, kFlat, [&](std::uint32_t, Vec2 p) {
+                if (trial % 2 == 0) {
+                    return std::any_of(middles.begin(), middles.end(),
+                                       [&](Vec2 middle) { return length(p - middle) < 0.5 * share * size; });
+                }
+                return random() % 1000 < static_cast<unsigned>(1000 * share);
+            });
+            const double volume = volumeOf(mesh, field);
+            if (volume == 0.0) {
+                continue;
+            }
+            const ParametricSheet sheet = sheetOf(mesh, field);
+            const std::vector<ParametricSheet> parts = wetParts(sheet);
+            several += parts.size() > 1 ? 1 : 0;
+            long euler = 0;
+            for (const ParametricSheet& part : parts) {
+                ASSERT_EQ(part.rim, part.footprint.rimVertexCount());
+                ASSERT_EQ(part.contact_angle.size(), part.rim);
+                euler += 4 - 2 * static_cast<long>(part.footprint.loopCount());
+                holes += part.footprint.loopCount() > 1 ? 1 : 0;
+                std::set<std::pair<double, double>> places;
+                for (std::uint32_t v = 0; v < part.rim; ++v) {
+                    EXPECT_EQ(part.places[v].z, 0.0);
+                    EXPECT_TRUE(places.emplace(part.places[v].x, part.places[v].y).second);
+                }
+            }
+            const LoftOptions options{.extent = {1, 1}};
+            const Surface surface = loft(sheet, options);
+            ASSERT_NO_THROW(surface.validate());
+            const Topology found = topology(surface);
+            EXPECT_TRUE(found.closed);
+            EXPECT_EQ(found.components, std::max<std::size_t>(parts.size(), 1));
+            if (!parts.empty()) {
+                EXPECT_EQ(found.euler, euler);
+            }
+            EXPECT_NEAR(enclosedVolume(surface) / volume, 1.0, 1e-9);
+            EXPECT_EQ(surface.parts.size(), 1U);
+            LoftOptions whole = options;
+            whole.keeps_dry = true;
+            removed += loft(sheet, whole).triangles.size() > surface.triangles.size() ? 1 : 0;
+        }
+    }
+    // All awkward cases occurred.
+    EXPECT_GT(several, 20U);
+    EXPECT_GT(holes, 20U);
+    EXPECT_GT(removed, 50U);
+}
+
 }  // namespace
 }  // namespace droplet

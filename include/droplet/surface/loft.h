@@ -28,6 +28,7 @@ struct LoftOptions {
     std::optional<LoftRefill> refill = {};  ///< for a surface that can be filled and drained
     bool flatten = true;                    ///< spread sheets that lean out over their footprint in texture
                                             ///< coordinates; otherwise these are the place above or below
+    bool keeps_dry = false;                 ///< cover ground that sheets left dry, so that their triangles stay
 
     /// Checks all options.
     /// @throws Error InvalidArgument
@@ -48,6 +49,9 @@ struct LoftOptions {
 Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const LoftOptions& options);
 
 /// Closes a sheet that hangs over its rim with a base on the ground. Normals on the rim come from the contact angle.
+///
+/// Flat ground that the liquid left dry is left out, as with height fields. On other ground, and with keeps_dry, the
+/// liquid lies on it without thickness.
 ///
 /// Texture coordinates are those of the place below in the picture. If the sheet leans out, it is spread over its
 /// footprint instead, so that every point of the picture occurs once: the rim stays in its place, and triangles keep
