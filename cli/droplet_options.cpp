@@ -391,7 +391,7 @@ void declareLiquid(CommandLine& line)
     line.add(
         kGroup, "--model", "auto|linear|exact",
         "Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all slopes, also where liquid "
-        "hangs over its rim; auto takes linear where it is within 1 % [auto]");
+        "hangs over its rim; auto takes linear where it is within 0.3 % [auto]");
     line.exclude({"--contact-angle", "--volume", "--height"});
 }
 

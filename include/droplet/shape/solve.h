@@ -34,7 +34,7 @@ struct HeightField {
 enum class Model {
     Linear,  ///< ∫(1 + ½|∇u|²): within 1 % up to contact angles of 5 to 8°, 15 % too high at 40°
     Exact,   ///< ∫√(1 + |∇u|²), the area itself
-    Auto,    ///< linear where its height, volume and pressure are within 1 % of the exact model's, else exact
+    Auto,    ///< linear where its height, volume and pressure are within 0.3 % of the exact model's, else exact
 };
 
 /// Solver of the linear systems.
