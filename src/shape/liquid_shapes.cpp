@@ -18,6 +18,7 @@
 #include "droplet/shape/figures.h"
 #include "droplet/units.h"
 #include "mesh/mean_edge.h"
+#include "mesh/rim_corner.h"
 #include "mesh/round_inward.h"
 #include "number_text.h"
 #include "shape/own_options.h"
@@ -45,6 +46,11 @@ constexpr double kDefaultShare = 0.5;
 /// Part of it that is kept for droplets that touch, and work of a test for contact, of a triangle.
 constexpr double kContactShare = 0.2;
 constexpr double kContactWork = 10.0;
+
+/// Contact angle of a height field at corners that point inward from which on a sheet is more exact [rad]. The angle
+/// grows without bound there, and a height field's ends at 90°. Sheets with the same mean of a star, an A and an & have
+/// 0.2 to 0.3 % more liquid where the field has 50° there, and 0.6 % where it has 80°.
+constexpr double kSteepCorner = 50.0 * kDegree;
 
 /// Share of the wanted contact angle below which a sheet is no droplet, and the linear model is taken.
 constexpr double kLeastShare = 0.5;
@@ -120,6 +126,36 @@ bool isUpright(const HeightField& field)
 {
     return std::any_of(field.contact_angle.begin(), field.contact_angle.end(),
                        [](double angle) { return angle >= kUpright; });
+}
+
+bool areUpright(const std::vector<HeightField>& fields)
+{
+    return std::any_of(fields.begin(), fields.end(), isUpright);
+}
+
+/// Whether sheets are more exact: rims are upright, or steep at corners that point inward.
+bool areSteep(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields)
+{
+    const auto is_steep = [](const PlanarMesh& mesh, const HeightField& field) {
+        for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
+            std::uint32_t last = mesh.loop_starts[loop + 1] - 1;
+            for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; last = v++) {
+                const Vec2 p = mesh.vertices[v];
+                const Vec2 next = mesh.vertices[nextOnRim(mesh, loop, v)];
+                if (field.contact_angle[v] >= kSteepCorner &&
+                    turnBetween(p - mesh.vertices[last], next - p) < -kCorner) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    };
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+        if (isUpright(fields[k]) || is_steep(meshes[k], fields[k])) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /// Whether no height field is so deep below the ground, as on a wall, that it has no liquid.
@@ -232,7 +268,7 @@ std::optional<Probe> probe(const std::vector<PlanarMesh>& meshes, const SolveOpt
     }
     const Solution solution = findFields(coarse, quickly(options), {});
     const bool exists = solution.report.usable() && haveLiquid(coarse, solution.droplets, options);
-    const bool is_steep = exists ? std::any_of(solution.droplets.begin(), solution.droplets.end(), isUpright)
+    const bool is_steep = exists ? areSteep(coarse, solution.droplets)
                                  : solution.report.termination != Termination::Unstable;
     return Probe{exists, is_steep};
 }
@@ -411,12 +447,13 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
         solve_quickly();
     }
     if (!is_steep && (shape.fields.empty() ? shape.report.termination == Termination::Unstable
-                                           : std::none_of(shape.fields.begin(), shape.fields.end(), isUpright))) {
+                                           : !areSteep(meshes, shape.fields))) {
         return shape;
     }
     // A height field that is upright in a few places may stand, unless the exact shape was asked for.
+    const bool is_exact = !shape.fields.empty() && !areUpright(shape.fields);
     const bool has_stand_in =
-        (is_steep ? before.probed->exists : !shape.fields.empty()) && options.model == Model::Auto;
+        is_exact || ((is_steep ? before.probed->exists : !shape.fields.empty()) && options.model == Model::Auto);
     if (has_stand_in && areWidePuddles(meshes, options)) {
         return shape;
     }
@@ -762,7 +799,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         solution = findFields(meshes, quickly(options), progress);
         shapes.work = solution.report.work;
         has_fields = solution.report.usable() && haveLiquid(meshes, solution.droplets, options);
-        if (has_fields && std::none_of(solution.droplets.begin(), solution.droplets.end(), isUpright)) {
+        if (has_fields && !areSteep(meshes, solution.droplets)) {
             return shapes;
         }
     } else if (progress) {
