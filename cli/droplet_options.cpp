@@ -439,8 +439,8 @@ void declareRun(CommandLine& line)
     constexpr const char* kGroup = "Run";
     line.addFlag(kGroup, "--no-clobber", "Do not replace existing files");
     line.add(kGroup, "--solver", "auto|llt|multigrid",
-             "Solver of the linear system: llt is Eigen's factorisation, multigrid iterates, auto takes the faster one "
-             "[auto]");
+             "Solver of the linear system: llt is Eigen's factorisation, multigrid iterates; auto takes llt for "
+             "linear models of up to 25,000 unknowns and for small or irregular meshes [auto]");
     line.add(kGroup, "-j,--threads", "N", "Maximum number of threads [all cores]");
     line.addFlag(kGroup, "-q,--quiet", "Print only errors, and warnings of results that cannot be right");
     line.addFlag(kGroup, "-v,--verbose", "Print more: every droplet, times, memory");

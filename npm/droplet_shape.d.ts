@@ -48,7 +48,7 @@ export interface Options {
     surfaceTension?: string | number;
     /** Density, instead of the liquid's own; a number is in kg/m³ */
     density?: string | number;
-    /** Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all slopes, also where liquid hangs over its rim; auto takes linear where it is within 1 % [auto] */
+    /** Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all slopes, also where liquid hangs over its rim; auto takes linear where it is within 0.3 % [auto] */
     model?: 'auto' | 'linear' | 'exact';
     /** Gravity into the ground; negative under a ceiling; a number is in m/s² [9.81m/s2] */
     gravity?: string | number;
@@ -78,7 +78,7 @@ export interface Options {
     unit?: 'm' | 'cm' | 'mm';
     /** Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; takes the linear model unless model exact is given */
     fillRange?: string | [number, number];
-    /** Solver of the linear system: llt is Eigen's factorisation, multigrid iterates, auto takes the faster one [auto] */
+    /** Solver of the linear system: llt is Eigen's factorisation, multigrid iterates; auto takes llt for linear models of up to 25,000 unknowns and for small or irregular meshes [auto] */
     solver?: 'auto' | 'llt' | 'multigrid';
 }
 

@@ -338,6 +338,9 @@ Surface surfaceOf(const Droplet& droplet, const LiquidShapes& shapes, const Loft
                 own.bases.push_back(options.bases[k]);
             }
             Surface sheet = loft(*shapes.sheets[k], own);
+            if (sheet.parts.empty()) {
+                continue;
+            }
             SurfacePart& part = sheet.parts.front();
             part.droplet = k;
             part.volume = droplet.figures[k].volume;

@@ -772,6 +772,31 @@ TEST(Droplet, SharesLiquidThatHangsOverItsRim)
     }
 }
 
+/// Two equal puddles at one pressure stay equal while their pressure rises with the volume. Beyond, one takes the liquid
+/// of the other, up to 180° along its rim, where it would roll away.
+TEST(Droplet, SharedAmountEndsWhereARimDoesNotHoldIt)
+{
+    const double radius = 5.0 * kMillimetre;
+    const Mask mask = smoothMask(320, 120, [](Vec2 p) { return disc({60, 60}, 50)(p) || disc({260, 60}, 50)(p); });
+    DropletOptions options = plain();
+    options.trace.pixel_size = radius / 50.0;
+    options.solve.model = Model::Auto;
+    options.solve.gravity = kStandardGravity;
+    options.mesh.triangles = 3'000;
+    options.solve.fill = {FillBy::Volume, 800.0 * kMicrolitre, FillSharing::Total};
+    const Droplet shared = makeDroplet(mask, options);
+    EXPECT_NEAR(shared.figures[0].volume / shared.figures[1].volume, 1.0, 0.01);
+    EXPECT_NEAR(shared.total.contact_angle.mean, 153.7 * kDegree, 1.0 * kDegree);
+    options.solve.fill.amount = 1000.0 * kMicrolitre;
+    try {
+        (void)makeDroplet(mask, options);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::NoSuchDroplet);
+        EXPECT_THAT(error.what(), HasSubstr("at one pressure a rim does not hold its droplet: with 9"));
+    }
+}
+
 /// At one pressure, beyond two hemispheres, one of two equal caps takes the liquid of the other: they are the two parts
 /// of one sphere. An amount that was asked for is that, or refused; the linear model does not stand in.
 TEST(Droplet, SharedAmountIsSolvedOrRefused)

@@ -209,7 +209,7 @@ def make_droplet(
       surface_tension [N/m]: Surface tension, instead of the liquid's own
       density [kg/m³]: Density, instead of the liquid's own
       model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all
-        slopes, also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
+        slopes, also where liquid hangs over its rim; auto takes linear where it is within 0.3 % (default: auto)
 
     Gravity and ground:
       gravity [m/s²]: Gravity into the ground; negative under a ceiling (default: 9.81m/s2)
@@ -235,8 +235,8 @@ def make_droplet(
         takes the linear model unless model exact is given
 
     Run:
-      solver: auto, llt, multigrid: Solver of the linear system: llt is Eigen's factorisation, multigrid iterates,
-        auto takes the faster one (default: auto)
+      solver: auto, llt, multigrid: Solver of the linear system: llt is Eigen's factorisation, multigrid iterates;
+        auto takes llt for linear models of up to 25,000 unknowns and for small or irregular meshes (default: auto)
       threads: Maximum number of threads (default: all cores)
 
     Raises InvalidArgument: a value is outside of its range; InvalidInput: the mask has no liquid; NoSuchDroplet: no
@@ -348,7 +348,7 @@ def glyphs(
       surface_tension [N/m]: Surface tension, instead of the liquid's own
       density [kg/m³]: Density, instead of the liquid's own
       model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all
-        slopes, also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
+        slopes, also where liquid hangs over its rim; auto takes linear where it is within 0.3 % (default: auto)
 
     Gravity and ground:
       gravity [m/s²]: Gravity into the ground; negative under a ceiling (default: 9.81m/s2)
@@ -374,8 +374,8 @@ def glyphs(
         takes the linear model unless model exact is given
 
     Run:
-      solver: auto, llt, multigrid: Solver of the linear system: llt is Eigen's factorisation, multigrid iterates,
-        auto takes the faster one (default: auto)
+      solver: auto, llt, multigrid: Solver of the linear system: llt is Eigen's factorisation, multigrid iterates;
+        auto takes llt for linear models of up to 25,000 unknowns and for small or irregular meshes (default: auto)
       threads: Maximum number of threads (default: all cores)
 
     Raises InvalidArgument: a value is outside of its range; InvalidInput: the font cannot be read, or the text has no
@@ -494,7 +494,7 @@ def animate(
       surface_tension [N/m]: Surface tension, instead of the liquid's own
       density [kg/m³]: Density, instead of the liquid's own
       model: auto, linear, exact: Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all
-        slopes, also where liquid hangs over its rim; auto takes linear where it is within 1 % (default: auto)
+        slopes, also where liquid hangs over its rim; auto takes linear where it is within 0.3 % (default: auto)
 
     Gravity and ground:
       gravity [m/s²]: Gravity into the ground; negative under a ceiling (default: 9.81m/s2)
@@ -515,8 +515,8 @@ def animate(
       open: Leave out the base
 
     Run:
-      solver: auto, llt, multigrid: Solver of the linear system: llt is Eigen's factorisation, multigrid iterates,
-        auto takes the faster one (default: auto)
+      solver: auto, llt, multigrid: Solver of the linear system: llt is Eigen's factorisation, multigrid iterates;
+        auto takes llt for linear models of up to 25,000 unknowns and for small or irregular meshes (default: auto)
       threads: Maximum number of threads (default: all cores)
 
     Raises InvalidArgument: a value is outside of its range; InvalidInput: no frame has liquid, or sizes differ;

@@ -311,7 +311,8 @@ std::string refusal(const SheetResult& result, const Refused& refused)
                    numberText(result.contact->y / kMillimetre, 3) + " mm; it holds at most " + at +
                    " (mean contact angle " + angle + "); ask for less";
         case SheetEnd::NotHeld:
-            return which + "the rim does not hold such a droplet: at " + at +
+            return (refused.droplets > 1 ? "at one pressure a rim does not hold its droplet: with " + at + " in all"
+                                         : which + "the rim does not hold such a droplet: at " + at) +
                    " it has a contact angle of 180 degrees all along; ask for less";
         case SheetEnd::OutOfWork:
             if (result.volume == 0.0) {

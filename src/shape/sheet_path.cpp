@@ -19,6 +19,7 @@
 #include "shape/sheet_newton.h"
 #include "shape/sheet_remesh.h"
 #include "shape/work.h"
+#include "union_find.h"
 
 namespace droplet {
 namespace {
@@ -48,8 +49,9 @@ constexpr double kKeptWorn = 0.1;
 /// Growth of the most work to confirm the end of a path.
 constexpr double kConfirmWork = 1.5;
 /// Most times that a sheet gets new triangles until it is in equilibrium. Liquid that rolls over dry ground between the
-/// teeth of a comb took 10; with 4, sheets ended there at half of what they hold.
-constexpr int kRenewals = 12;
+/// teeth of a comb took 10, and more along a slit that it closes: with 12 renewals 221 of 255 silhouettes were made at
+/// 90°, with 40 231.
+constexpr int kRenewals = 40;
 /// Doublings of the first volume, until it wets the ground: on a ball, little liquid leaves the top dry.
 constexpr int kWetter = 8;
 /// Growth of edges when a sheet fails with small ones.
@@ -400,12 +402,9 @@ private:
         return true;
     }
 
-    /// Whether the sheet lies on the ground all along its rim, or would with finer triangles.
+    /// Whether a droplet lies on the ground all along its rim, or would with finer triangles.
     [[nodiscard]] bool isLoose(const State& state) const
     {
-        if (rimAngles(state.sheet, options_.weight, state.pressure, base_.ground).mean() >= kNotHeld) {
-            return true;
-        }
         std::vector<std::uint8_t> is_laid(state.sheet.rim, 0);
         for (const Triangle& t : state.sheet.triangles) {
             const bool is_grounded = std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
@@ -417,8 +416,25 @@ private:
                 }
             }
         }
-        const auto laid = std::count(is_laid.begin(), is_laid.end(), 1);
-        return static_cast<double>(laid) >= kLaid * static_cast<double>(state.sheet.rim);
+        struct Rim {
+            double turned = 0.0;  ///< integral of the angle
+            double length = 0.0;
+            double laid = 0.0;
+            double vertices = 0.0;
+        };
+        const RimAngles angles = rimAngles(state.sheet, options_.weight, state.pressure, base_.ground);
+        std::vector<Rim> rims(state.sheet.rim);
+        for (std::uint32_t v = 0; v < state.sheet.rim; ++v) {
+            Rim& rim = rims[droplet_[v]];
+            rim.turned += angles.angle[v] * angles.weight[v];
+            rim.length += angles.weight[v];
+            // Where the liquid is on the other side, ground inside of the rim is dry.
+            rim.laid += angles.angle[v] > 0.5 * std::numbers::pi ? is_laid[v] : 0.0;
+            rim.vertices += 1.0;
+        }
+        return std::any_of(rims.begin(), rims.end(), [](const Rim& rim) {
+            return rim.vertices > 0.0 && (rim.turned >= kNotHeld * rim.length || rim.laid >= kLaid * rim.vertices);
+        });
     }
 
     /// Moves the vertices of an equilibrium along it where triangles that stay are worn.
@@ -651,6 +667,15 @@ private:
         solver_ = std::move(solver);
         meshed_area_ = integrate(sheet, options_.weight).area;
         meshed_angles_ = minAngles(sheet);
+        UnionFind droplets(sheet.places.size());
+        for (const Triangle& t : sheet.triangles) {
+            droplets.join(t[0], t[1]);
+            droplets.join(t[0], t[2]);
+        }
+        droplet_.resize(sheet.rim);
+        for (std::uint32_t v = 0; v < sheet.rim; ++v) {
+            droplet_[v] = droplets.find(v);
+        }
     }
 
     SheetTarget target_;
@@ -660,6 +685,7 @@ private:
     std::unique_ptr<SheetSolver> solver_;                   ///< for the triangles of now_
     double meshed_area_ = 0.0;                              ///< when the triangles were made
     std::vector<double> meshed_angles_;                     ///< of every triangle then [rad]
+    std::vector<std::uint32_t> droplet_;                    ///< of every rim vertex: the first vertex of the same one
     std::deque<State> firm_;                                ///< last equilibria that were confirmed on new triangles
     double gap_ = std::numeric_limits<double>::infinity();  ///< change of the volume, over it, until the next one
     double chord_ = 0.0;                                    ///< as of NewtonLimits

@@ -35,11 +35,15 @@ namespace {
 /// for others. Measured in bench/RESULTS.md.
 constexpr std::size_t kSmall = 500;
 constexpr std::size_t kSmallIrregular = 50'000;
+/// Number of unknowns up to which Eigen's direct solver takes the one system of the linear model on any mesh: that of
+/// 40 000 triangles. It takes 22 ms more there than multigrid.
+constexpr std::size_t kSmallLinear = 25'000;
 
-Solver chooseSolver(const PlanarMesh& mesh)
+Solver chooseSolver(const PlanarMesh& mesh, Model model)
 {
     const bool is_lattice = 2 * irregularTriangleCount(mesh) < mesh.triangles.size();
-    return unknownsOf(mesh) < (is_lattice ? kSmall : kSmallIrregular) ? Solver::Llt : Solver::Multigrid;
+    const std::size_t small = model == Model::Linear ? kSmallLinear : kSmall;
+    return unknownsOf(mesh) < (is_lattice ? small : kSmallIrregular) ? Solver::Llt : Solver::Multigrid;
 }
 
 /// Multigrid, or a factorisation if the iteration does not converge.
@@ -81,13 +85,14 @@ private:
     mutable std::unique_ptr<ConstrainedSolver> direct_;  // made on first use
 };
 
-std::unique_ptr<ConstrainedSolver> solverFor(const PlanarMesh& mesh, Solver wanted)
+std::unique_ptr<ConstrainedSolver> solverFor(const PlanarMesh& mesh, const SolveOptions& options)
 {
-    const Solver solver = wanted == Solver::Auto ? chooseSolver(mesh) : wanted;
+    const bool is_free = options.solver == Solver::Auto;
+    const Solver solver = is_free ? chooseSolver(mesh, options.model) : options.solver;
     if (solver != Solver::Multigrid) {
         return directSolver(mesh);
     }
-    return wanted == Solver::Auto ? std::make_unique<SafeMultigrid>(mesh) : multigridSolver(mesh);
+    return is_free ? std::make_unique<SafeMultigrid>(mesh) : multigridSolver(mesh);
 }
 
 Physics physicsOf(const SolveOptions& options)
@@ -253,7 +258,7 @@ Solution solveModel(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
     std::vector<Sheet> sheets(meshes.size());
     tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) {
         energies[k] = std::make_unique<Energy>(meshes[k], options.ground, physics);
-        solvers[k] = solverFor(meshes[k], options.solver);
+        solvers[k] = solverFor(meshes[k], options);
         sheets[k] = emptySheet(*energies[k]);
     });
     std::vector<Group> groups(options.fill.sharing == FillSharing::Total ? 1 : meshes.size());

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -283,12 +284,6 @@ std::vector<SurfacePart> partsOf(const std::vector<Piece>& pieces, const std::ve
     return parts;
 }
 
-/// @return  none if the sheet has to stay whole
-std::vector<ParametricSheet> wetPartsOf(const ParametricSheet& sheet, const LoftOptions& options)
-{
-    return options.keeps_dry || !options.ground.flat() ? std::vector<ParametricSheet>{} : wetParts(sheet);
-}
-
 /// Surface of the parts of one droplet.
 Surface loftAll(const std::vector<ParametricSheet>& parts, LoftOptions options)
 {
@@ -302,7 +297,9 @@ Surface loftAll(const std::vector<ParametricSheet>& parts, LoftOptions options)
     }
     whole.vertices = surface.positions.size();
     whole.triangles = surface.triangles.size();
-    surface.parts = {whole};
+    if (!parts.empty()) {
+        surface.parts = {whole};
+    }
     return surface;
 }
 
@@ -388,8 +385,10 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
     if (sheet.rim != footprint.rimVertexCount() || sheet.contact_angle.size() != sheet.rim) {
         throw Error(ErrorCode::InvalidArgument, "the sheet's rim must be that of its footprint");
     }
-    if (const std::vector<ParametricSheet> parts = wetPartsOf(sheet, options); !parts.empty()) {
-        return loftAll(parts, options);
+    if (options.ground.flat() && !options.keeps_dry) {
+        if (const std::optional<std::vector<ParametricSheet>> parts = wetParts(sheet)) {
+            return loftAll(*parts, options);
+        }
     }
     HeightField ground;
     if (!options.ground.flat()) {

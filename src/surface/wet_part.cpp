@@ -375,11 +375,11 @@ std::vector<WetPart> wetParts(const PlanarMesh& mesh, const HeightField& field, 
     return result;
 }
 
-std::vector<ParametricSheet> wetParts(const ParametricSheet& sheet)
+std::optional<std::vector<ParametricSheet>> wetParts(const ParametricSheet& sheet)
 {
     const std::vector<std::uint8_t> is_dry = dryTriangles(sheet);
     if (std::find(is_dry.begin(), is_dry.end(), 1) == is_dry.end()) {
-        return {};
+        return std::nullopt;
     }
     std::vector<Vec2> seen_from_above;
     for (const Vec3& p : sheet.places) {

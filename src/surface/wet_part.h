@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
@@ -32,7 +33,7 @@ std::vector<WetPart> wetParts(const PlanarMesh& mesh, const HeightField& field, 
 ///
 /// Guarantees: as above, but a rim passes no place twice: there, triangles on the ground stay. Footprints have few
 /// triangles, as of cover().
-/// @return  parts with footprints of their own; none if nothing is removed
-std::vector<ParametricSheet> wetParts(const ParametricSheet& sheet);
+/// @return  parts with footprints of their own, none if all is dry; empty if nothing is removed
+std::optional<std::vector<ParametricSheet>> wetParts(const ParametricSheet& sheet);
 
 }  // namespace droplet

@@ -426,14 +426,22 @@ TEST(Solve, ReportsItsMethodAndFigures)
 // Auto factors small or irregular meshes, iterates on lattices, and reports the method of the largest droplet.
 TEST(Solve, AutoChoosesBySizeAndLattice)
 {
-    const auto method_for = [](const std::vector<PlanarMesh>& meshes) {
-        return solve(meshes, unitOptions(1.0, volume(1.0))).report.method;
+    const auto method_for = [](const std::vector<PlanarMesh>& meshes, Model model = Model::Exact) {
+        SolveOptions options = unitOptions(1.0, volume(0.1));
+        options.model = model;
+        return solve(meshes, options).report.method;
     };
     const std::vector<PlanarMesh> coarse = triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = 300, .edge = {}});
     std::vector<PlanarMesh> fine = triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = 4000, .edge = {}});
     EXPECT_EQ(method_for(coarse), "simplicial-llt");
     EXPECT_EQ(method_for(fine), "multigrid-pcg");
     EXPECT_EQ(method_for({coarse[0], fine[0], coarse[0]}), "multigrid-pcg");
+    // The linear model has one system alone; the usual size is a factorisation's.
+    EXPECT_EQ(method_for(fine, Model::Linear), "simplicial-llt");
+    EXPECT_EQ(method_for(triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = 40'000, .edge = {}}), Model::Linear),
+              "simplicial-llt");
+    EXPECT_EQ(method_for(triangulate(domainOf(ellipseLoop(1, 1)), {.triangles = 60'000, .edge = {}}), Model::Linear),
+              "multigrid-pcg");
     fine[0].lattice = {};
     EXPECT_EQ(method_for(fine), "simplicial-llt");
 }

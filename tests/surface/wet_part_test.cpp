@@ -367,6 +367,17 @@ ParametricSheet sheetOf(const PlanarMesh& mesh, const HeightField& field)
     return sheet;
 }
 
+TEST(WetParts, OfADrySheetAreNone)
+{
+    const PlanarMesh mesh = discMesh(0.2);
+    const ParametricSheet wet = sheetOf(mesh, fieldWith(mesh, kFlat, [](std::uint32_t, Vec2) { return false; }));
+    EXPECT_FALSE(wetParts(wet));
+    const ParametricSheet dry = sheetOf(mesh, fieldWith(mesh, kFlat, [](std::uint32_t, Vec2) { return true; }));
+    ASSERT_TRUE(wetParts(dry));
+    EXPECT_TRUE(wetParts(dry)->empty());
+    EXPECT_TRUE(loft(dry, {.extent = {1, 1}}).parts.empty());
+}
+
 // Dry sets of all kinds, as above. What would make a rim pass a place twice stays.
 TEST(WetParts, OfSheetsAreSoundForAnyDrySet)
 {
@@ -403,7 +414,7 @@ TEST(WetParts, OfSheetsAreSoundForAnyDrySet)
                 continue;
             }
             const ParametricSheet sheet = sheetOf(mesh, field);
-            const std::vector<ParametricSheet> parts = wetParts(sheet);
+            const std::vector<ParametricSheet> parts = wetParts(sheet).value_or(std::vector<ParametricSheet>{});
             several += parts.size() > 1 ? 1 : 0;
             long euler = 0;
             for (const ParametricSheet& part : parts) {

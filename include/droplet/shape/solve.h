@@ -39,7 +39,8 @@ enum class Model {
 
 /// Solver of the linear systems.
 enum class Solver {
-    Auto,       ///< the fastest one for each droplet; Llt if the iteration does not converge
+    Auto,       ///< Llt for the linear model of up to 25,000 unknowns, and where it is faster or the iteration does not
+                ///< converge; else Multigrid
     Llt,        ///< Eigen's simplicial Cholesky factorisation
     Multigrid,  ///< conjugate gradients with a multigrid preconditioner on the mesh's lattice
 };

@@ -58,7 +58,7 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
 /// the shape that they have seen from above as far as possible (Garanzha et al. 2021). Surface::texture_map says which.
 /// @param sheet    with its footprint
 /// @param options  open or closed, extent of the image, the ground, a base if it is flat and known; no refill
-/// @return         surface without a mean height; the volume of its part is 0
+/// @return         surface without a mean height; the volume of its part is 0. Empty if all is dry
 /// @throws Error   InvalidArgument: options, or the rims differ
 Surface loft(const ParametricSheet& sheet, const LoftOptions& options);
 
