@@ -546,7 +546,8 @@ std::vector<double> volumesOf(const std::vector<PlanarMesh>& meshes, const Dropl
 void finish(Droplet& droplet, const DropletOptions& options, const Progress& progress, FilmState film)
 {
     SolveOptions solved = solveOptions(options);
-    const LiquidShapes shapes = solveShapes(droplet.meshes, solved, options.allow_less, progress, std::move(film.followed));
+    const LiquidShapes shapes =
+        solveShapes(droplet.meshes, solved, options.allow_less, progress, std::move(film.followed));
     droplet.solution = shapes.solution;
     droplet.sheets = shapes.sheets;
     solved.model = droplet.solution.report.model;

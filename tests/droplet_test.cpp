@@ -772,8 +772,8 @@ TEST(Droplet, SharesLiquidThatHangsOverItsRim)
     }
 }
 
-/// Two equal puddles at one pressure stay equal while their pressure rises with the volume. Beyond, one takes the liquid
-/// of the other, up to 180° along its rim, where it would roll away.
+/// Two equal puddles at one pressure stay equal while their pressure rises with the volume. Beyond, one takes the
+/// liquid of the other, up to 180° along its rim, where it would roll away.
 TEST(Droplet, SharedAmountEndsWhereARimDoesNotHoldIt)
 {
     const double radius = 5.0 * kMillimetre;

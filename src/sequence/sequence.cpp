@@ -597,8 +597,7 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     if (!sheets) {
         sheets = FollowedSheets{{}, lineage->bases};
     }
-    finish(frame.droplet, frame_options, progress,
-           {sheets->bases, std::move(sheets->sheets), options.keep_vertices});
+    finish(frame.droplet, frame_options, progress, {sheets->bases, std::move(sheets->sheets), options.keep_vertices});
     if (count > 0) {
         frame.vertices_kept = keptShare(before.droplet, frame.droplet, followed, kept);
     }

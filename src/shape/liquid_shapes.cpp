@@ -268,8 +268,8 @@ std::optional<Probe> probe(const std::vector<PlanarMesh>& meshes, const SolveOpt
     }
     const Solution solution = findFields(coarse, quickly(options), {});
     const bool exists = solution.report.usable() && haveLiquid(coarse, solution.droplets, options);
-    const bool is_steep = exists ? areSteep(coarse, solution.droplets)
-                                 : solution.report.termination != Termination::Unstable;
+    const bool is_steep =
+        exists ? areSteep(coarse, solution.droplets) : solution.report.termination != Termination::Unstable;
     return Probe{exists, is_steep};
 }
 
@@ -447,8 +447,8 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
     if (shape.fields.empty() && !mustHang(options) && !is_steep && !before.failed) {
         solve_quickly();
     }
-    if (!is_steep && (shape.fields.empty() ? shape.report.termination == Termination::Unstable
-                                           : !areSteep(meshes, shape.fields))) {
+    if (!is_steep &&
+        (shape.fields.empty() ? shape.report.termination == Termination::Unstable : !areSteep(meshes, shape.fields))) {
         return shape;
     }
     // A height field that is upright in a few places may stand, unless the exact shape was asked for.

@@ -283,10 +283,9 @@ private:
                             {{t[i], t[j], middle[j]}, {t[i], middle[j], middle[k]}, {middle[k], middle[j], t[k]}});
                 break;
             case 3:
-                made.insert(made.end(), {{t[0], middle[0], middle[2]},
-                                         {middle[0], t[1], middle[1]},
-                                         {middle[2], middle[1], t[2]},
-                                         middle});
+                made.insert(
+                    made.end(),
+                    {{t[0], middle[0], middle[2]}, {middle[0], t[1], middle[1]}, {middle[2], middle[1], t[2]}, middle});
                 break;
             default:
                 made.push_back(t);
@@ -335,7 +334,8 @@ WetPart wetPart(Part&& part, const PlanarMesh& mesh, const HeightField& field, c
     return result;
 }
 
-/// Which triangles of a sheet lie on flat ground, face up: all but those at vertices at which liquid would touch itself.
+/// Which triangles of a sheet lie on flat ground, face up: all but those at vertices at which liquid would touch
+/// itself.
 std::vector<std::uint8_t> dryTriangles(const ParametricSheet& sheet)
 {
     std::vector<std::uint8_t> is_dry;

@@ -359,8 +359,12 @@ TEST(WetParts, LieOnTheGroundAlongANewRim)
 /// The same liquid as a sheet.
 ParametricSheet sheetOf(const PlanarMesh& mesh, const HeightField& field)
 {
-    ParametricSheet sheet{.footprint = mesh, .places = {}, .triangles = mesh.triangles, .rim = mesh.rimVertexCount(),
-                          .contact_angle = field.contact_angle, .pressure = field.pressure};
+    ParametricSheet sheet{.footprint = mesh,
+                          .places = {},
+                          .triangles = mesh.triangles,
+                          .rim = mesh.rimVertexCount(),
+                          .contact_angle = field.contact_angle,
+                          .pressure = field.pressure};
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
         sheet.places.push_back({mesh.vertices[v].x, mesh.vertices[v].y, field.height[v]});
     }
