@@ -19,7 +19,7 @@ droplet::MeshReport describeMeshes(const droplet::Droplet& droplet)
         const droplet::PlanarMesh& mesh = droplet.meshes[k];
         const droplet::ParametricSheet* sheet =
             !droplet.sheets.empty() && droplet.sheets[k] ? &*droplet.sheets[k] : nullptr;
-        report.vertices += sheet != nullptr ? sheet->places.size() : mesh.vertices.size();
+        report.vertices += sheet != nullptr ? sheet->vertices.size() : mesh.vertices.size();
         report.triangles += sheet != nullptr ? sheet->triangles.size() : mesh.triangles.size();
         report.holes += mesh.loopCount() - 1;
         report.min_angle =

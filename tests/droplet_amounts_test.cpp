@@ -241,7 +241,7 @@ TEST(Amounts, SheetsHaveTheTrianglesThatWereAskedFor)
         // The report is that of the sheet, not of the height field that was tried first.
         const SolveReport& report = droplet.solution.report;
         EXPECT_EQ(report.method, "multifrontal-ldlt");
-        EXPECT_EQ(report.unknowns, sheet.places.size() - sheet.rim);
+        EXPECT_EQ(report.unknowns, sheet.vertices.size() - sheet.rim);
         EXPECT_EQ(report.iterations, 1U);
         EXPECT_GT(report.residual, 0.0);
         EXPECT_LT(report.residual, 1e-7);

@@ -174,8 +174,8 @@ void takeSheet(const ParametricSheet& sheet, const BaseSurface& ground, PlanarMe
     field.height.clear();
     field.dry.clear();
     field.ground.clear();
-    for (std::uint32_t v = 0; v < sheet.places.size(); ++v) {
-        const Vec3& p = sheet.places[v];
+    for (std::uint32_t v = 0; v < sheet.vertices.size(); ++v) {
+        const Vec3& p = sheet.vertices[v];
         const double clearance = base.clearance(p);
         mesh.vertices.push_back({p.x, p.y});
         field.height.push_back(p.z);

@@ -454,7 +454,7 @@ SolveOptions followedOptions(const Frame& before, const SequenceOptions& options
 std::size_t vertexCount(const Droplet& droplet, std::size_t k)
 {
     const ParametricSheet* sheet = sheetOf(droplet, k);
-    return sheet != nullptr ? sheet->places.size() : droplet.meshes[k].vertices.size();
+    return sheet != nullptr ? sheet->vertices.size() : droplet.meshes[k].vertices.size();
 }
 
 /// Share of the vertices of a frame that the frame before had; new sheets have none.

@@ -141,17 +141,17 @@ ParametricSheet join(const std::vector<ParametricSheet>& sheets)
     std::size_t vertices = 0;
     for (const ParametricSheet& sheet : sheets) {
         footprints.push_back(sheet.footprint);
-        vertices += sheet.places.size();
+        vertices += sheet.vertices.size();
     }
     ParametricSheet joined;
     joined.footprint = join(footprints);
     joined.rim = joined.footprint.rimVertexCount();
     joined.pressure = sheets.front().pressure;
-    joined.places.resize(vertices);
+    joined.vertices.resize(vertices);
     Numbering numbering(joined.rim);
     for (const ParametricSheet& sheet : sheets) {
-        numbering.add(sheet.rim, sheet.places.size());
-        add(sheet.places, sheet.triangles, numbering, joined.places, joined.triangles);
+        numbering.add(sheet.rim, sheet.vertices.size());
+        add(sheet.vertices, sheet.triangles, numbering, joined.vertices, joined.triangles);
         joined.contact_angle.insert(joined.contact_angle.end(), sheet.contact_angle.begin(), sheet.contact_angle.end());
     }
     return joined;
@@ -174,10 +174,10 @@ std::vector<ParametricSheet> separate(const ParametricSheet& sheet)
         footprint.vertices, footprint.triangles, partsOf(footprint, footprint.vertices.size(), footprint.triangles),
         sheets.size(), [&](std::size_t part) -> auto& { return sheets[part].footprint.vertices; },
         [&](std::size_t part) -> auto& { return sheets[part].footprint.triangles; });
-    const std::vector<std::size_t> parts = partsOf(footprint, sheet.places.size(), sheet.triangles);
+    const std::vector<std::size_t> parts = partsOf(footprint, sheet.vertices.size(), sheet.triangles);
     distribute(
-        sheet.places, sheet.triangles, parts,
-        sheets.size(), [&](std::size_t part) -> auto& { return sheets[part].places; },
+        sheet.vertices, sheet.triangles, parts,
+        sheets.size(), [&](std::size_t part) -> auto& { return sheets[part].vertices; },
         [&](std::size_t part) -> auto& { return sheets[part].triangles; });
     for (std::uint32_t v = 0; v < sheet.rim; ++v) {
         sheets[parts[v]].contact_angle.push_back(sheet.contact_angle[v]);

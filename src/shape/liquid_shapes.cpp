@@ -487,7 +487,7 @@ SheetMesh sheetOf(const PlanarMesh& mesh, const HeightField& field)
 {
     SheetMesh sheet{{}, mesh.triangles, mesh.rimVertexCount()};
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        sheet.places.push_back({mesh.vertices[v].x, mesh.vertices[v].y, field.height[v]});
+        sheet.vertices.push_back({mesh.vertices[v].x, mesh.vertices[v].y, field.height[v]});
     }
     return sheet;
 }
@@ -548,9 +548,9 @@ std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& mesh
     std::vector<Box> boxes;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         const std::optional<ParametricSheet>& sheet = shapes.sheets[k];
-        sheets.push_back(sheet ? SheetMesh{sheet->places, sheet->triangles, sheet->rim}
+        sheets.push_back(sheet ? SheetMesh{sheet->vertices, sheet->triangles, sheet->rim}
                                : sheetOf(meshes[k], shapes.solution.droplets[k]));
-        boxes.emplace_back(sheets.back().places);
+        boxes.emplace_back(sheets.back().vertices);
     }
     const std::vector<std::size_t> clusters = clustersOf(meshes);
     std::vector<const SheetMesh*> near;
@@ -614,7 +614,7 @@ void describe(const std::vector<PlanarMesh>& meshes, const std::string& method, 
     std::size_t most = 0;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         const std::optional<ParametricSheet>& sheet = shapes.sheets[k];
-        const std::size_t own = sheet ? sheet->places.size() - sheet->rim : unknownsOf(meshes[k]);
+        const std::size_t own = sheet ? sheet->vertices.size() - sheet->rim : unknownsOf(meshes[k]);
         report.unknowns += own;
         if (own > most) {
             most = own;
@@ -728,7 +728,7 @@ std::optional<LiquidShapes> empty(LiquidShapes shapes, const SolveOptions& optio
         if (measure(*sheet, options).contact_angle.mean > kFlat) {
             return std::nullopt;
         }
-        for (Vec3& place : sheet->places) {
+        for (Vec3& place : sheet->vertices) {
             place.z = 0.0;
         }
         std::fill(sheet->contact_angle.begin(), sheet->contact_angle.end(), 0.0);

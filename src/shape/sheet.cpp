@@ -77,7 +77,7 @@ void requireFlat(const SolveOptions& options)
 
 SheetMesh meshOf(const ParametricSheet& sheet)
 {
-    return {sheet.places, sheet.triangles, sheet.rim};
+    return {sheet.vertices, sheet.triangles, sheet.rim};
 }
 
 /// Sides of a footprint's rim, and which of them are beside a place.
@@ -157,11 +157,11 @@ double overhangOf(const ParametricSheet& sheet)
     const RimSides rim(sheet.footprint);
     double overhang = 0.0;
     for (const double part :
-         mapBlocks<double>(sheet.places.size() - sheet.rim, [&](std::size_t begin, std::size_t end) {
+         mapBlocks<double>(sheet.vertices.size() - sheet.rim, [&](std::size_t begin, std::size_t end) {
              double farthest = 0.0;
              std::size_t near = 0;
              for (std::size_t i = begin; i < end; ++i) {
-                 const Vec3& p = sheet.places[sheet.rim + i];
+                 const Vec3& p = sheet.vertices[sheet.rim + i];
                  if (!rim.isInside({p.x, p.y})) {
                      farthest = std::max(farthest, rim.squaredIfMore({p.x, p.y}, farthest, near));
                  }
@@ -215,7 +215,7 @@ void take(FilledSheet filled, const SolveOptions& options, SheetResult& result)
     result.contact = filled.contact;
     result.sheet.contact_angle = smoothed(
         result.sheet.footprint, rimAngles(filled.mesh, weightOf(options), filled.pressure, options.ground).angle);
-    result.sheet.places = std::move(filled.mesh.places);
+    result.sheet.vertices = std::move(filled.mesh.vertices);
     result.sheet.triangles = std::move(filled.mesh.triangles);
     result.sheet.rim = filled.mesh.rim;
     result.sheet.pressure = options.liquid.surface_tension * filled.pressure;
@@ -408,7 +408,7 @@ ShapeFigures measure(const ParametricSheet& sheet, const SolveOptions& options)
 {
     const Vec3 weight = weightOf(options);
     const SheetBase base = baseOf(sheet.footprint, options.ground, weight);
-    const SheetIntegrals sums = integrate({sheet.places, sheet.triangles, sheet.rim}, weight);
+    const SheetIntegrals sums = integrate({sheet.vertices, sheet.triangles, sheet.rim}, weight);
     const double sigma = options.liquid.surface_tension;
     ShapeFigures figures;
     figures.footprint_area = area(sheet.footprint);
@@ -417,7 +417,7 @@ ShapeFigures measure(const ParametricSheet& sheet, const SolveOptions& options)
     figures.gravity_energy = sigma * (sums.gravity - base.integrals.gravity);
     const double touching = kTouching * std::sqrt(figures.footprint_area);
     std::vector<std::uint8_t> is_grounded;
-    for (const Vec3& p : sheet.places) {
+    for (const Vec3& p : sheet.vertices) {
         const double clearance = base.clearance(p);
         is_grounded.push_back(clearance <= touching ? 1 : 0);
         if (std::isfinite(clearance)) {
@@ -426,7 +426,7 @@ ShapeFigures measure(const ParametricSheet& sheet, const SolveOptions& options)
         }
     }
     for (const Triangle& t : sheet.triangles) {
-        const Vec3 normal = areaVector(sheet.places, t);
+        const Vec3 normal = areaVector(sheet.vertices, t);
         // Liquid that lies on the ground beside the footprint has its surface upside down there.
         if (normal.z > 0.0 && std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return is_grounded[v] != 0; })) {
             figures.dry_area += normal.z;

@@ -44,9 +44,9 @@ SheetMesh drySheet(const PlanarMesh& footprint, const BaseSurface& ground)
 {
     SheetMesh sheet{{}, footprint.triangles, footprint.rimVertexCount()};
     const std::vector<double> heights = heightsUnder(footprint, ground);
-    sheet.places.reserve(heights.size());
+    sheet.vertices.reserve(heights.size());
     for (std::size_t v = 0; v < heights.size(); ++v) {
-        sheet.places.push_back({footprint.vertices[v].x, footprint.vertices[v].y, heights[v]});
+        sheet.vertices.push_back({footprint.vertices[v].x, footprint.vertices[v].y, heights[v]});
     }
     return sheet;
 }

@@ -49,9 +49,9 @@ std::vector<Face> facesNearFolds(const std::vector<const SheetMesh*>& sheets)
     double width = 0.0;
     for (const SheetMesh* sheet : sheets) {
         for (const Triangle& t : sheet->triangles) {
-            const Vec3 normal = areaVector(sheet->places, t);
+            const Vec3 normal = areaVector(sheet->vertices, t);
             is_upward.push_back(normal.z > kUpward * length(normal) ? 1 : 0);
-            const Shadow& shadow = shadows.emplace_back(sheet->places, t);
+            const Shadow& shadow = shadows.emplace_back(sheet->vertices, t);
             low = {std::min(low.x, shadow.low.x), std::min(low.y, shadow.low.y)};
             high = {std::max(high.x, shadow.high.x), std::max(high.y, shadow.high.y)};
             width += std::max(shadow.high.x - shadow.low.x, shadow.high.y - shadow.low.y);
@@ -110,7 +110,7 @@ std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sh
     for (const SheetMesh* sheet : sheets) {
         const auto first = static_cast<std::uint32_t>(mesh.number_of_vertices());
         first_face.push_back(mesh.number_of_faces());
-        for (const Vec3& p : sheet->places) {
+        for (const Vec3& p : sheet->vertices) {
             mesh.add_vertex({p.x, p.y, p.z});
         }
         for (const Triangle& t : sheet->triangles) {

@@ -37,7 +37,7 @@ using Places = std::vector<Vec2>;
 
 struct Loop {
     std::uint32_t first = 0;  ///< vertex of the mesh
-    Places places;
+    Places vertices;
     std::vector<std::uint8_t> corner;
     Vec2 middle;
     double length = 0.0;
@@ -50,16 +50,16 @@ std::vector<Loop> loopsOf(const PlanarMesh& mesh)
     for (std::size_t k = 0; k < mesh.loopCount(); ++k) {
         Loop& loop = loops.emplace_back();
         loop.first = mesh.loop_starts[k];
-        loop.places.assign(mesh.vertices.begin() + mesh.loop_starts[k],
-                           mesh.vertices.begin() + mesh.loop_starts[k + 1]);
-        const std::size_t count = loop.places.size();
+        loop.vertices.assign(mesh.vertices.begin() + mesh.loop_starts[k],
+                             mesh.vertices.begin() + mesh.loop_starts[k + 1]);
+        const std::size_t count = loop.vertices.size();
         for (std::size_t i = 0; i < count; ++i) {
-            const Vec2 in = loop.places[i] - loop.places[(i + count - 1) % count];
-            const Vec2 out = loop.places[(i + 1) % count] - loop.places[i];
+            const Vec2 in = loop.vertices[i] - loop.vertices[(i + count - 1) % count];
+            const Vec2 out = loop.vertices[(i + 1) % count] - loop.vertices[i];
             loop.corner.push_back(std::abs(turnBetween(in, out)) > kCorner ? 1 : 0);
             loop.length += length(out);
-            loop.middle = loop.middle + length(out) * (loop.places[i] + 0.5 * out);
-            loop.area += 0.5 * cross(loop.places[i], loop.places[i] + out);
+            loop.middle = loop.middle + length(out) * (loop.vertices[i] + 0.5 * out);
+            loop.area += 0.5 * cross(loop.vertices[i], loop.vertices[i] + out);
         }
         loop.middle = (1.0 / loop.length) * loop.middle;
     }
@@ -106,12 +106,12 @@ std::pair<std::size_t, std::size_t> startOf(const Loop& coarse, const Loop& fine
         return std::find(loop.corner.begin(), loop.corner.end(), 1) != loop.corner.end();
     };
     const bool by_corners = has_corner(coarse) && has_corner(fine);
-    const std::size_t stride = by_corners ? 1 : std::max<std::size_t>(1, coarse.places.size() / kStarts);
+    const std::size_t stride = by_corners ? 1 : std::max<std::size_t>(1, coarse.vertices.size() / kStarts);
     std::pair<std::size_t, std::size_t> start{0, 0};
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < coarse.places.size(); i += stride) {
-        for (std::size_t j = 0; j < fine.places.size() && (!by_corners || coarse.corner[i] != 0); ++j) {
-            const double apart = squared(fine.places[j] - coarse.places[i]);
+    for (std::size_t i = 0; i < coarse.vertices.size(); i += stride) {
+        for (std::size_t j = 0; j < fine.vertices.size() && (!by_corners || coarse.corner[i] != 0); ++j) {
+            const double apart = squared(fine.vertices[j] - coarse.vertices[i]);
             if ((!by_corners || fine.corner[j] != 0) && apart < least) {
                 least = apart;
                 start = {i, j};
@@ -128,17 +128,17 @@ std::optional<std::vector<std::size_t>> match(const Loop& coarse, const Loop& fi
         double cost = std::numeric_limits<double>::infinity();
         int from = 0;  ///< offset of the vertex before
     };
-    const auto count = static_cast<int>(coarse.places.size());
-    const auto fine_count = static_cast<int>(fine.places.size());
+    const auto count = static_cast<int>(coarse.vertices.size());
+    const auto fine_count = static_cast<int>(fine.vertices.size());
     if (fine_count < count) {
         return std::nullopt;
     }
     const auto [first, fine_first] = startOf(coarse, fine);
     const auto coarse_at = [&, begin = first](int i) {
-        return (begin + static_cast<std::size_t>(i)) % coarse.places.size();
+        return (begin + static_cast<std::size_t>(i)) % coarse.vertices.size();
     };
     const auto fine_at = [&, begin = fine_first](int j) {
-        return (begin + static_cast<std::size_t>(j)) % fine.places.size();
+        return (begin + static_cast<std::size_t>(j)) % fine.vertices.size();
     };
     const double edge = coarse.length / count;
     const double ratio = static_cast<double>(fine_count) / count;
@@ -167,7 +167,7 @@ std::optional<std::vector<std::size_t>> match(const Loop& coarse, const Loop& fi
                 }
             }
             const std::size_t there = fine_at(j);
-            cell.cost += squared(fine.places[there] - coarse.places[here]) +
+            cell.cost += squared(fine.vertices[there] - coarse.vertices[here]) +
                          (coarse.corner[here] == fine.corner[there] ? 0.0 : kNoCorner * edge * edge);
             if (cell.cost < least) {
                 least = cell.cost;
@@ -181,11 +181,11 @@ std::optional<std::vector<std::size_t>> match(const Loop& coarse, const Loop& fi
     if (fine_count - best > kSpan) {
         return std::nullopt;
     }
-    std::vector<std::size_t> matched(coarse.places.size());
+    std::vector<std::size_t> matched(coarse.vertices.size());
     for (int i = count - 1; i >= 0; --i) {
         const std::size_t here = coarse_at(i);
         matched[here] = fine_at(best);
-        if (squared(fine.places[matched[here]] - coarse.places[here]) > kFar * kFar * edge * edge) {
+        if (squared(fine.vertices[matched[here]] - coarse.vertices[here]) > kFar * kFar * edge * edge) {
             return std::nullopt;
         }
         const auto row = static_cast<std::size_t>(i);
@@ -220,8 +220,8 @@ std::optional<RimMatch> matchRims(const PlanarMesh& coarse, const PlanarMesh& fi
         if (!matched) {
             return std::nullopt;
         }
-        const std::size_t count = loop.places.size();
-        const std::size_t fine_count = fine_loop.places.size();
+        const std::size_t count = loop.vertices.size();
+        const std::size_t fine_count = fine_loop.vertices.size();
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t after = (*matched)[(i + 1) % count];
             rim.vertex[loop.first + i] = fine_loop.first + static_cast<std::uint32_t>((*matched)[i]);
@@ -255,9 +255,9 @@ public:
         findNormals();
         result_.rim = fine_.rimVertexCount();
         for (std::uint32_t v = 0; v < result_.rim; ++v) {
-            result_.places.push_back({fine_.vertices[v].x, fine_.vertices[v].y, 0.0});
+            result_.vertices.push_back({fine_.vertices[v].x, fine_.vertices[v].y, 0.0});
         }
-        result_.places.insert(result_.places.end(), sheet_.places.begin() + sheet_.rim, sheet_.places.end());
+        result_.vertices.insert(result_.vertices.end(), sheet_.vertices.begin() + sheet_.rim, sheet_.vertices.end());
         addMiddles();
         for (std::uint32_t k = 0; k < sheet_.triangles.size(); ++k) {
             divideTriangle(k);
@@ -277,7 +277,7 @@ private:
     /// Moves the rim to its new places, and what is near along with it.
     void moveRim()
     {
-        const std::size_t count = sheet_.places.size();
+        const std::size_t count = sheet_.vertices.size();
         std::vector<std::vector<std::uint32_t>> around(count);
         for (const Triangle& t : sheet_.triangles) {
             for (std::size_t a = 0; a < 3; ++a) {
@@ -286,7 +286,7 @@ private:
         }
         std::vector<Vec2> way(count);
         for (std::uint32_t v = 0; v < sheet_.rim; ++v) {
-            way[v] = fine_.vertices[rim_.vertex[v]] - Vec2{sheet_.places[v].x, sheet_.places[v].y};
+            way[v] = fine_.vertices[rim_.vertex[v]] - Vec2{sheet_.vertices[v].x, sheet_.vertices[v].y};
         }
         for (int sweep = 0; sweep < kSweeps; ++sweep) {
             for (std::size_t v = sheet_.rim; v < count; ++v) {
@@ -298,16 +298,16 @@ private:
             }
         }
         for (std::size_t v = 0; v < count; ++v) {
-            sheet_.places[v].x += way[v].x;
-            sheet_.places[v].y += way[v].y;
+            sheet_.vertices[v].x += way[v].x;
+            sheet_.vertices[v].y += way[v].y;
         }
     }
 
     void findNormals()
     {
-        normals_.assign(sheet_.places.size(), {});
+        normals_.assign(sheet_.vertices.size(), {});
         for (const Triangle& t : sheet_.triangles) {
-            const Vec3 normal = areaVector(sheet_.places, t);
+            const Vec3 normal = areaVector(sheet_.vertices, t);
             for (const std::uint32_t v : t) {
                 normals_[v] = normals_[v] + normal;
             }
@@ -321,7 +321,7 @@ private:
     /// Middle of the curve with the tangents of the sheet at its ends.
     [[nodiscard]] Vec3 middle(std::uint32_t a, std::uint32_t b) const
     {
-        const Vec3 side = sheet_.places[b] - sheet_.places[a];
+        const Vec3 side = sheet_.vertices[b] - sheet_.vertices[a];
         const auto tangent = [&](std::uint32_t v) { return side - dot(side, normals_[v]) * normals_[v]; };
         // The normal of a rim vertex is that of triangles on one side: half of the bulge is known.
         Vec3 bulge = (onRim(a) != onRim(b) ? 0.0625 : 0.125) * (tangent(a) - tangent(b));
@@ -329,8 +329,8 @@ private:
         if (length(bulge) > limit) {
             bulge = (limit / length(bulge)) * bulge;
         }
-        Vec3 place = 0.5 * (sheet_.places[a] + sheet_.places[b]) + bulge;
-        const auto on_ground = [&](std::uint32_t v) { return sheet_.places[v].z <= 0.0 && normals_[v].z < 0.0; };
+        Vec3 place = 0.5 * (sheet_.vertices[a] + sheet_.vertices[b]) + bulge;
+        const auto on_ground = [&](std::uint32_t v) { return sheet_.vertices[v].z <= 0.0 && normals_[v].z < 0.0; };
         if (on_ground(a) && on_ground(b)) {
             place.z = 0.0;
         }
@@ -356,9 +356,9 @@ private:
         middles_.assign(3 * sheet_.triangles.size(), 0);
         for (std::size_t i = 0; i < edges.size(); ++i) {
             if (i == 0 || edges[i].low != edges[i - 1].low || edges[i].high != edges[i - 1].high) {
-                result_.places.push_back(middle(edges[i].low, edges[i].high));
+                result_.vertices.push_back(middle(edges[i].low, edges[i].high));
             }
-            middles_[edges[i].side] = static_cast<std::uint32_t>(result_.places.size() - 1);
+            middles_[edges[i].side] = static_cast<std::uint32_t>(result_.vertices.size() - 1);
         }
     }
 

@@ -27,7 +27,7 @@ struct Facet {
     Vec3 normal;  ///< N, as long as the area
 
     Facet(const SheetMesh& sheet, const Triangle& t)
-        : x{sheet.places[t[0]], sheet.places[t[1]], sheet.places[t[2]]}, normal(areaVector(sheet.places, t))
+        : x{sheet.vertices[t[0]], sheet.vertices[t[1]], sheet.vertices[t[2]]}, normal(areaVector(sheet.vertices, t))
     {
     }
 };
@@ -149,7 +149,7 @@ SheetGradients gradientsOfFirst(std::size_t count, const SheetMesh& sheet, Vec3 
 
 SheetGradients gradientsOf(const SheetMesh& sheet, Vec3 weight)
 {
-    return gradientsOfFirst(sheet.places.size(), sheet, weight);
+    return gradientsOfFirst(sheet.vertices.size(), sheet, weight);
 }
 
 SheetGradients rimGradientsOf(const SheetMesh& sheet, Vec3 weight)
@@ -180,7 +180,7 @@ SheetPattern::Gathering SheetPattern::gather(const std::vector<std::int32_t>& su
 
 SheetPattern::SheetPattern(const SheetMesh& sheet)
 {
-    const std::size_t unknowns = sheet.places.size() - sheet.rim;
+    const std::size_t unknowns = sheet.vertices.size() - sheet.rim;
     const auto row_of = [&](std::uint32_t v) {
         return static_cast<std::int32_t>(v) - static_cast<std::int32_t>(sheet.rim);
     };
@@ -191,14 +191,14 @@ SheetPattern::SheetPattern(const SheetMesh& sheet)
             corner_of.push_back(static_cast<std::int32_t>(v));
         }
     }
-    corners_ = gather(corner_of, sheet.places.size());
+    corners_ = gather(corner_of, sheet.vertices.size());
 
     // Rows of a column: its vertex, and those of its triangles with larger numbers.
     std::vector<int> outer{0};
     std::vector<int> inner;
     inner.reserve(4 * unknowns);
     outer.reserve(unknowns + 1);
-    for (std::size_t v = sheet.rim; v < sheet.places.size(); ++v) {
+    for (std::size_t v = sheet.rim; v < sheet.vertices.size(); ++v) {
         const auto first = static_cast<std::ptrdiff_t>(inner.size());
         inner.push_back(row_of(static_cast<std::uint32_t>(v)));
         for (auto k = corners_.starts[v]; k < corners_.starts[v + 1]; ++k) {
@@ -248,7 +248,7 @@ SheetGradients SheetPattern::gradients(const SheetMesh& sheet, Vec3 weight) cons
             }
         },
         kFacets);
-    const std::size_t count = sheet.places.size();
+    const std::size_t count = sheet.vertices.size();
     SheetGradients result{std::vector<Vec3>(count), std::vector<Vec3>(count), std::vector<double>(count, 0.0)};
     forBlocks(
         count,

@@ -53,7 +53,7 @@ Similarity nearestSimilarity(const SheetMesh& sheet, const std::vector<Vec2>& ri
 {
     Similarity similarity;
     for (std::size_t v = 0; v < rim.size(); ++v) {
-        similarity.from += placeOf(sheet.places[v]);
+        similarity.from += placeOf(sheet.vertices[v]);
         similarity.to += Place(rim[v].x, rim[v].y);
     }
     similarity.from /= static_cast<double>(rim.size());
@@ -61,7 +61,7 @@ Similarity nearestSimilarity(const SheetMesh& sheet, const std::vector<Vec2>& ri
     Place turned;
     double size = 0.0;
     for (std::size_t v = 0; v < rim.size(); ++v) {
-        const Place arm = placeOf(sheet.places[v]) - similarity.from;
+        const Place arm = placeOf(sheet.vertices[v]) - similarity.from;
         turned += std::conj(arm) * (Place(rim[v].x, rim[v].y) - similarity.to);
         size += std::norm(arm);
     }
@@ -73,17 +73,17 @@ Similarity nearestSimilarity(const SheetMesh& sheet, const std::vector<Vec2>& ri
 /// @param moves  of the rim's vertices, in two columns
 Eigen::MatrixX2d harmonic(const SheetMesh& sheet, const Eigen::MatrixX2d& moves)
 {
-    const auto inner = static_cast<Eigen::Index>(sheet.places.size() - sheet.rim);
+    const auto inner = static_cast<Eigen::Index>(sheet.vertices.size() - sheet.rim);
     const auto row_of = [&](std::uint32_t v) { return static_cast<int>(v - sheet.rim); };
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(inner, 2);
     for (const Triangle& t : sheet.triangles) {
-        const double twice = 2.0 * length(areaVector(sheet.places, t));
+        const double twice = 2.0 * length(areaVector(sheet.vertices, t));
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = t[(k + 1) % 3];
             const std::uint32_t b = t[(k + 2) % 3];
-            const Vec3& tip = sheet.places[t[k]];
-            const double weight = 0.5 * dot(sheet.places[a] - tip, sheet.places[b] - tip) / twice;
+            const Vec3& tip = sheet.vertices[t[k]];
+            const double weight = 0.5 * dot(sheet.vertices[a] - tip, sheet.vertices[b] - tip) / twice;
             for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
                 if (from < sheet.rim) {
                     continue;
@@ -106,16 +106,16 @@ Eigen::MatrixX2d harmonic(const SheetMesh& sheet, const Eigen::MatrixX2d& moves)
 std::vector<Vec3> motionOf(const SheetMesh& sheet, const std::vector<Vec2>& rim, const Similarity& similarity)
 {
     std::vector<Vec3> motion;
-    motion.reserve(sheet.places.size());
-    for (const Vec3& p : sheet.places) {
+    motion.reserve(sheet.vertices.size());
+    for (const Vec3& p : sheet.vertices) {
         const Place way = similarity(placeOf(p)) - placeOf(p);
         motion.push_back({way.real(), way.imag(), (similarity.growth() - 1.0) * p.z});
     }
     Eigen::MatrixX2d rest(static_cast<Eigen::Index>(rim.size()), 2);
     for (std::size_t v = 0; v < rim.size(); ++v) {
-        const Vec3 there = sheet.places[v] + motion[v];
+        const Vec3 there = sheet.vertices[v] + motion[v];
         rest.row(static_cast<Eigen::Index>(v)) << rim[v].x - there.x, rim[v].y - there.y;
-        motion[v] = {rim[v].x - sheet.places[v].x, rim[v].y - sheet.places[v].y, 0.0};
+        motion[v] = {rim[v].x - sheet.vertices[v].x, rim[v].y - sheet.vertices[v].y, 0.0};
     }
     const Eigen::MatrixX2d inside = harmonic(sheet, rest);
     for (std::size_t v = rim.size(); v < motion.size(); ++v) {
@@ -165,17 +165,17 @@ public:
             const bool is_last = step >= left;
             const double size = std::min(step, left);
             SheetMesh next = sheet_;
-            for (std::size_t v = 0; v < next.places.size(); ++v) {
-                next.places[v] = next.places[v] + size * motion[v];
+            for (std::size_t v = 0; v < next.vertices.size(); ++v) {
+                next.vertices[v] = next.vertices[v] + size * motion[v];
             }
             for (std::size_t v = 0; is_last && v < rim.size(); ++v) {
-                next.places[v] = {rim[v].x, rim[v].y, 0.0};
+                next.vertices[v] = {rim[v].x, rim[v].y, 0.0};
             }
             const double next_volume = is_last ? volume : volume_ + size * filling;
             const double missing = next_volume - integrate(next, weight_).volume;
-            for (std::size_t v = next.rim; v < next.places.size(); ++v) {
-                next.places[v] = next.places[v] + missing * newton_.tangent[v];
-                next.places[v].z = std::max(next.places[v].z, 0.0);
+            for (std::size_t v = next.rim; v < next.vertices.size(); ++v) {
+                next.vertices[v] = next.vertices[v] + missing * newton_.tangent[v];
+                next.vertices[v].z = std::max(next.vertices[v].z, 0.0);
             }
             double next_pressure = pressure_ + size * pressing + missing * newton_.pressure_slope;
             const bool is_gentle = isGentle(sheet_, next, kPredicted);

@@ -14,7 +14,7 @@ namespace droplet {
 /// Invariants: a manifold whose boundary is the rim; rim vertices come first, in the order of the footprint's loops;
 /// triangles are counter-clockwise from outside.
 struct SheetMesh {
-    std::vector<Vec3> places;         ///< vertices [m]
+    std::vector<Vec3> vertices;       ///< places [m]
     std::vector<Triangle> triangles;  ///< indices of three vertices
     std::uint32_t rim = 0;            ///< number of rim vertices, which stay in place
 };

@@ -65,7 +65,8 @@ bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimit
             const auto first = before.triangles.begin();
             return std::all_of(first + static_cast<std::ptrdiff_t>(begin), first + static_cast<std::ptrdiff_t>(end),
                                [&](const Triangle& t) {
-                                   return isGentle(areaVector(before.places, t), areaVector(after.places, t), limits);
+                                   return isGentle(areaVector(before.vertices, t), areaVector(after.vertices, t),
+                                                   limits);
                                })
                        ? std::uint8_t{1}
                        : std::uint8_t{0};
@@ -79,23 +80,23 @@ SheetSolver::SheetSolver(const SheetMesh& sheet, Vec3 weight, SheetBase base)
       weight_(weight),
       base_(std::move(base)),
       pattern_(sheet),
-      held_(sheet.places.size() - sheet.rim, 0),
-      held_motion_(sheet.places.size() - sheet.rim, 0.0),
-      damping_(sheet.places.size() - sheet.rim, 0.0)
+      held_(sheet.vertices.size() - sheet.rim, 0),
+      held_motion_(sheet.vertices.size() - sheet.rim, 0.0),
+      damping_(sheet.vertices.size() - sheet.rim, 0.0)
 {
     linear_.matrix = pattern_.empty();
-    factor_ = SheetFactor(linear_.matrix, {sheet.places.begin() + rim_, sheet.places.end()});
+    factor_ = SheetFactor(linear_.matrix, {sheet.vertices.begin() + rim_, sheet.vertices.end()});
 }
 
 void SheetSolver::linearise(const SheetMesh& sheet)
 {
     const SheetGradients gradients = pattern_.gradients(sheet, weight_);
-    const std::size_t count = sheet.places.size() - rim_;
+    const std::size_t count = sheet.vertices.size() - rim_;
     const auto size = static_cast<Eigen::Index>(count);
     linear_.gradient.resize(size);
     linear_.volume.resize(size);
     linear_.mass.resize(size);
-    linear_.directions.assign(sheet.places.size(), {});
+    linear_.directions.assign(sheet.vertices.size(), {});
     linear_.clearance.resize(count);
     linear_.rise.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -103,8 +104,8 @@ void SheetSolver::linearise(const SheetMesh& sheet)
         const auto k = static_cast<Eigen::Index>(i);
         const double size_of = length(gradients.volume[v]);
         Vec3 direction = size_of > 0.0 ? (1.0 / size_of) * gradients.volume[v] : Vec3{0.0, 0.0, 1.0};
-        const GroundPoint ground = base_.under(sheet.places[v]);
-        linear_.clearance[i] = sheet.places[v].z - ground.height;
+        const GroundPoint ground = base_.under(sheet.vertices[v]);
+        linear_.clearance[i] = sheet.vertices[v].z - ground.height;
         if (linear_.clearance[i] <= 0.0) {
             const Vec3 up = normalOf(ground);
             direction = dot(direction, up) < 0.0 ? -1.0 * up : up;
@@ -244,14 +245,14 @@ std::optional<SheetSolver::Step> SheetSolver::chord(const SheetMesh& sheet, doub
 
 bool SheetSolver::damp(const SheetMesh& sheet, const Step& step)
 {
-    std::vector<Vec3> places = sheet.places;
+    std::vector<Vec3> places = sheet.vertices;
     for (Eigen::Index i = 0; i < step.motion.size(); ++i) {
         const std::size_t v = rim_ + static_cast<std::size_t>(i);
         places[v] = places[v] + step.motion[i] * linear_.directions[v];
     }
     std::vector<std::uint8_t> is_wild(damping_.size(), 0);
     for (const Triangle& t : sheet.triangles) {
-        if (!isGentle(areaVector(sheet.places, t), areaVector(places, t), {})) {
+        if (!isGentle(areaVector(sheet.vertices, t), areaVector(places, t), {})) {
             for (const std::uint32_t v : t) {
                 if (v >= rim_) {
                     is_wild[v - rim_] = 1;
@@ -317,20 +318,20 @@ bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume, 
     constexpr int kHalvings = 12;
     double part = 1.0;
     for (int k = 0; k < kHalvings; ++k, part *= 0.5) {
-        sheet.places = before.places;
+        sheet.vertices = before.vertices;
         const auto move = [&](const Vector& motion, double size) {
             for (Eigen::Index i = 0; i < motion.size(); ++i) {
                 const std::size_t v = rim_ + static_cast<std::size_t>(i);
-                sheet.places[v] = sheet.places[v] + (size * motion[i]) * linear_.directions[v];
+                sheet.vertices[v] = sheet.vertices[v] + (size * motion[i]) * linear_.directions[v];
             }
         };
         move(step.motion, part);
-        base_.lift(sheet.places, rim_);
+        base_.lift(sheet.vertices, rim_);
         SheetIntegrals now = liquidUnder(sheet);
         ++passes_;
         for (int round = 0; round < 8 && std::abs(volume - now.volume) > 1e-13 * scale; ++round) {
             move(along, volume - now.volume);
-            base_.lift(sheet.places, rim_);
+            base_.lift(sheet.vertices, rim_);
             now = liquidUnder(sheet);
             ++passes_;
         }
@@ -342,7 +343,7 @@ bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume, 
             return true;
         }
     }
-    sheet.places = before.places;
+    sheet.vertices = before.vertices;
     return false;
 }
 

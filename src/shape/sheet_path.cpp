@@ -77,7 +77,7 @@ constexpr double kChord = 1e-3;
 double heightOf(const SheetMesh& sheet, const SheetBase& base)
 {
     double height = 0.0;
-    for (const Vec3& p : sheet.places) {
+    for (const Vec3& p : sheet.vertices) {
         const double clearance = base.clearance(p);
         height = std::isfinite(clearance) ? std::max(height, clearance) : height;
     }
@@ -101,7 +101,7 @@ struct Renewal {
 /// Place of every vertex after a motion along the tangent, for a change of the volume.
 std::vector<Vec3> movedPlaces(const State& state, double size)
 {
-    std::vector<Vec3> places = state.sheet.places;
+    std::vector<Vec3> places = state.sheet.vertices;
     for (std::size_t v = state.sheet.rim; v < places.size(); ++v) {
         places[v] = places[v] + size * state.newton.tangent[v];
     }
@@ -116,7 +116,7 @@ public:
     {
         options_.path_edge = std::max(options_.edge, options_.path_edge);
         now_.sheet = newTriangles(drySheet(footprint, options.ground), trianglesOf(options_.path_edge));
-        for (Vec3& place : now_.sheet.places) {
+        for (Vec3& place : now_.sheet.vertices) {
             place.z = base_.under(place).height;
         }
         const SheetMesh dry = now_.sheet;
@@ -351,7 +351,7 @@ private:
     {
         const double probe = 1e-6 * std::pow(meshed_area_, 1.5);
         SheetMesh moved = now_.sheet;
-        moved.places = movedPlaces(now_, probe);
+        moved.vertices = movedPlaces(now_, probe);
         return (shareOf(moved, now_.pressure + probe * now_.newton.pressure_slope) -
                 shareOf(now_.sheet, now_.pressure)) /
                probe;
@@ -362,7 +362,7 @@ private:
     {
         SheetMesh moved = now_.sheet;
         for (int k = 0; k < 30; ++k, size *= 0.6) {
-            moved.places = movedPlaces(now_, size);
+            moved.vertices = movedPlaces(now_, size);
             if (isGentle(now_.sheet, moved, kPredicted)) {
                 break;
             }
@@ -377,8 +377,8 @@ private:
         contact_.reset();
         is_loose_ = false;
         State next{now_.sheet, now_.pressure + size * now_.newton.pressure_slope, now_.volume + size, {}};
-        next.sheet.places = movedPlaces(now_, size);
-        base_.lift(next.sheet.places, next.sheet.rim);
+        next.sheet.vertices = movedPlaces(now_, size);
+        base_.lift(next.sheet.vertices, next.sheet.rim);
         next.newton = solver_->solve(next.sheet, next.volume, next.pressure, within({}));
         count(next, false);
         if (!next.newton.converged) {
@@ -408,7 +408,7 @@ private:
         std::vector<std::uint8_t> is_laid(state.sheet.rim, 0);
         for (const Triangle& t : state.sheet.triangles) {
             const bool is_grounded = std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
-                return v >= state.sheet.rim && base_.clearance(state.sheet.places[v]) <= 0.0;
+                return v >= state.sheet.rim && base_.clearance(state.sheet.vertices[v]) <= 0.0;
             });
             for (const std::uint32_t v : t) {
                 if (v < state.sheet.rim && is_grounded) {
@@ -443,7 +443,7 @@ private:
     {
         if (isWorn(meshed_angles_, state.sheet, kWorn)) {
             state.sheet = relax(state.sheet, kRelaxations, base_.ground.flat());
-            base_.lift(state.sheet.places, state.sheet.rim);
+            base_.lift(state.sheet.vertices, state.sheet.rim);
             state.newton = solver_->solve(state.sheet, state.volume, state.pressure, within(kSettling));
             count(state, false);
         }
@@ -612,7 +612,7 @@ private:
         RemeshOptions limited = triangles;
         limited.max_triangles = most();
         SheetMesh made = remesh(sheet, limited);
-        base_.lift(made.places, made.rim);
+        base_.lift(made.vertices, made.rim);
         return made;
     }
 
@@ -626,7 +626,7 @@ private:
     {
         const SheetGradients gradients = gradientsOf(sheet, options_.weight);
         double pressure = 0.0;
-        for (std::size_t v = sheet.rim; v < sheet.places.size(); ++v) {
+        for (std::size_t v = sheet.rim; v < sheet.vertices.size(); ++v) {
             const Vec3& volume = gradients.volume[v];
             pressure = std::max(pressure, dot(gradients.energy[v], volume) / dot(volume, volume));
         }
@@ -667,7 +667,7 @@ private:
         solver_ = std::move(solver);
         meshed_area_ = integrate(sheet, options_.weight).area;
         meshed_angles_ = minAngles(sheet);
-        UnionFind droplets(sheet.places.size());
+        UnionFind droplets(sheet.vertices.size());
         for (const Triangle& t : sheet.triangles) {
             droplets.join(t[0], t[1]);
             droplets.join(t[0], t[2]);
@@ -719,7 +719,7 @@ RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure, const 
     rim.weight.resize(sheet.rim, 0.0);
     std::vector<Vec3> up(sheet.rim);
     for (std::uint32_t v = 0; v < sheet.rim; ++v) {
-        up[v] = normalOf(ground.at({sheet.places[v].x, sheet.places[v].y}));
+        up[v] = normalOf(ground.at({sheet.vertices[v].x, sheet.vertices[v].y}));
     }
     std::vector<Vec3> outward(sheet.rim);
     for (const Triangle& t : sheet.triangles) {
@@ -728,7 +728,7 @@ RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure, const 
             const std::uint32_t j = t[(a + 1) % 3];
             // No inner edge joins two rim vertices.
             if (i < sheet.rim && j < sheet.rim) {
-                const Vec3 side = sheet.places[j] - sheet.places[i];
+                const Vec3 side = sheet.vertices[j] - sheet.vertices[i];
                 outward[i] = outward[i] + 0.5 * cross(side, up[i]);
                 outward[j] = outward[j] + 0.5 * cross(side, up[j]);
                 const double seen_from_above = length(Vec2{side.x, side.y});  // as of height fields

@@ -69,9 +69,9 @@ std::uint64_t spread(std::uint64_t bits)
 /// The same sheet, with inner vertices and triangles along a Z-curve: neighbours in space are so in memory.
 SheetMesh inSpaceOrder(const SheetMesh& sheet)
 {
-    Vec3 least = sheet.places.front();
+    Vec3 least = sheet.vertices.front();
     Vec3 most = least;
-    for (const Vec3& p : sheet.places) {
+    for (const Vec3& p : sheet.vertices) {
         least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
         most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
     }
@@ -79,8 +79,8 @@ SheetMesh inSpaceOrder(const SheetMesh& sheet)
     const Vec3 size = most - least;
     const double scale = kCells / std::max({size.x, size.y, size.z});
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
-    for (std::uint32_t v = sheet.rim; v < sheet.places.size(); ++v) {
-        const Vec3 at = scale * (sheet.places[v] - least);
+    for (std::uint32_t v = sheet.rim; v < sheet.vertices.size(); ++v) {
+        const Vec3 at = scale * (sheet.vertices[v] - least);
         keys.emplace_back(spread(static_cast<std::uint64_t>(at.x)) | spread(static_cast<std::uint64_t>(at.y)) << 1U |
                               spread(static_cast<std::uint64_t>(at.z)) << 2U,
                           v);
@@ -88,14 +88,14 @@ SheetMesh inSpaceOrder(const SheetMesh& sheet)
     std::sort(keys.begin(), keys.end());
     SheetMesh ordered;
     ordered.rim = sheet.rim;
-    ordered.places.assign(sheet.places.begin(), sheet.places.begin() + sheet.rim);
-    std::vector<std::uint32_t> number(sheet.places.size());
+    ordered.vertices.assign(sheet.vertices.begin(), sheet.vertices.begin() + sheet.rim);
+    std::vector<std::uint32_t> number(sheet.vertices.size());
     for (std::uint32_t v = 0; v < sheet.rim; ++v) {
         number[v] = v;
     }
     for (const auto& [key, v] : keys) {
-        number[v] = static_cast<std::uint32_t>(ordered.places.size());
-        ordered.places.push_back(sheet.places[v]);
+        number[v] = static_cast<std::uint32_t>(ordered.vertices.size());
+        ordered.vertices.push_back(sheet.vertices[v]);
     }
     std::vector<std::pair<std::uint32_t, std::uint32_t>> first;  // largest number of a corner, triangle
     for (std::uint32_t k = 0; k < sheet.triangles.size(); ++k) {
@@ -115,7 +115,7 @@ public:
     Remesher(const SheetMesh& sheet, const RemeshOptions& options)
         : rim_(static_cast<int>(sheet.rim)), options_(options)
     {
-        for (const Vec3& p : sheet.places) {
+        for (const Vec3& p : sheet.vertices) {
             mesh_.add_vertex(Point(p.x, p.y, p.z));
         }
         for (const Triangle& t : sheet.triangles) {
@@ -658,9 +658,9 @@ private:
         sheet.rim = static_cast<std::uint32_t>(rim_);
         std::vector<std::uint32_t> number(mesh_.n_vertices(), 0);
         for (const VertexHandle v : mesh_.vertices()) {
-            number[static_cast<std::size_t>(v.idx())] = static_cast<std::uint32_t>(sheet.places.size());
+            number[static_cast<std::size_t>(v.idx())] = static_cast<std::uint32_t>(sheet.vertices.size());
             const Point& p = mesh_.point(v);
-            sheet.places.push_back({p[0], p[1], p[2]});
+            sheet.vertices.push_back({p[0], p[1], p[2]});
         }
         for (const FaceHandle face : mesh_.faces()) {
             Triangle& t = sheet.triangles.emplace_back();
@@ -704,7 +704,7 @@ double minAngle(const SheetMesh& sheet, const Triangle& t)
     std::array<Vec3, 3> sides;  // opposite to every corner
     std::array<double, 3> squares{};
     for (std::size_t a = 0; a < 3; ++a) {
-        sides[a] = sheet.places[t[(a + 2) % 3]] - sheet.places[t[(a + 1) % 3]];
+        sides[a] = sheet.vertices[t[(a + 2) % 3]] - sheet.vertices[t[(a + 1) % 3]];
         squares[a] = dot(sides[a], sides[a]);
     }
     const auto a = static_cast<std::size_t>(std::min_element(squares.begin(), squares.end()) - squares.begin());

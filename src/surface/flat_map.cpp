@@ -91,13 +91,13 @@ std::vector<Wanted> wantedTriangles(const ParametricSheet& sheet)
     double total = 0.0;
     double footprint = 0.0;
     for (const Triangle& t : sheet.triangles) {
-        const auto [p, q] = wantedSides(sheet.places, t);
+        const auto [p, q] = wantedSides(sheet.vertices, t);
         const double twice = cross(p, q);
         const Vec2 second{q.y / twice, -q.x / twice};
         const Vec2 third{-p.y / twice, p.x / twice};
         all.push_back({t, {-1.0 * (second + third), second, third}, 0.5 * twice});
         total += 0.5 * twice;
-        footprint += areaVector(sheet.places, t).z;
+        footprint += areaVector(sheet.vertices, t).z;
     }
     // All have to share the footprint.
     const double scale = std::sqrt(total / footprint);
@@ -175,10 +175,10 @@ Places solveBoth(const SheetFactor& factor, const Places& right)
 class Flattening {
 public:
     explicit Flattening(const ParametricSheet& sheet)
-        : rim_(sheet.rim), places_(sheet.places), wanted_(wantedTriangles(sheet)), at_(sheet.places.size(), 2)
+        : rim_(sheet.rim), places_(sheet.vertices), wanted_(wantedTriangles(sheet)), at_(sheet.vertices.size(), 2)
     {
-        for (std::size_t v = 0; v < sheet.places.size(); ++v) {
-            at_.row(static_cast<Eigen::Index>(v)) << sheet.places[v].x, sheet.places[v].y;
+        for (std::size_t v = 0; v < sheet.vertices.size(); ++v) {
+            at_.row(static_cast<Eigen::Index>(v)) << sheet.vertices[v].x, sheet.vertices[v].y;
         }
         all_.resize(wanted_.size());
         std::iota(all_.begin(), all_.end(), 0U);
@@ -568,11 +568,11 @@ bool Flattening::run()
 FlatMap projected(const ParametricSheet& sheet)
 {
     FlatMap map;
-    for (const Vec3& p : sheet.places) {
+    for (const Vec3& p : sheet.vertices) {
         map.places.push_back({p.x, p.y});
     }
     const bool is_graph = std::all_of(sheet.triangles.begin(), sheet.triangles.end(),
-                                      [&](const Triangle& t) { return areaVector(sheet.places, t).z > 0.0; });
+                                      [&](const Triangle& t) { return areaVector(sheet.vertices, t).z > 0.0; });
     map.kind = is_graph ? TextureMap::Projection : TextureMap::Folded;
     return map;
 }

@@ -394,7 +394,8 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
     if (!options.ground.flat()) {
         ground.ground = heightsUnder(footprint, options.ground);
     }
-    Piece piece{0, &footprint, &ground, !options.ground.flat(), {}, {}, {sheet.places.size(), sheet.triangles.size()}};
+    Piece piece{
+        0, &footprint, &ground, !options.ground.flat(), {}, {}, {sheet.vertices.size(), sheet.triangles.size()}};
     Counts total = piece.base;
     if (!options.open) {
         if (!piece.mirrored) {
@@ -404,11 +405,11 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
         total.triangles += piece.baseMesh().triangles.size();
     }
     Surface surface;
-    surface.positions = sheet.places;
+    surface.positions = sheet.vertices;
     surface.triangles = sheet.triangles;
     surface.normals.resize(total.vertices);
     for (const Triangle& t : sheet.triangles) {
-        const Vec3 normal = areaVector(sheet.places, t);
+        const Vec3 normal = areaVector(sheet.vertices, t);
         for (const std::uint32_t v : t) {
             surface.normals[v] = surface.normals[v] + normal;
         }
@@ -426,7 +427,7 @@ Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
     surface.contact_angle.assign(sheet.contact_angle.begin(), sheet.contact_angle.end());
     const FlatMap map = options.flatten ? flatMap(sheet) : projected(sheet);
     surface.texture_map = map.kind;
-    for (std::uint32_t v = 0; v < sheet.places.size(); ++v) {
+    for (std::uint32_t v = 0; v < sheet.vertices.size(); ++v) {
         surface.normals[v] = (1.0 / length(surface.normals[v])) * surface.normals[v];
         surface.uvs.push_back(textureAt(map.places[v], options));
         surface.weld.push_back(v);

@@ -341,13 +341,13 @@ std::vector<std::uint8_t> dryTriangles(const ParametricSheet& sheet)
     std::vector<std::uint8_t> is_dry;
     for (const Triangle& t : sheet.triangles) {
         const bool is_grounded =
-            std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return sheet.places[v].z <= 0.0; });
-        is_dry.push_back(is_grounded && areaVector(sheet.places, t).z >= 0.0 ? 1 : 0);
+            std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return sheet.vertices[v].z <= 0.0; });
+        is_dry.push_back(is_grounded && areaVector(sheet.vertices, t).z >= 0.0 ? 1 : 0);
     }
     for (bool has_changed = true; has_changed;) {
-        const Manifold liquid = manifoldOf(wetTriangles(sheet.triangles, is_dry), sheet.places.size());
-        std::vector<std::uint8_t> is_passed(sheet.places.size(), 0);
-        std::vector<std::uint8_t> is_pinch(sheet.places.size(), 0);
+        const Manifold liquid = manifoldOf(wetTriangles(sheet.triangles, is_dry), sheet.vertices.size());
+        std::vector<std::uint8_t> is_passed(sheet.vertices.size(), 0);
+        std::vector<std::uint8_t> is_pinch(sheet.vertices.size(), 0);
         for (const std::uint32_t h : liquid.boundary) {
             const std::uint32_t v = liquid.triangles[h / 3][h % 3];
             is_pinch[v] = std::exchange(is_passed[v], std::uint8_t{1});
@@ -382,7 +382,7 @@ std::optional<std::vector<ParametricSheet>> wetParts(const ParametricSheet& shee
         return std::nullopt;
     }
     std::vector<Vec2> seen_from_above;
-    for (const Vec3& p : sheet.places) {
+    for (const Vec3& p : sheet.vertices) {
         seen_from_above.push_back({p.x, p.y});
     }
     std::vector<ParametricSheet> result;
@@ -392,10 +392,11 @@ std::optional<std::vector<ParametricSheet>> wetParts(const ParametricSheet& shee
         own.pressure = sheet.pressure;
         for (std::size_t v = 0; v < part.origins.size(); ++v) {
             const auto [a, b] = part.origins[v];
-            own.places.push_back(part.isMiddle(v) ? 0.5 * (sheet.places[a] + sheet.places[b]) : sheet.places[a]);
+            own.vertices.push_back(part.isMiddle(v) ? 0.5 * (sheet.vertices[a] + sheet.vertices[b])
+                                                    : sheet.vertices[a]);
             if (v < own.rim) {
                 own.contact_angle.push_back(a < sheet.rim ? sheet.contact_angle[a] : 0.0);
-                own.footprint.vertices.push_back({own.places[v].x, own.places[v].y});
+                own.footprint.vertices.push_back({own.vertices[v].x, own.vertices[v].y});
             }
         }
         own.triangles = std::move(part.triangles);

@@ -85,8 +85,8 @@ TEST(FollowedSheets, ABeadThatMovesKeepsItsShape)
     const Vec3 way{2.0 * kPixel, 0.0, 0.0};
     const ParametricSheet& from = *frames[0].droplet.sheets[0];
     const ParametricSheet& to = *frames[1].droplet.sheets[0];
-    for (std::size_t v = 0; v < from.places.size(); ++v) {
-        ASSERT_LT(length(to.places[v] - from.places[v] - way), 0.01 * kPixel) << v;
+    for (std::size_t v = 0; v < from.vertices.size(); ++v) {
+        ASSERT_LT(length(to.vertices[v] - from.vertices[v] - way), 0.01 * kPixel) << v;
     }
 }
 

@@ -24,7 +24,7 @@ SheetMesh cap()
 
 SheetMesh moved(SheetMesh sheet, double x)
 {
-    for (Vec3& place : sheet.places) {
+    for (Vec3& place : sheet.vertices) {
         place.x += x;
     }
     return sheet;
@@ -57,7 +57,7 @@ TEST(SheetContact, FindsWhatStandsBelowAnOverhang)
         for (const double x : {1.25, 2.0}) {
             SheetMesh needle{{}, disc.triangles, disc.rimVertexCount()};
             for (const Vec2 p : disc.vertices) {
-                needle.places.push_back({x + 0.1 * p.x, 0.1 * p.y, height * std::max(0.0, 1.0 - length(p))});
+                needle.vertices.push_back({x + 0.1 * p.x, 0.1 * p.y, height * std::max(0.0, 1.0 - length(p))});
             }
             EXPECT_FALSE(firstContact({&needle}));
             EXPECT_EQ(firstContact({&bead, &needle}).has_value(), x < 1.5 && height > 0.1) << x << ' ' << height;
@@ -71,10 +71,10 @@ TEST(SheetContact, FindsASheetThatCrossesItself)
     EXPECT_FALSE(firstContact({&sheet}));
     // A vertex of the side is pushed through the other side.
     std::size_t side = sheet.rim;
-    for (std::size_t v = sheet.rim; v < sheet.places.size(); ++v) {
-        side = sheet.places[v].x > sheet.places[side].x ? v : side;
+    for (std::size_t v = sheet.rim; v < sheet.vertices.size(); ++v) {
+        side = sheet.vertices[v].x > sheet.vertices[side].x ? v : side;
     }
-    sheet.places[side].x = -2.0;
+    sheet.vertices[side].x = -2.0;
     const std::optional<SheetContact> contact = firstContact({&sheet});
     ASSERT_TRUE(contact);
     EXPECT_EQ(contact->first, contact->second);

@@ -66,8 +66,8 @@ double energyOf(const ParametricSheet& sheet, const SolveOptions& options)
 double gap(const ParametricSheet& from, const ParametricSheet& to, const std::function<Vec3(Vec3)>& motion)
 {
     double largest = 0.0;
-    for (std::size_t v = 0; v < from.places.size(); ++v) {
-        largest = std::max(largest, length(to.places[v] - motion(from.places[v])));
+    for (std::size_t v = 0; v < from.vertices.size(); ++v) {
+        largest = std::max(largest, length(to.vertices[v] - motion(from.vertices[v])));
     }
     return largest;
 }
@@ -245,7 +245,7 @@ TEST(SheetFollow, GivesTheSameBitsAtAnyNumberOfThreads)
         results.push_back(follow(first.sheet, first.sheet, footprint, options));
     }
     ASSERT_EQ(results.front().end, SheetEnd::Reached);
-    EXPECT_EQ(results[0].sheet.places, results[1].sheet.places);
+    EXPECT_EQ(results[0].sheet.vertices, results[1].sheet.vertices);
     EXPECT_EQ(results[0].sheet.pressure, results[1].sheet.pressure);
 }
 

@@ -66,7 +66,7 @@ void expectSheetOver(const PlanarMesh& footprint, const SheetMesh& sheet)
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (const Triangle& t : sheet.triangles) {
         EXPECT_FALSE(std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return v < sheet.rim; }));
-        EXPECT_GT(length(areaVector(sheet.places, t)), 0.0);
+        EXPECT_GT(length(areaVector(sheet.vertices, t)), 0.0);
         for (std::size_t a = 0; a < 3; ++a) {
             ++edges[{t[a], t[(a + 1) % 3]}];
         }
@@ -75,9 +75,9 @@ void expectSheetOver(const PlanarMesh& footprint, const SheetMesh& sheet)
     for (std::size_t loop = 0; loop < footprint.loopCount(); ++loop) {
         for (std::uint32_t v = footprint.loop_starts[loop]; v < footprint.loop_starts[loop + 1]; ++v) {
             rim.insert({v, nextOnRim(footprint, loop, v)});
-            EXPECT_EQ(sheet.places[v].x, footprint.vertices[v].x);
-            EXPECT_EQ(sheet.places[v].y, footprint.vertices[v].y);
-            EXPECT_EQ(sheet.places[v].z, 0.0);
+            EXPECT_EQ(sheet.vertices[v].x, footprint.vertices[v].x);
+            EXPECT_EQ(sheet.vertices[v].y, footprint.vertices[v].y);
+            EXPECT_EQ(sheet.vertices[v].z, 0.0);
         }
     }
     for (const auto& [edge, count] : edges) {
@@ -139,14 +139,14 @@ TEST(SheetDivide, StaysOnASphere)
     for (const double edge : {0.2, 0.1, 0.05}) {
         const PlanarMesh coarse = discMeshes(edge).front();
         SheetMesh sheet = filled(coarse, edge, cap.volume());
-        for (std::size_t v = sheet.rim; v < sheet.places.size(); ++v) {
-            const Vec3 arm = sheet.places[v] - cap.centre();
-            sheet.places[v] = cap.centre() + (cap.radius() / length(arm)) * arm;
+        for (std::size_t v = sheet.rim; v < sheet.vertices.size(); ++v) {
+            const Vec3 arm = sheet.vertices[v] - cap.centre();
+            sheet.vertices[v] = cap.centre() + (cap.radius() / length(arm)) * arm;
         }
         const std::optional<SheetMesh> divided = divide(sheet, coarse, discMeshes(0.5 * edge).front());
         ASSERT_TRUE(divided);
         double error = 0.0;
-        for (const Vec3& p : divided->places) {
+        for (const Vec3& p : divided->vertices) {
             error = std::max(error, std::abs(length(p - cap.centre()) - cap.radius()));
         }
         errors.push_back(error);
@@ -228,8 +228,8 @@ TEST(SheetLevels, ChordStepsFindTheSameEquilibrium)
     const auto [full, full_result] = solved(0.0);
     const auto [chord, chord_result] = solved(1e-2);
     EXPECT_LT(chord_result.factorisations, full_result.factorisations);
-    for (std::size_t v = 0; v < full.places.size(); ++v) {
-        EXPECT_LT(length(full.places[v] - chord.places[v]), 1e-7);
+    for (std::size_t v = 0; v < full.vertices.size(); ++v) {
+        EXPECT_LT(length(full.vertices[v] - chord.vertices[v]), 1e-7);
     }
 }
 

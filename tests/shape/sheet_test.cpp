@@ -44,10 +44,10 @@ SheetMesh dome()
     const PlanarMesh mesh = discMeshes(0.2).front();
     SheetMesh sheet{{}, mesh.triangles, mesh.rimVertexCount()};
     for (const Vec2 p : mesh.vertices) {
-        sheet.places.push_back({p.x, p.y, 0.6 * (1.0 - dot(p, p)) * (1.0 + 0.3 * p.x)});
+        sheet.vertices.push_back({p.x, p.y, 0.6 * (1.0 - dot(p, p)) * (1.0 + 0.3 * p.x)});
     }
     for (std::uint32_t v = 0; v < sheet.rim; ++v) {
-        sheet.places[v].z = 0.0;
+        sheet.vertices[v].z = 0.0;
     }
     return sheet;
 }
@@ -58,12 +58,12 @@ TEST(SheetEnergy, GradientsAreDerivatives)
     const Vec3 weight{0.3, -0.2, 1.1};
     const SheetGradients gradients = gradientsOf(sheet, weight);
     constexpr double kStep = 1e-5;
-    for (std::size_t v = sheet.rim; v < sheet.places.size(); v += 7) {
+    for (std::size_t v = sheet.rim; v < sheet.vertices.size(); v += 7) {
         for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
             SheetMesh moved = sheet;
-            moved.places[v].*axis += kStep;
+            moved.vertices[v].*axis += kStep;
             const SheetIntegrals more = integrate(moved, weight);
-            moved.places[v].*axis -= 2.0 * kStep;
+            moved.vertices[v].*axis -= 2.0 * kStep;
             const SheetIntegrals less = integrate(moved, weight);
             EXPECT_NEAR(gradients.energy[v].*axis, (more.energy() - less.energy()) / (2.0 * kStep), 1e-8);
             EXPECT_NEAR(gradients.volume[v].*axis, (more.volume - less.volume) / (2.0 * kStep), 1e-8);
@@ -81,7 +81,7 @@ TEST(SheetEnergy, HessianIsTheDerivativeOfTheGradient)
     for (const Vec3& v : gradients.volume) {
         directions.push_back((1.0 / length(v)) * v);
     }
-    const auto unknowns = static_cast<Eigen::Index>(sheet.places.size() - sheet.rim);
+    const auto unknowns = static_cast<Eigen::Index>(sheet.vertices.size() - sheet.rim);
     const auto place_of = [&](Eigen::Index i) { return sheet.rim + static_cast<std::size_t>(i); };
     Eigen::VectorXd motion(unknowns);
     for (Eigen::Index i = 0; i < unknowns; ++i) {
@@ -91,7 +91,7 @@ TEST(SheetEnergy, HessianIsTheDerivativeOfTheGradient)
         SheetMesh moved = sheet;
         for (Eigen::Index i = 0; i < unknowns; ++i) {
             const std::size_t v = place_of(i);
-            moved.places[v] = moved.places[v] + (step * motion[i]) * directions[v];
+            moved.vertices[v] = moved.vertices[v] + (step * motion[i]) * directions[v];
         }
         const SheetGradients there = gradientsOf(moved, weight);
         Eigen::VectorXd result(unknowns);
@@ -316,9 +316,9 @@ TEST(Sheet, LeansOverInnerCornersAndLiesOnTheGround)
     EXPECT_GT(figures.contact_angle.max, 175.0 * kDegree);
     EXPECT_GT(figures.overhang, 0.1);
     std::size_t grounded = 0;
-    for (std::size_t v = result.sheet.rim; v < result.sheet.places.size(); ++v) {
-        EXPECT_GE(result.sheet.places[v].z, 0.0);
-        grounded += result.sheet.places[v].z == 0.0 ? 1 : 0;
+    for (std::size_t v = result.sheet.rim; v < result.sheet.vertices.size(); ++v) {
+        EXPECT_GE(result.sheet.vertices[v].z, 0.0);
+        grounded += result.sheet.vertices[v].z == 0.0 ? 1 : 0;
     }
     EXPECT_GT(grounded, 10U);
     // The finer mesh has less energy. With edges of 0.06, folds take nearly all triangles, as they do with 0.08.
@@ -395,15 +395,15 @@ SheetMesh ridge(double angle, double length_of, std::size_t across, std::size_t 
     };
     std::map<std::pair<std::size_t, std::size_t>, std::uint32_t> number;
     const auto add = [&](std::size_t i, std::size_t j) {
-        number[{i, j}] = static_cast<std::uint32_t>(sheet.places.size());
-        sheet.places.push_back(place(i, j));
+        number[{i, j}] = static_cast<std::uint32_t>(sheet.vertices.size());
+        sheet.vertices.push_back(place(i, j));
     };
     for (const std::size_t i : {std::size_t{0}, across}) {
         for (std::size_t j = 0; j <= along; ++j) {
             add(i, j);
         }
     }
-    sheet.rim = static_cast<std::uint32_t>(sheet.places.size());
+    sheet.rim = static_cast<std::uint32_t>(sheet.vertices.size());
     for (std::size_t i = 1; i < across; ++i) {
         for (std::size_t j = 0; j <= along; ++j) {
             add(i, j);
@@ -434,19 +434,19 @@ int negativesOf(const SheetMesh& sheet, double pressure)
     const SheetGradients gradients = gradientsOf(sheet, {});
     std::vector<Vec3> directions;
     double end = 0.0;
-    for (const Vec3& p : sheet.places) {
+    for (const Vec3& p : sheet.vertices) {
         end = std::max(end, p.x);
     }
-    for (std::size_t v = 0; v < sheet.places.size(); ++v) {
+    for (std::size_t v = 0; v < sheet.vertices.size(); ++v) {
         Vec3 direction = gradients.volume[v];
-        if (sheet.places[v].x == 0.0 || sheet.places[v].x == end) {
+        if (sheet.vertices[v].x == 0.0 || sheet.vertices[v].x == end) {
             direction.x = 0.0;  // mirrors
         }
         directions.push_back((1.0 / length(direction)) * direction);
     }
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(
         SheetPattern(sheet).hessian(sheet, directions, {}, pressure));
-    Eigen::VectorXd border(static_cast<Eigen::Index>(sheet.places.size() - sheet.rim));
+    Eigen::VectorXd border(static_cast<Eigen::Index>(sheet.vertices.size() - sheet.rim));
     for (Eigen::Index i = 0; i < border.size(); ++i) {
         const std::size_t v = sheet.rim + static_cast<std::size_t>(i);
         border[i] = dot(directions[v], gradients.volume[v]);
@@ -512,7 +512,7 @@ TEST(Sheet, GivesTheSameBytesAgain)
     const SolveOptions options = unitLiquid(1.0, FillBy::ContactAngle, 130.0 * kDegree);
     const SheetResult one = solveSheet(mesh, options);
     const SheetResult other = solveSheet(mesh, options);
-    EXPECT_TRUE(one.sheet.places == other.sheet.places);
+    EXPECT_TRUE(one.sheet.vertices == other.sheet.vertices);
     EXPECT_TRUE(one.sheet.triangles == other.sheet.triangles);
     EXPECT_NEAR(one.contact_angle, 130.0 * kDegree, 1e-7);
 }

@@ -36,7 +36,7 @@ inline void expectSheet(const ParametricSheet& sheet)
     ASSERT_EQ(sheet.rim, sheet.footprint.rimVertexCount());
     ASSERT_EQ(sheet.contact_angle.size(), sheet.rim);
     EXPECT_TRUE(std::isfinite(sheet.pressure));
-    EXPECT_TRUE(std::all_of(sheet.places.begin(), sheet.places.end(), [](const Vec3& p) { return p.z >= 0.0; }));
+    EXPECT_TRUE(std::all_of(sheet.vertices.begin(), sheet.vertices.end(), [](const Vec3& p) { return p.z >= 0.0; }));
 }
 
 /// Whether a surface has the topology of its footprints: one component per droplet. A droplet with h holes has Euler

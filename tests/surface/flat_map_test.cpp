@@ -39,7 +39,7 @@ ParametricSheet bead(double degrees)
 /// is then injective.
 void expectCoversOnce(const ParametricSheet& sheet, const std::vector<Vec2>& places)
 {
-    ASSERT_EQ(places.size(), sheet.places.size());
+    ASSERT_EQ(places.size(), sheet.vertices.size());
     for (std::uint32_t v = 0; v < sheet.rim; ++v) {
         EXPECT_EQ(places[v], sheet.footprint.vertices[v]);
     }
@@ -97,8 +97,8 @@ TEST(FlatMap, KeepsTheSymmetryOfABead)
     const FlatMap map = flatMap(sheet);
     const double centre = -1.0 / std::tan(140.0 * kDegree);
     std::vector<std::pair<double, double>> radii;
-    for (std::size_t v = 0; v < sheet.places.size(); ++v) {
-        const Vec3 p = sheet.places[v];
+    for (std::size_t v = 0; v < sheet.vertices.size(); ++v) {
+        const Vec3 p = sheet.vertices[v];
         const Vec2 q = map.places[v];
         radii.emplace_back(std::atan2(std::hypot(p.x, p.y), p.z - centre), length(q));
         if (length(q) > 0.2) {

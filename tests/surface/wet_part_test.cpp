@@ -360,13 +360,13 @@ TEST(WetParts, LieOnTheGroundAlongANewRim)
 ParametricSheet sheetOf(const PlanarMesh& mesh, const HeightField& field)
 {
     ParametricSheet sheet{.footprint = mesh,
-                          .places = {},
+                          .vertices = {},
                           .triangles = mesh.triangles,
                           .rim = mesh.rimVertexCount(),
                           .contact_angle = field.contact_angle,
                           .pressure = field.pressure};
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        sheet.places.push_back({mesh.vertices[v].x, mesh.vertices[v].y, field.height[v]});
+        sheet.vertices.push_back({mesh.vertices[v].x, mesh.vertices[v].y, field.height[v]});
     }
     return sheet;
 }
@@ -428,8 +428,8 @@ TEST(WetParts, OfSheetsAreSoundForAnyDrySet)
                 holes += part.footprint.loopCount() > 1 ? 1 : 0;
                 std::set<std::pair<double, double>> places;
                 for (std::uint32_t v = 0; v < part.rim; ++v) {
-                    EXPECT_EQ(part.places[v].z, 0.0);
-                    EXPECT_TRUE(places.emplace(part.places[v].x, part.places[v].y).second);
+                    EXPECT_EQ(part.vertices[v].z, 0.0);
+                    EXPECT_TRUE(places.emplace(part.vertices[v].x, part.vertices[v].y).second);
                 }
             }
             const LoftOptions options{.extent = {1, 1}};

@@ -21,7 +21,7 @@ namespace droplet {
 struct ParametricSheet {
     PlanarMesh footprint;               ///< that of the droplet, with rounded inner corners; of several, one after
                                         ///< another, each beginning with its outer loop
-    std::vector<Vec3> places;           ///< vertices [m]
+    std::vector<Vec3> vertices;         ///< places [m]
     std::vector<Triangle> triangles;    ///< indices of three vertices
     std::uint32_t rim = 0;              ///< number of rim vertices, on the ground
     std::vector<double> contact_angle;  ///< angle between liquid and ground at every rim vertex, 0 … π [rad]
