@@ -334,6 +334,11 @@ WetPart wetPart(Part&& part, const PlanarMesh& mesh, const HeightField& field, c
     return result;
 }
 
+bool hasDry(const std::vector<std::uint8_t>& is_dry)
+{
+    return std::find(is_dry.begin(), is_dry.end(), 1) != is_dry.end();
+}
+
 /// Which triangles of a sheet lie on flat ground, face up: all but those at vertices at which liquid would touch
 /// itself.
 std::vector<std::uint8_t> dryTriangles(const ParametricSheet& sheet)
@@ -344,7 +349,7 @@ std::vector<std::uint8_t> dryTriangles(const ParametricSheet& sheet)
             std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return sheet.vertices[v].z <= 0.0; });
         is_dry.push_back(is_grounded && areaVector(sheet.vertices, t).z >= 0.0 ? 1 : 0);
     }
-    for (bool has_changed = true; has_changed;) {
+    for (bool has_changed = hasDry(is_dry); has_changed;) {
         const Manifold liquid = manifoldOf(wetTriangles(sheet.triangles, is_dry), sheet.vertices.size());
         std::vector<std::uint8_t> is_passed(sheet.vertices.size(), 0);
         std::vector<std::uint8_t> is_pinch(sheet.vertices.size(), 0);
@@ -378,7 +383,7 @@ std::vector<WetPart> wetParts(const PlanarMesh& mesh, const HeightField& field, 
 std::optional<std::vector<ParametricSheet>> wetParts(const ParametricSheet& sheet)
 {
     const std::vector<std::uint8_t> is_dry = dryTriangles(sheet);
-    if (std::find(is_dry.begin(), is_dry.end(), 1) == is_dry.end()) {
+    if (!hasDry(is_dry)) {
         return std::nullopt;
     }
     std::vector<Vec2> seen_from_above;
