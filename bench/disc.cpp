@@ -36,29 +36,29 @@ Domain Disc::domain() const
     return {{{loop, {}}}, {2.0 * radius_, 2.0 * radius_}};
 }
 
-double Disc::heightError(const PlanarMesh& mesh, const HeightField& field) const
+double Disc::heightError(const CapillarySurface& field) const
 {
     const double scale = field.pressure / weight_;
     const double rim = std::cyl_bessel_i(0.0, size_);
     double largest = 0.0;
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        const double exact = scale * (1.0 - std::cyl_bessel_i(0.0, kappa_ * length(mesh.vertices[v])) / rim);
-        largest = std::max(largest, std::abs(field.height[v] - exact));
+    for (const Vec3& p : field.vertices) {
+        const double exact = scale * (1.0 - std::cyl_bessel_i(0.0, kappa_ * length(Vec2{p.x, p.y})) / rim);
+        largest = std::max(largest, std::abs(p.z - exact));
     }
     return largest / (scale * (1.0 - 1.0 / rim));
 }
 
-double Disc::middleError(const HeightField& field) const
+double Disc::middleError(const CapillarySurface& field) const
 {
     const double exact = field.pressure / weight_ * (1.0 - 1.0 / std::cyl_bessel_i(0.0, size_));
-    return std::abs(*std::max_element(field.height.begin(), field.height.end()) / exact - 1.0);
+    return std::abs(height(field) / exact - 1.0);
 }
 
-double Disc::volumeError(const PlanarMesh& mesh, const HeightField& field) const
+double Disc::volumeError(const CapillarySurface& field) const
 {
     const double ratio = std::cyl_bessel_i(1.0, size_) / (size_ * std::cyl_bessel_i(0.0, size_));
     const double exact = 2.0 * std::numbers::pi * radius_ * radius_ * field.pressure / weight_ * (0.5 - ratio);
-    return std::abs(volume(mesh, field) / exact - 1.0);
+    return std::abs(volume(field) / exact - 1.0);
 }
 
 }  // namespace droplet::bench

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "droplet/footprint/domain.h"
-#include "droplet/mesh/planar_mesh.h"
 #include "droplet/shape/solve.h"
 
 namespace droplet::bench {
@@ -16,16 +15,16 @@ public:
     /// Polygon with enough points to represent the circle.
     [[nodiscard]] Domain domain() const;
 
-    /// Largest error of the heights at a mesh's vertices against the exact ones,
+    /// Largest error of the heights at the vertices against the exact ones,
     /// u = λ/ρg (1 − I₀(κr)/I₀(κR)) with κ² = ρg/σ, relative to the height in the middle.
-    [[nodiscard]] double heightError(const PlanarMesh& mesh, const HeightField& field) const;
+    [[nodiscard]] double heightError(const CapillarySurface& field) const;
 
     /// Relative error of the largest height, which is in the middle.
-    [[nodiscard]] double middleError(const HeightField& field) const;
+    [[nodiscard]] double middleError(const CapillarySurface& field) const;
 
     /// Relative error of the volume, 2πR² λ/ρg (½ − I₁(κR)/(κR I₀(κR))). It is the squared error of the heights in the
     /// energy norm.
-    [[nodiscard]] double volumeError(const PlanarMesh& mesh, const HeightField& field) const;
+    [[nodiscard]] double volumeError(const CapillarySurface& field) const;
 
 private:
     double size_;    // κR

@@ -35,13 +35,13 @@ void registerGraded(const std::shared_ptr<const Shape>& shape, int grading, std:
         },
         [shape, grading](const Graded& graded, benchmark::UserCounters& counters) {
             const PlanarMesh& mesh = graded.meshes.front();
-            const HeightField& field = graded.solution.droplets.front();
+            const CapillarySurface& field = graded.solution.droplets.front();
             counters["grading"] = grading;
             counters["triangles"] = static_cast<double>(mesh.triangles.size());
-            counters["unit_volume"] = volume(mesh, field) / field.pressure;
+            counters["unit_volume"] = volume(field) / field.pressure;
             if (shape->disc) {
-                counters["error"] = shape->disc->heightError(mesh, field);
-                counters["volume_error"] = shape->disc->volumeError(mesh, field);
+                counters["error"] = shape->disc->heightError(field);
+                counters["volume_error"] = shape->disc->volumeError(field);
             }
         });
 }

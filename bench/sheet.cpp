@@ -95,17 +95,17 @@ void timeCaps(std::size_t threads, const std::vector<double>& sizes)
                         FillSharing::Each};
         Times by_volume;
         const SheetResult result = fill(mesh, options, by_volume);
-        const ShapeFigures figures = measure(result.sheet, options);
+        const ShapeFigures figures = measure(result.surface, options);
         options.fill = {FillBy::ContactAngle, kAngle, FillSharing::Each};
         Times by_angle;
         fill(mesh, options, by_angle);
-        const auto count = static_cast<double>(result.sheet.triangles.size());
+        const auto count = static_cast<double>(result.surface.triangles.size());
         const double part = 1e4 / count;
         std::printf("| %.0f | %zu | %zu | %.3f s | %.3f s | %.3f s | %.3f s | %.1e | %.1e | %.1e | %.4f° |\n", count,
                     threads, result.newton_steps, by_volume.wall, by_volume.wall * part, by_volume.processor * part,
                     by_angle.processor * part, std::abs(figures.height_max / (radius * rise) - 1.0),
                     std::abs(figures.liquid_area / (2.0 * kPi * radius * radius * rise) - 1.0),
-                    std::abs(result.sheet.pressure * radius / 2.0 - 1.0),
+                    std::abs(result.surface.pressure * radius / 2.0 - 1.0),
                     std::abs(result.contact_angle - kAngle) * 180.0 / kPi);
         std::fflush(stdout);
         if (first_time == 0.0) {

@@ -96,10 +96,10 @@ void judge(const std::vector<PlanarMesh>& meshes, const Solution& solution, Coun
     double volumes = 0.0;
     double height = 0.0;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        const HeightField& field = solution.droplets[k];
-        worst = std::max(worst, residual(assemble(meshes[k], {}), meshes[k], field));
-        volumes += volume(meshes[k], field) / field.pressure;
-        height = std::max(height, *std::max_element(field.height.begin(), field.height.end()) / field.pressure);
+        const CapillarySurface& field = solution.droplets[k];
+        worst = std::max(worst, residual(assemble(meshes[k], {}), field));
+        volumes += volume(field) / field.pressure;
+        height = std::max(height, bench::height(field) / field.pressure);
     }
     counters["residual"] = worst;
     counters["unit_volume"] = volumes;
@@ -122,9 +122,9 @@ void registerSolve(const std::shared_ptr<Case>& footprint, std::size_t size, con
                 const std::vector<PlanarMesh>& meshes = footprint->meshes(size);
                 judge(meshes, solution, counters);
                 if (disc) {
-                    counters["error"] = disc->heightError(meshes.front(), solution.droplets.front());
+                    counters["error"] = disc->heightError(solution.droplets.front());
                     counters["middle_error"] = disc->middleError(solution.droplets.front());
-                    counters["volume_error"] = disc->volumeError(meshes.front(), solution.droplets.front());
+                    counters["volume_error"] = disc->volumeError(solution.droplets.front());
                 }
             });
     }

@@ -3,6 +3,7 @@
 // (1993); the library computes it from gradients.
 #include "system.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -49,20 +50,35 @@ System assemble(const PlanarMesh& mesh, const SolveOptions& physics)
     return system;
 }
 
-double residual(const System& system, const PlanarMesh& mesh, const HeightField& field)
+double residual(const System& system, const CapillarySurface& field)
 {
-    const Eigen::Map<const Eigen::VectorXd> height(field.height.data() + mesh.rimVertexCount(), system.load.size());
+    Eigen::VectorXd height(system.load.size());
+    for (Eigen::Index i = 0; i < height.size(); ++i) {
+        height[i] = field.vertices[field.rimVertexCount() + static_cast<std::size_t>(i)].z;
+    }
     const Eigen::VectorXd load = field.pressure * system.load;
     return (load - system.matrix.selfadjointView<Eigen::Lower>() * height).norm() / load.norm();
 }
 
-double volume(const PlanarMesh& mesh, const HeightField& field)
+double volume(const CapillarySurface& field)
 {
     double volume = 0.0;
-    for (const Triangle& t : mesh.triangles) {
-        volume += doubleArea(mesh, t) * (field.height[t[0]] + field.height[t[1]] + field.height[t[2]]) / 6.0;
+    for (const Triangle& t : field.triangles) {
+        const Vec3& a = field.vertices[t[0]];
+        const Vec3& b = field.vertices[t[1]];
+        const Vec3& c = field.vertices[t[2]];
+        volume += cross(b - a, c - a).z * (a.z + b.z + c.z) / 6.0;
     }
     return volume;
+}
+
+double height(const CapillarySurface& field)
+{
+    double height = 0.0;
+    for (const Vec3& p : field.vertices) {
+        height = std::max(height, p.z);
+    }
+    return height;
 }
 
 }  // namespace droplet::bench

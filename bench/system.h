@@ -18,9 +18,12 @@ struct System {
 System assemble(const PlanarMesh& mesh, const SolveOptions& physics);
 
 /// Relative residual of a droplet's heights, ‖Au − λm‖/‖λm‖.
-double residual(const System& system, const PlanarMesh& mesh, const HeightField& field);
+double residual(const System& system, const CapillarySurface& field);
 
 /// Volume of a height field, ∫u [m³].
-double volume(const PlanarMesh& mesh, const HeightField& field);
+double volume(const CapillarySurface& field);
+
+/// Largest height of a height field [m].
+double height(const CapillarySurface& field);
 
 }  // namespace droplet::bench

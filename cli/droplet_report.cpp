@@ -17,13 +17,12 @@ droplet::MeshReport describeMeshes(const droplet::Droplet& droplet)
     report.min_angle = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
         const droplet::PlanarMesh& mesh = droplet.meshes[k];
-        const droplet::ParametricSheet* sheet =
-            !droplet.sheets.empty() && droplet.sheets[k] ? &*droplet.sheets[k] : nullptr;
-        report.vertices += sheet != nullptr ? sheet->vertices.size() : mesh.vertices.size();
-        report.triangles += sheet != nullptr ? sheet->triangles.size() : mesh.triangles.size();
+        const droplet::CapillarySurface& surface = droplet.solution.droplets[k];
+        report.vertices += surface.vertices.size();
+        report.triangles += surface.triangles.size();
         report.holes += mesh.loopCount() - 1;
         report.min_angle =
-            std::min(report.min_angle, sheet != nullptr ? droplet::minAngle(*sheet) : droplet::minAngle(mesh));
+            std::min(report.min_angle, surface.isHeightField() ? droplet::minAngle(mesh) : droplet::minAngle(surface));
     }
     return report;
 }
@@ -59,8 +58,9 @@ droplet::Report describe(const droplet::Droplet& droplet, const DropletSettings&
     droplet::Report report;
     report.physics = settings.droplet.solve;
     report.physics.model = droplet.solution.report.model;
-    report.sheets = static_cast<std::size_t>(std::count_if(droplet.sheets.begin(), droplet.sheets.end(),
-                                                           [](const auto& sheet) { return sheet.has_value(); }));
+    report.sheets = static_cast<std::size_t>(
+        std::count_if(droplet.solution.droplets.begin(), droplet.solution.droplets.end(),
+                      [](const droplet::CapillarySurface& surface) { return !surface.isHeightField(); }));
     report.fill_range = settings.droplet.fill_range;
     report.hysteresis = settings.hysteresis;
     report.ground = settings.ground;

@@ -179,8 +179,7 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
     }
     if (options.evolver) {
         files.push_back({*options.evolver, [&](std::ostream& out) {
-                             droplet::writeEvolver(out, droplet.meshes, droplet.solution.droplets, droplet.sheets,
-                                                   report.physics);
+                             droplet::writeEvolver(out, droplet.solution.droplets, report.physics);
                          }});
     }
     if (options.html) {

@@ -50,16 +50,16 @@ constexpr double kVisiblySteep = 0.05;
 double uprightShare(const Droplet& droplet)
 {
     double upright = 0.0;
-    for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
-        if (!droplet.sheets.empty() && droplet.sheets[k]) {
+    for (const CapillarySurface& surface : droplet.solution.droplets) {
+        if (!surface.isHeightField()) {
             continue;  // sheets may lean over
         }
-        const PlanarMesh& mesh = droplet.meshes[k];
-        const std::vector<double>& angle = droplet.solution.droplets[k].contact_angle;
-        for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
-            for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
-                const std::uint32_t next = nextOnRim(mesh, loop, v);
-                const double half = 0.5 * length(mesh.vertices[next] - mesh.vertices[v]);
+        const PlanarMesh rim = rimOf(surface);
+        const std::vector<double>& angle = surface.contact_angle;
+        for (std::size_t loop = 0; loop < rim.loopCount(); ++loop) {
+            for (std::uint32_t v = rim.loop_starts[loop]; v < rim.loop_starts[loop + 1]; ++v) {
+                const std::uint32_t next = nextOnRim(rim, loop, v);
+                const double half = 0.5 * length(rim.vertices[next] - rim.vertices[v]);
                 upright += (angle[v] >= kUpright ? half : 0.0) + (angle[next] >= kUpright ? half : 0.0);
             }
         }
@@ -213,9 +213,8 @@ std::string gatheredWarning(const Droplet& droplet, const Fill& fill)
 std::size_t trianglesOf(const Droplet& droplet)
 {
     std::size_t triangles = 0;
-    for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
-        const bool is_sheet = !droplet.sheets.empty() && droplet.sheets[k];
-        triangles += is_sheet ? droplet.sheets[k]->triangles.size() : droplet.meshes[k].triangles.size();
+    for (const CapillarySurface& surface : droplet.solution.droplets) {
+        triangles += surface.triangles.size();
     }
     return triangles;
 }
@@ -318,52 +317,6 @@ std::vector<FillLimit> limitsOf(const Droplet& droplet, const LiquidShapes& shap
     return limits;
 }
 
-/// Surfaces of all droplets: of height fields first.
-Surface surfaceOf(const Droplet& droplet, const LiquidShapes& shapes, const LoftOptions& options)
-{
-    if (shapes.sheets.empty()) {
-        return loft(droplet.meshes, shapes.solution.droplets, options);
-    }
-    std::vector<std::size_t> flat;  // numbers of the droplets that are height fields
-    LoftOptions some = options;
-    some.bases.clear();
-    std::vector<PlanarMesh> meshes;
-    std::vector<HeightField> fields;
-    Surface sheets;
-    for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
-        if (shapes.sheets[k]) {
-            LoftOptions own = options;
-            own.bases.clear();
-            if (!options.bases.empty() && sameRim(options.bases[k], shapes.sheets[k]->footprint)) {
-                own.bases.push_back(options.bases[k]);
-            }
-            Surface sheet = loft(*shapes.sheets[k], own);
-            if (sheet.parts.empty()) {
-                continue;
-            }
-            SurfacePart& part = sheet.parts.front();
-            part.droplet = k;
-            part.volume = droplet.figures[k].volume;
-            part.area = droplet.figures[k].footprint_area - droplet.figures[k].dry_area;
-            append(sheets, sheet);
-        } else {
-            flat.push_back(k);
-            meshes.push_back(droplet.meshes[k]);
-            fields.push_back(shapes.solution.droplets[k]);
-            if (!options.bases.empty()) {
-                some.bases.push_back(options.bases[k]);
-            }
-        }
-    }
-    Surface surface = meshes.empty() ? Surface{} : loft(meshes, fields, some);
-    for (SurfacePart& part : surface.parts) {
-        part.droplet = flat[part.droplet];
-    }
-    append(surface, sheets);
-    surface.mean_height = droplet.total.volume / (droplet.total.footprint_area - droplet.total.dry_area);
-    return surface;
-}
-
 /// Fills between 1 and the end of a range, the end included. Between neighbours at 1 and 4/3 the height of a cap of 40°
 /// is off by a thousandth.
 std::vector<double> fillsTo(double end)
@@ -413,7 +366,7 @@ Refill refillOf(const Droplet& droplet, const LiquidShapes& shapes, const SolveO
                 found = refill(droplet.meshes, last, volumes, solve);
             }
             if (found) {
-                result.states.push_back(changeOf(droplet.surface, surfaceOf(droplet, *found, lofting), fill));
+                result.states.push_back(changeOf(droplet.surface, loft(found->solution.droplets, lofting), fill));
                 last = *std::move(found);
                 reached = fill;
             }
@@ -433,16 +386,24 @@ Refill refillOf(const Droplet& droplet, const LiquidShapes& shapes, const SolveO
 }
 
 /// Figures of every droplet.
-std::vector<ShapeFigures> figuresOf(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes,
-                                    const SolveOptions& solved)
+std::vector<ShapeFigures> figuresOf(const Solution& solution, const SolveOptions& solved)
 {
     std::vector<ShapeFigures> figures;
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        const bool is_sheet = !shapes.sheets.empty() && shapes.sheets[k];
-        figures.push_back(is_sheet ? measure(*shapes.sheets[k], solved)
-                                   : measure(meshes[k], shapes.solution.droplets[k], solved));
+    for (const CapillarySurface& surface : solution.droplets) {
+        figures.push_back(measure(surface, solved));
     }
     return figures;
+}
+
+/// Bases of a film, with new ones where the rim of a surface is another one.
+std::vector<PlanarMesh> basesOf(const Solution& solution, std::vector<PlanarMesh> bases)
+{
+    for (std::size_t k = 0; k < bases.size(); ++k) {
+        if (!sameRim(bases[k], rimOf(solution.droplets[k]))) {
+            bases[k] = cover(rimOf(solution.droplets[k]));
+        }
+    }
+    return bases;
 }
 
 /// Checks that every droplet has liquid, and leaves out those that are dry because nothing may sink into the ground.
@@ -533,7 +494,7 @@ std::vector<double> volumesOf(const std::vector<PlanarMesh>& meshes, const Dropl
     solved.volumes.clear();
     const LiquidShapes shapes = solveShapes(meshes, solved, options.allow_less, {});
     solved.model = shapes.solution.report.model;
-    const std::vector<ShapeFigures> figures = figuresOf(meshes, shapes, solved);
+    const std::vector<ShapeFigures> figures = figuresOf(shapes.solution, solved);
     requireLiquid(figures, solved.no_penetration);
     std::vector<double> volumes;
     volumes.reserve(figures.size());
@@ -549,25 +510,24 @@ void finish(Droplet& droplet, const DropletOptions& options, const Progress& pro
     const LiquidShapes shapes =
         solveShapes(droplet.meshes, solved, options.allow_less, progress, std::move(film.followed));
     droplet.solution = shapes.solution;
-    droplet.sheets = shapes.sheets;
     solved.model = droplet.solution.report.model;
     if (progress) {
         progress(Stage::Loft, 0.0);
     }
-    droplet.figures = figuresOf(droplet.meshes, shapes, solved);
+    droplet.figures = figuresOf(droplet.solution, solved);
     droplet.total = combine(droplet.figures);
     const std::size_t dry = requireLiquid(droplet.figures, solved.no_penetration);
     droplet.limits = limitsOf(droplet, shapes, solved);
     LoftOptions lofting{.open = options.open,
                         .extent = droplet.domain.extent,
                         .ground = options.solve.ground,
-                        .bases = std::move(film.bases),
+                        .bases = basesOf(droplet.solution, std::move(film.bases)),
                         .keeps_dry = film.keeps_triangles || options.fill_range};
     const bool is_affine = solved.model == Model::Linear;
     if (options.fill_range && is_affine) {
         lofting.refill = {*options.fill_range, gainsPerFill(droplet.meshes, droplet.solution.droplets, solved)};
     }
-    droplet.surface = surfaceOf(droplet, shapes, lofting);
+    droplet.surface = loft(droplet.solution.droplets, lofting);
     if (options.fill_range && !is_affine) {
         Refill refill = refillOf(droplet, shapes, options.solve, *options.fill_range, lofting);
         if (!refill.states.empty()) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "droplet/droplet.h"
+#include "droplet/shape/sheet.h"
 #include "shape/own_options.h"
 
 namespace droplet {

@@ -91,7 +91,8 @@ TEST(Amounts, TowersByDefaultAreNoHigherThanAPuddle)
             options.solve.model = model;
             options.solve.gravity = gravity;
             const Droplet low = makeDroplet(comb(), options);
-            EXPECT_NEAR(low.total.height_max, puddleHeight(options.solve, kAngle, low.total.footprint_area),
+            // Rounded inner corners do not count.
+            EXPECT_NEAR(low.total.height_max, puddleHeight(options.solve, kAngle, area(low.meshes.front())),
                         1e-6 * low.total.height_max);
             EXPECT_LT(low.total.contact_angle.mean, 0.8 * kAngle);
             EXPECT_THAT(low.limits, ElementsAre(FillLimit::Puddle));
@@ -221,7 +222,7 @@ TEST(Amounts, GradedMeshesKeepTheirSheets)
         testing::polygonLoop({{0, 0}, {20e-3, 0}, {20e-3, 5e-3}, {5e-3, 5e-3}, {5e-3, 20e-3}, {0, 20e-3}}));
     DropletOptions options = byDefault(4000);
     options.mesh.grading = 8;
-    EXPECT_TRUE(makeDroplet(el, options).sheets.front());
+    EXPECT_FALSE(makeDroplet(el, options).solution.droplets.front().isHeightField());
 }
 
 /// A letter's default is a sheet: as many triangles as were asked for, and the same ones as for that angle.
@@ -233,15 +234,15 @@ TEST(Amounts, SheetsHaveTheTrianglesThatWereAskedFor)
         DropletOptions options = byDefault(triangles);
         options.solve.fill.amount = 60.0 * kDegree;
         const Droplet droplet = makeDroplet(el, options);
-        ASSERT_TRUE(droplet.sheets.front());
-        const ParametricSheet& sheet = *droplet.sheets.front();
+        ASSERT_FALSE(droplet.solution.droplets.front().isHeightField());
+        const CapillarySurface& sheet = droplet.solution.droplets.front();
         EXPECT_NEAR(static_cast<double>(sheet.triangles.size()), static_cast<double>(triangles),
                     0.1 * static_cast<double>(triangles));
 
         // The report is that of the sheet, not of the height field that was tried first.
         const SolveReport& report = droplet.solution.report;
         EXPECT_EQ(report.method, "multifrontal-ldlt");
-        EXPECT_EQ(report.unknowns, sheet.vertices.size() - sheet.rim);
+        EXPECT_EQ(report.unknowns, sheet.vertices.size() - sheet.rimVertexCount());
         EXPECT_EQ(report.iterations, 1U);
         EXPECT_GT(report.residual, 0.0);
         EXPECT_LT(report.residual, 1e-7);

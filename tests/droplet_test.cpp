@@ -22,7 +22,9 @@
 #include "droplet/footprint/colour_domain.h"
 #include "droplet/io/output.h"
 #include "droplet/units.h"
+#include "shape/recovered_normals.h"
 #include "support/colour_pictures.h"
+#include "support/heights.h"
 #include "support/masks.h"
 #include "support/sound.h"
 
@@ -36,6 +38,7 @@ using ::testing::ElementsAre;
 using testing::expectSound;
 using testing::hardMask;
 using ::testing::HasSubstr;
+using testing::heightsOf;
 using testing::Inside;
 using ::testing::IsEmpty;
 using testing::rectangle;
@@ -80,8 +83,9 @@ DropletOptions filled(FillBy by, double amount, FillSharing sharing)
 std::vector<double> heights(const Droplet& droplet)
 {
     std::vector<double> all;
-    for (const HeightField& field : droplet.solution.droplets) {
-        all.insert(all.end(), field.height.begin(), field.height.end());
+    for (const CapillarySurface& field : droplet.solution.droplets) {
+        const std::vector<double> own = heightsOf(field);
+        all.insert(all.end(), own.begin(), own.end());
     }
     return all;
 }
@@ -285,7 +289,7 @@ TEST_P(FillTest, ContactAngleIsMet)
 TEST_P(FillTest, OnlyAReservoirSharesItsPressure)
 {
     const Droplet droplet = makeDroplet(sceneMask(), filled(FillBy::ContactAngle, 30.0 * kDegree, GetParam().sharing));
-    const std::vector<HeightField>& fields = droplet.solution.droplets;
+    const std::vector<CapillarySurface>& fields = droplet.solution.droplets;
     ASSERT_EQ(fields.size(), 3U);
     EXPECT_EQ(fields[0].pressure == fields[1].pressure && fields[1].pressure == fields[2].pressure, !each());
 }
@@ -328,13 +332,14 @@ TEST(Droplet, PressureBalancesTheWeightAndThePullOfTheRim)
         const Liquid& liquid = options.solve.liquid;
         for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
             const PlanarMesh& mesh = droplet.meshes[k];
-            const HeightField& field = droplet.solution.droplets[k];
+            const CapillarySurface& field = droplet.solution.droplets[k];
+            const std::vector<double> slopes = rimSlopes(field, {});
             double pull = 0.0;
             for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
                 for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
                     const std::uint32_t next = nextOnRim(mesh, loop, v);
                     const double edge = length(mesh.vertices[next] - mesh.vertices[v]);
-                    pull += 0.5 * edge * (field.rim_slope[v] + field.rim_slope[next]);
+                    pull += 0.5 * edge * (slopes[v] + slopes[next]);
                 }
             }
             const double weight = liquid.density * gravity * droplet.figures[k].volume;
@@ -351,7 +356,7 @@ TEST(Droplet, PressureTimesVolumeIsTwiceTheLinearEnergy)
     const Droplet droplet = makeDroplet(sceneMask(), options);
     for (std::size_t k = 0; k < droplet.meshes.size(); ++k) {
         const PlanarMesh& mesh = droplet.meshes[k];
-        const std::vector<double>& u = droplet.solution.droplets[k].height;
+        const std::vector<double> u = heightsOf(droplet.solution.droplets[k]);
         double stretching = 0.0;  // ∫|∇u|²
         for (const auto& [a, b, c] : mesh.triangles) {
             // Gradient: sum of heights times opposite edges, turned by 90°, divided by twice the area.
@@ -544,7 +549,7 @@ TEST(Droplet, OtherDropletsDoNotMatter)
     ASSERT_EQ(alone.figures.size(), 1U);
     const std::size_t k = byArea(all)[1];
     EXPECT_EQ(all.meshes[k].vertices, alone.meshes[0].vertices);
-    EXPECT_EQ(all.solution.droplets[k].height, alone.solution.droplets[0].height);
+    EXPECT_EQ(heightsOf(all.solution.droplets[k]), heightsOf(alone.solution.droplets[0]));
     expectRelative(both.figures[byArea(both)[1]].volume, alone.figures[0].volume, 1e-2, "volume at another mesh size");
 }
 
@@ -660,7 +665,7 @@ TEST(Droplet, HasNoNegativeAngleIfItIsAboveTheGround)
         for (const ShapeFigures& figures : droplet.figures) {
             EXPECT_NEAR(figures.contact_angle.mean / kDegree, 15.0, 1e-6);
         }
-        for (const HeightField& field : droplet.solution.droplets) {
+        for (const CapillarySurface& field : droplet.solution.droplets) {
             EXPECT_GE(*std::min_element(field.contact_angle.begin(), field.contact_angle.end()), 0.0);
         }
     }
@@ -753,8 +758,8 @@ TEST(Droplet, SharesLiquidThatHangsOverItsRim)
     options.solve.fill = {FillBy::Volume, 0.85 * 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3.0) * 0.75,
                           FillSharing::Total};
     const Droplet shared = makeDroplet(mask, options);
-    ASSERT_EQ(shared.sheets.size(), 2U);
-    ASSERT_TRUE(shared.sheets[0] && shared.sheets[1]);
+    ASSERT_EQ(shared.solution.droplets.size(), 2U);
+    ASSERT_FALSE(shared.solution.droplets[0].isHeightField() || shared.solution.droplets[1].isHeightField());
     EXPECT_TRUE(isClosed(shared.surface));
     EXPECT_NEAR(shared.total.volume, options.solve.fill.amount, 1e-9 * options.solve.fill.amount);
     EXPECT_EQ(shared.solution.droplets[0].pressure, shared.solution.droplets[1].pressure);
@@ -856,7 +861,8 @@ TEST(Droplet, HangsOverItsRimOnABall)
     options.solve.ground = BaseSurface::sphere(30.0 * kMillimetre);
     options.solve.fill = {FillBy::ContactAngle, 110.0 * kDegree, FillSharing::Each};
     const Droplet bead = makeDroplet(mask, options);
-    ASSERT_EQ(bead.sheets.size(), 1U);
+    ASSERT_EQ(bead.solution.droplets.size(), 1U);
+    EXPECT_FALSE(bead.solution.droplets[0].isHeightField());
     EXPECT_TRUE(isClosed(bead.surface));
     EXPECT_NO_THROW(bead.surface.validate());
     EXPECT_NEAR(bead.total.contact_angle.mean, 110.0 * kDegree, 1e-6);
@@ -878,8 +884,8 @@ TEST(Droplet, RefusesDropletsThatDoNotExist)
     const Droplet bead = makeDroplet(mask, options);
     EXPECT_TRUE(isClosed(bead.surface));
     EXPECT_NO_THROW(bead.surface.validate());
-    ASSERT_EQ(bead.sheets.size(), 1U);
-    EXPECT_TRUE(bead.sheets[0]);
+    ASSERT_EQ(bead.solution.droplets.size(), 1U);
+    EXPECT_FALSE(bead.solution.droplets[0].isHeightField());
     EXPECT_GT(bead.total.contact_angle.mean, 0.5 * std::numbers::pi);
     // One droplet does not share its liquid.
     options.solve.fill.sharing = FillSharing::Total;

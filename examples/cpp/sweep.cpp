@@ -29,7 +29,7 @@ int main(int argc, char** argv)
             const droplet::Solution solution = droplet::solve(meshes, options);
             std::vector<droplet::ShapeFigures> each;
             for (std::size_t k = 0; k < meshes.size(); ++k) {
-                each.push_back(droplet::measure(meshes[k], solution.droplets[k], options));
+                each.push_back(droplet::measure(solution.droplets[k], options));
             }
             const droplet::ShapeFigures figures = droplet::combine(each);
             std::cout << volume * 1e9 << "," << figures.height_max * 1e3 << "," << solution.droplets[0].pressure << ","

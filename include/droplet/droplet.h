@@ -13,7 +13,6 @@
 #include "droplet/progress.h"
 #include "droplet/shape/figures.h"
 #include "droplet/shape/refill.h"
-#include "droplet/shape/sheet.h"
 #include "droplet/shape/solve.h"
 #include "droplet/surface/loft.h"
 #include "droplet/surface/surface.h"
@@ -36,13 +35,10 @@ struct DropletOptions {
 
 /// Results of all stages.
 struct Droplet {
-    Outline outline;                 ///< rims of the mask; empty if the droplets were made from a domain
-    Domain domain;                   ///< footprints
-    std::vector<PlanarMesh> meshes;  ///< one per droplet
-    Solution solution;               ///< height fields
-    /// One per droplet, where liquid hangs over its rim; its height field then has a pressure and angles alone. Empty
-    /// if there are none.
-    std::vector<std::optional<ParametricSheet>> sheets;
+    Outline outline;                    ///< rims of the mask; empty if the droplets were made from a domain
+    Domain domain;                      ///< footprints
+    std::vector<PlanarMesh> meshes;     ///< one per droplet
+    Solution solution;                  ///< one surface per droplet, and how they were found
     std::vector<ShapeFigures> figures;  ///< one per droplet
     ShapeFigures total;                 ///< figures of all droplets together
     std::vector<FillLimit> limits;      ///< one per droplet: what makes its amount smaller than the wanted one

@@ -16,6 +16,7 @@
 #include "droplet/error.h"
 #include "droplet/version.h"
 #include "io/byte_stream.h"
+#include "shape/area_vector.h"
 #include "shape/sheet_base.h"
 
 namespace droplet {
@@ -41,10 +42,9 @@ struct Column {
 
 /// Droplet in the file's units.
 struct Drop {
-    const PlanarMesh* mesh = nullptr;
+    const CapillarySurface* surface = nullptr;
     std::vector<Vec3> vertices;
     std::vector<double> ground;  ///< height of the ground at every vertex; empty if flat
-    const std::vector<std::uint8_t>* dry = nullptr;
     double pressure = 0.0;
     double area = 0.0;
     Column liquid;
@@ -56,48 +56,39 @@ struct Drop {
     throw Error(ErrorCode::InvalidArgument, message);
 }
 
-void checkFits(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields)
+void check(const std::vector<CapillarySurface>& surfaces)
 {
-    if (meshes.empty()) {
-        refuse("meshes must hold at least one droplet");
+    if (surfaces.empty()) {
+        refuse("surfaces must hold at least one droplet");
     }
-    if (fields.size() != meshes.size()) {
-        refuse("fields has " + std::to_string(fields.size()) + " droplets, meshes " + std::to_string(meshes.size()));
-    }
-    const auto finite = [](const std::vector<double>& values) {
-        return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-    };
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        const HeightField& field = fields[k];
-        const std::size_t count = meshes[k].vertices.size();
-        const std::string name = "fields[" + std::to_string(k) + "]";
-        if (field.height.size() != count || !(field.ground.empty() || field.ground.size() == count) ||
-            !(field.dry.empty() || field.dry.size() == count)) {
-            refuse(name + " has " + std::to_string(field.height.size()) + " heights, " +
-                   std::to_string(field.ground.size()) + " of the ground and " + std::to_string(field.dry.size()) +
-                   " dry or not, its mesh has " + std::to_string(count) + " vertices");
-        }
-        if (!finite(field.height) || !finite(field.ground) || !std::isfinite(field.pressure)) {
-            refuse(name + " must be finite");
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        const CapillarySurface& surface = surfaces[k];
+        surface.validate();
+        if (!std::isfinite(surface.pressure) ||
+            !std::all_of(surface.vertices.begin(), surface.vertices.end(),
+                         [](Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); })) {
+            refuse("surfaces[" + std::to_string(k) + "] must be finite");
         }
     }
 }
 
 /// Power of ten nearest to the radius of a disc with the area of the mean footprint.
-double unitOfLength(const std::vector<PlanarMesh>& meshes)
+double unitOfLength(const std::vector<CapillarySurface>& surfaces)
 {
     double total = 0.0;
-    for (const PlanarMesh& mesh : meshes) {
-        total += area(mesh);
+    for (const CapillarySurface& surface : surfaces) {
+        for (const Triangle& t : surface.triangles) {
+            total += areaVector(surface.vertices, t).z;
+        }
     }
-    const double mean = total / static_cast<double>(meshes.size());
+    const double mean = total / static_cast<double>(surfaces.size());
     return std::pow(10.0, std::round(0.5 * std::log10(mean / std::numbers::pi)));
 }
 
-Physics physicsOf(const std::vector<PlanarMesh>& meshes, const SolveOptions& options)
+Physics physicsOf(const std::vector<CapillarySurface>& surfaces, const SolveOptions& options)
 {
     Physics physics;
-    physics.unit = unitOfLength(meshes);
+    physics.unit = unitOfLength(surfaces);
     physics.tension = options.liquid.surface_tension;
     const PlaneGravity gravity = planeGravity(options);
     const double scale = options.liquid.density / physics.tension * physics.unit * physics.unit;
@@ -123,40 +114,16 @@ Column columnUnder(const std::array<Vec3, 3>& corners, double area, const Physic
     return {area / 12.0 * (0.5 * physics.weight * (z * z + zz) - (s * z + sz)), area / 3.0 * z};
 }
 
-Drop makeDrop(const PlanarMesh& mesh, const HeightField& field, const Physics& physics)
-{
-    Drop drop;
-    drop.mesh = &mesh;
-    drop.dry = &field.dry;
-    drop.pressure = field.pressure / physics.tension * physics.unit;
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        drop.vertices.push_back(
-            {mesh.vertices[i].x / physics.unit, mesh.vertices[i].y / physics.unit, field.height[i] / physics.unit});
-    }
-    for (const double h : field.ground) {
-        drop.ground.push_back(h / physics.unit);
-    }
-    for (const Triangle& t : mesh.triangles) {
-        const std::array<Vec3, 3> corners{drop.vertices[t[0]], drop.vertices[t[1]], drop.vertices[t[2]]};
-        const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-        drop.area += 0.5 * length(normal);
-        const Column part = columnUnder(corners, 0.5 * normal.z, physics);
-        drop.liquid.energy += part.energy;
-        drop.liquid.volume += part.volume;
-    }
-    return drop;
-}
-
 /// What lies below the liquid, over triangles of the footprint.
-/// @param ground  its height at every vertex [m]
-Column underOf(const PlanarMesh& footprint, const std::vector<double>& ground, const Physics& physics)
+Column underOf(const PlanarMesh& footprint, const BaseSurface& ground, const Physics& physics)
 {
+    const std::vector<double> heights = heightsUnder(footprint, ground);
     Column under;
     for (const Triangle& t : footprint.triangles) {
         std::array<Vec3, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec2 p = footprint.vertices[t[k]];
-            corners[k] = {p.x / physics.unit, p.y / physics.unit, ground[t[k]] / physics.unit};
+            corners[k] = {p.x / physics.unit, p.y / physics.unit, heights[t[k]] / physics.unit};
         }
         const double size = 0.5 * doubleArea(footprint, t) / (physics.unit * physics.unit);
         const Column part = columnUnder(corners, size, physics);
@@ -166,34 +133,41 @@ Column underOf(const PlanarMesh& footprint, const std::vector<double>& ground, c
     return under;
 }
 
-/// Writes a sheet as a mesh, some of whose triangles may be seen from below, and its heights.
-void takeSheet(const ParametricSheet& sheet, const BaseSurface& ground, PlanarMesh& mesh, HeightField& field)
+Drop makeDrop(const CapillarySurface& surface, const BaseSurface& ground, const Physics& physics)
 {
     const SheetBase base{ground, {}};
-    mesh = {{}, sheet.triangles, sheet.footprint.loop_starts, nullptr};
-    field.height.clear();
-    field.dry.clear();
-    field.ground.clear();
-    for (std::uint32_t v = 0; v < sheet.vertices.size(); ++v) {
-        const Vec3& p = sheet.vertices[v];
-        const double clearance = base.clearance(p);
-        mesh.vertices.push_back({p.x, p.y});
-        field.height.push_back(p.z);
-        field.dry.push_back(v >= sheet.rim && clearance <= 0.0 ? 1 : 0);  // on the ground, which holds it
+    Drop drop;
+    drop.surface = &surface;
+    drop.pressure = surface.pressure / physics.tension * physics.unit;
+    for (const Vec3& p : surface.vertices) {
+        drop.vertices.push_back({p.x / physics.unit, p.y / physics.unit, p.z / physics.unit});
         if (!ground.flat()) {
-            field.ground.push_back(std::isfinite(clearance) ? p.z - clearance : p.z);
+            const double height = base.under(p).height;
+            drop.ground.push_back((std::isfinite(height) ? height : p.z) / physics.unit);
         }
     }
+    for (const Triangle& t : surface.triangles) {
+        const std::array<Vec3, 3> corners{drop.vertices[t[0]], drop.vertices[t[1]], drop.vertices[t[2]]};
+        const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+        drop.area += 0.5 * length(normal);
+        const Column part = columnUnder(corners, 0.5 * normal.z, physics);
+        drop.liquid.energy += part.energy;
+        drop.liquid.volume += part.volume;
+    }
+    if (!ground.flat()) {
+        drop.under = underOf(footprintOf(surface), ground, physics);
+    }
+    return drop;
 }
 
 using Ends = std::array<std::uint32_t, 2>;
 
 /// Both vertices of every edge, smaller index first, in ascending order.
-std::vector<Ends> edgesOf(const PlanarMesh& mesh)
+std::vector<Ends> edgesOf(const std::vector<Triangle>& triangles)
 {
     std::vector<Ends> edges;
-    edges.reserve(3 * mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) {
+    edges.reserve(3 * triangles.size());
+    for (const Triangle& t : triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             edges.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
         }
@@ -391,7 +365,7 @@ private:
             for (std::uint32_t v = 0; v < drop.vertices.size(); ++v) {
                 const Vec3& p = drop.vertices[v];
                 lines_.begin(++number, " ", p.x, " ", p.y, " ", p.z);
-                if (drop.mesh->onRim(v) || (!drop.dry->empty() && (*drop.dry)[v] != 0)) {
+                if (drop.surface->onRim(v) || (!drop.surface->dry.empty() && drop.surface->dry[v] != 0)) {
                     lines_.begin(" fixed");
                 } else if (options_.no_penetration) {
                     lines_.begin(" constraint 1");
@@ -412,10 +386,10 @@ private:
         std::size_t number = 0;
         std::size_t first_vertex = 1;
         for (const Drop& drop : drops_) {
-            edges.push_back(edgesOf(*drop.mesh));
+            edges.push_back(edgesOf(drop.surface->triangles));
             for (const auto& [a, b] : edges.back()) {
                 lines_.line(++number, " ", first_vertex + a, " ", first_vertex + b,
-                            drop.mesh->onRim(b) ? " fixed" : "");
+                            drop.surface->onRim(b) ? " fixed" : "");
             }
             first_vertex += drop.vertices.size();
         }
@@ -424,7 +398,7 @@ private:
         number = 0;
         std::size_t first_edge = 1;
         for (std::size_t k = 0; k < drops_.size(); ++k) {
-            for (const Triangle& t : drops_[k].mesh->triangles) {
+            for (const Triangle& t : drops_[k].surface->triangles) {
                 lines_.begin(++number);
                 for (std::size_t i = 0; i < 3; ++i) {
                     const std::uint32_t from = t[i];
@@ -448,7 +422,7 @@ private:
         for (std::size_t b = 0; b < bodies_.size(); ++b) {
             lines_.begin(b + 1);
             for (std::size_t k = bodies_[b][0]; k < bodies_[b][1]; ++k) {
-                for (std::size_t i = 0; i < drops_[k].mesh->triangles.size(); ++i) {
+                for (std::size_t i = 0; i < drops_[k].surface->triangles.size(); ++i) {
                     lines_.begin(i % kFacesPerLine == 0 ? " \\\n" : " ", ++face);
                 }
             }
@@ -467,36 +441,19 @@ private:
 
 }  // namespace
 
-std::uint64_t writeEvolver(std::ostream& out, const std::vector<PlanarMesh>& meshes,
-                           const std::vector<HeightField>& fields,
-                           const std::vector<std::optional<ParametricSheet>>& sheets, const SolveOptions& options)
+std::uint64_t writeEvolver(std::ostream& out, const std::vector<CapillarySurface>& surfaces,
+                           const SolveOptions& options)
 {
     SolveOptions checked = options;
     checked.fill = {};  // angles beyond 90° are those of sheets
     checked.validate();
-    if (!sheets.empty() && sheets.size() != meshes.size()) {
-        refuse("sheets has " + std::to_string(sheets.size()) + " entries, meshes " + std::to_string(meshes.size()));
-    }
-    std::vector<PlanarMesh> all_meshes = meshes;
-    std::vector<HeightField> all_fields = fields;
-    bool has_sheets = false;
-    for (std::size_t k = 0; k < std::min(sheets.size(), fields.size()); ++k) {
-        if (sheets[k]) {
-            has_sheets = true;
-            takeSheet(*sheets[k], options.ground, all_meshes[k], all_fields[k]);
-        }
-    }
-    checkFits(all_meshes, all_fields);
-    const Physics physics = physicsOf(meshes, options);
+    check(surfaces);
+    const Physics physics = physicsOf(surfaces, options);
     std::vector<Drop> drops;
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        drops.push_back(makeDrop(all_meshes[k], all_fields[k], physics));
-        if (!drops.back().ground.empty()) {
-            const bool is_sheet = !sheets.empty() && sheets[k];
-            const PlanarMesh& footprint = is_sheet ? sheets[k]->footprint : meshes[k];
-            drops.back().under =
-                underOf(footprint, is_sheet ? heightsUnder(footprint, options.ground) : fields[k].ground, physics);
-        }
+    bool has_sheets = false;
+    for (const CapillarySurface& surface : surfaces) {
+        drops.push_back(makeDrop(surface, options.ground, physics));
+        has_sheets = has_sheets || !surface.isHeightField();
     }
     return Datafile(out, drops, physics, options, has_sheets).write();
 }

@@ -8,11 +8,11 @@ std::size_t irregularTriangleCount(const PlanarMesh& mesh)
     return mesh.lattice ? mesh.lattice->first_regular_triangle : mesh.triangles.size();
 }
 
-std::vector<GridRun> regularRuns(const PlanarMesh& mesh)
+std::vector<GridRun> regularRuns(const Lattice* lattice)
 {
     std::vector<GridRun> runs;
-    if (mesh.lattice) {
-        const LatticeGrid& grid = mesh.lattice->grid;
+    if (lattice != nullptr) {
+        const LatticeGrid& grid = lattice->grid;
         for (const RowInterval& i : eroded(grid.region()).intervals()) {
             runs.push_back(grid.run(i));
         }

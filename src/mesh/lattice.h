@@ -25,6 +25,7 @@ struct Lattice {
 std::size_t irregularTriangleCount(const PlanarMesh& mesh);
 
 /// Vertices that have only equilateral triangles, in ascending order.
-std::vector<GridRun> regularRuns(const PlanarMesh& mesh);
+/// @param lattice  of a mesh; null: none
+std::vector<GridRun> regularRuns(const Lattice* lattice);
 
 }  // namespace droplet

@@ -46,7 +46,7 @@ void validateLattice(const PlanarMesh& mesh)
     const LatticeGrid& grid = mesh.lattice->grid;
     const double just_longer = 1.01 * mesh.lattice->edge;  // the next larger distance on the lattice is √3 edges
     std::vector<std::uint8_t> regular(mesh.vertices.size(), 0);
-    for (const GridRun& run : regularRuns(mesh)) {
+    for (const GridRun& run : regularRuns(mesh.lattice.get())) {
         std::fill_n(regular.begin() + run.first, run.count, std::uint8_t{1});
     }
     std::size_t in_lattice = 0;

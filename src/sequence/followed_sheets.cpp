@@ -9,7 +9,6 @@
 
 #include "droplet/mesh/follow.h"
 #include "mesh/carry_points.h"
-#include "pipeline.h"
 
 namespace droplet {
 namespace {
@@ -28,7 +27,7 @@ std::vector<Vec2> rimOf(const PlanarMesh& mesh)
 /// Footprint of a sheet at its new place: that of the droplet, unless its inner corners are rounded.
 PlanarMesh movedFootprint(const SheetOrigin& origin, const PlanarMesh& mesh)
 {
-    const PlanarMesh& footprint = origin.sheet.footprint;
+    const PlanarMesh& footprint = *origin.sheet.footprint;
     return sameRim(footprint, origin.mesh) ? mesh
                                            : moveRim(footprint, carryPoints(origin.mesh, mesh, rimOf(footprint)));
 }
@@ -39,13 +38,14 @@ std::optional<FollowedSheets> followSheets(const SheetOrigins& origins, const Dr
                                            const std::vector<PlanarMesh>& meshes, std::vector<PlanarMesh> bases,
                                            const SolveOptions& options)
 {
-    if (before.sheets.empty() || !options.ground.flat()) {
+    const std::vector<CapillarySurface>& surfaces = before.solution.droplets;
+    if (!hasSheets(before) || !options.ground.flat()) {
         return std::nullopt;
     }
     const std::size_t count = meshes.size();
     std::vector<PlanarMesh> footprints(count);
     for (std::size_t k = 0; k < count; ++k) {
-        if (!before.sheets[k]) {
+        if (surfaces[k].isHeightField()) {
             continue;
         }
         footprints[k] = movedFootprint(*origins[k], meshes[k]);
@@ -61,14 +61,14 @@ std::optional<FollowedSheets> followSheets(const SheetOrigins& origins, const Dr
     }
     FollowedSheets followed{{}, std::move(bases)};
     if (options.fill.sharing == FillSharing::Total && count > 1) {
-        std::vector<ParametricSheet> first;
-        std::vector<ParametricSheet> last;
+        std::vector<CapillarySurface> first;
+        std::vector<CapillarySurface> last;
         for (std::size_t k = 0; k < count; ++k) {
-            if (!before.sheets[k]) {
+            if (surfaces[k].isHeightField()) {
                 return std::nullopt;
             }
             first.push_back(origins[k]->sheet);
-            last.push_back(*before.sheets[k]);
+            last.push_back(surfaces[k]);
         }
         SheetResult result = follow(join(first), join(last), join(footprints), options);
         if (result.end != SheetEnd::Reached) {
@@ -79,8 +79,8 @@ std::optional<FollowedSheets> followSheets(const SheetOrigins& origins, const Dr
     }
     followed.sheets.resize(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-        if (before.sheets[k]) {
-            followed.sheets[k] = follow(origins[k]->sheet, *before.sheets[k], footprints[k], ownOptions(options, k));
+        if (!surfaces[k].isHeightField()) {
+            followed.sheets[k] = follow(origins[k]->sheet, surfaces[k], footprints[k], ownOptions(options, k));
         }
     });
     const bool all_reached = std::all_of(followed.sheets.begin(), followed.sheets.end(), [](const auto& result) {
@@ -89,33 +89,43 @@ std::optional<FollowedSheets> followSheets(const SheetOrigins& origins, const Dr
     return all_reached ? std::optional(std::move(followed)) : std::nullopt;
 }
 
-const ParametricSheet* sheetOf(const Droplet& droplet, std::size_t k)
+bool hasSheets(const Droplet& droplet)
 {
-    return !droplet.sheets.empty() && droplet.sheets[k] ? &*droplet.sheets[k] : nullptr;
+    const std::vector<CapillarySurface>& surfaces = droplet.solution.droplets;
+    return std::any_of(surfaces.begin(), surfaces.end(), [](const auto& surface) { return !surface.isHeightField(); });
+}
+
+const CapillarySurface* sheetOf(const Droplet& droplet, std::size_t k)
+{
+    const CapillarySurface& surface = droplet.solution.droplets[k];
+    return surface.isHeightField() ? nullptr : &surface;
 }
 
 bool isSameSheet(const Droplet& before, const Droplet& after, std::size_t k)
 {
-    const ParametricSheet* a = sheetOf(before, k);
-    const ParametricSheet* b = sheetOf(after, k);
+    const CapillarySurface* a = sheetOf(before, k);
+    const CapillarySurface* b = sheetOf(after, k);
     return a != nullptr && b != nullptr ? a->triangles == b->triangles : a == b;
 }
 
 SheetOrigins originsOf(const Droplet& droplet, const SheetOrigins& origins, const std::vector<PlanarMesh>& bases)
 {
-    SheetOrigins result(droplet.sheets.size());
-    for (std::size_t k = 0; k < droplet.sheets.size(); ++k) {
-        if (!droplet.sheets[k]) {
+    if (!hasSheets(droplet)) {
+        return {};
+    }
+    SheetOrigins result(droplet.solution.droplets.size());
+    for (std::size_t k = 0; k < result.size(); ++k) {
+        const CapillarySurface& sheet = droplet.solution.droplets[k];
+        if (sheet.isHeightField()) {
             continue;
         }
-        const ParametricSheet& sheet = *droplet.sheets[k];
         if (k < origins.size() && origins[k] && origins[k]->sheet.triangles == sheet.triangles) {
             result[k] = origins[k];
             continue;
         }
         std::optional<PlanarMesh> base;
         if (!bases.empty()) {
-            base = sameRim(bases[k], sheet.footprint) ? bases[k] : cover(sheet.footprint);
+            base = sameRim(bases[k], *sheet.footprint) ? bases[k] : cover(*sheet.footprint);
         }
         result[k] = std::make_shared<const SheetOrigin>(SheetOrigin{sheet, droplet.meshes[k], std::move(base)});
     }

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "droplet/droplet.h"
+#include "pipeline.h"
 
 namespace droplet {
 
 /// A sheet as it was solved anew: the beginning of a run of frames.
 struct SheetOrigin {
-    ParametricSheet sheet;
+    CapillarySurface sheet;
     PlanarMesh mesh;                 ///< of the droplet then
     std::optional<PlanarMesh> base;  ///< cover() of the sheet's footprint, if surfaces are closed
 };
@@ -37,8 +38,11 @@ std::optional<FollowedSheets> followSheets(const SheetOrigins& origins, const Dr
                                            const std::vector<PlanarMesh>& meshes, std::vector<PlanarMesh> bases,
                                            const SolveOptions& options);
 
+/// Whether any droplet of a frame is a sheet.
+bool hasSheets(const Droplet& droplet);
+
 /// Sheet of a droplet; null if it is none.
-const ParametricSheet* sheetOf(const Droplet& droplet, std::size_t k);
+const CapillarySurface* sheetOf(const Droplet& droplet, std::size_t k);
 
 /// Whether a droplet is a sheet in both of two frames, with the same triangles, or in none of them.
 bool isSameSheet(const Droplet& before, const Droplet& after, std::size_t k);

@@ -141,8 +141,7 @@ std::vector<double> sharesOf(const std::vector<PlanarMesh>& meshes, const SolveO
     std::vector<double> shares;
     double sum = 0.0;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        shares.push_back(solution.report.usable() ? measure(meshes[k], solution.droplets[k], level).volume
-                                                  : area(meshes[k]));
+        shares.push_back(solution.report.usable() ? measure(solution.droplets[k], level).volume : area(meshes[k]));
         sum += shares.back();
     }
     for (double& share : shares) {
@@ -251,7 +250,7 @@ bool restoreOrder(std::size_t count, const std::vector<Group>& groups, Domain& d
 bool anyDry(const Droplet& droplet)
 {
     return std::any_of(droplet.solution.droplets.begin(), droplet.solution.droplets.end(),
-                       [](const HeightField& field) { return !field.dry.empty(); });
+                       [](const CapillarySurface& surface) { return surface.isHeightField() && !surface.dry.empty(); });
 }
 
 /// Mesh of a droplet in a frame, and its base if that is kept.
@@ -450,11 +449,10 @@ SolveOptions followedOptions(const Frame& before, const SequenceOptions& options
     return solve;
 }
 
-/// Number of vertices of a droplet's mesh, or of its sheet.
+/// Number of vertices of a droplet's surface.
 std::size_t vertexCount(const Droplet& droplet, std::size_t k)
 {
-    const ParametricSheet* sheet = sheetOf(droplet, k);
-    return sheet != nullptr ? sheet->vertices.size() : droplet.meshes[k].vertices.size();
+    return droplet.solution.droplets[k].vertices.size();
 }
 
 /// Share of the vertices of a frame that the frame before had; new sheets have none.
@@ -561,7 +559,7 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     std::optional<FrameLineage> lineage;
     std::optional<FollowedSheets> sheets;
     if (options.keep_vertices && one_to_one && !anyDry(before.droplet)) {
-        if (!before.droplet.sheets.empty()) {
+        if (hasSheets(before.droplet)) {
             lineage = followAll(before, domain, true, frame.droplet.meshes);
             if (lineage) {
                 sheets = followSheets(before.lineage->sheets, before.droplet, frame.droplet.meshes, lineage->bases,

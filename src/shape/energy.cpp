@@ -73,7 +73,7 @@ std::vector<double> loadOf(const PlanarMesh& mesh)
             load[v] += third;
         }
     }
-    for (const GridRun& run : regularRuns(mesh)) {
+    for (const GridRun& run : regularRuns(mesh.lattice.get())) {
         // A third of each of six equilateral triangles.
         const double regular = 0.5 * std::numbers::sqrt3 * mesh.lattice->edge * mesh.lattice->edge;
         std::fill_n(load.begin() + run.first, run.count, regular);
@@ -175,15 +175,6 @@ void Energy::sampleGround(const BaseSurface& ground)
             before = v;
         }
     }
-}
-
-double Energy::slopeOf(std::uint32_t rim_vertex, double flux) const
-{
-    if (physics_.model == Model::Linear) {
-        return flux;
-    }
-    const double stretch = rim_stretch_.empty() ? 1.0 : rim_stretch_[rim_vertex];
-    return stretch * std::tan(std::asin(std::clamp(flux, -kSteepestFlux, kSteepestFlux)));
 }
 
 double Energy::groundFlux(std::uint32_t rim_vertex) const

@@ -45,9 +45,7 @@ public:
     /// Smoothed flux through the rim, from forces on its vertices. The total on every loop stays.
     [[nodiscard]] std::vector<double> fluxOf(const std::vector<double>& forces) const;
 
-    /// Slope −∂u/∂n at a rim vertex for a flux −∂a/∂p·n through the rim there; n points outward.
-    [[nodiscard]] double slopeOf(std::uint32_t rim_vertex, double flux) const;
-    /// Flux of a sheet that lies on the ground there.
+    /// Inward flux −∂a/∂p·n of a sheet that lies on the ground, through the rim there; n points outward.
     [[nodiscard]] double groundFlux(std::uint32_t rim_vertex) const;
     /// Contact angle at a rim vertex [rad], and its derivative by the flux. It is not negative if the liquid cannot be
     /// below the ground: beside dry ground and on ragged rims, recovered angles oscillate around 0.

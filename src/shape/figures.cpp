@@ -2,7 +2,6 @@
 #include "droplet/shape/figures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -13,8 +12,10 @@
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "number_text.h"
-#include "shape/gradient.h"
-#include "shape/rim_figures.h"
+#include "shape/area_vector.h"
+#include "shape/overhang.h"
+#include "shape/sheet_base.h"
+#include "shape/sheet_energy.h"
 
 namespace droplet {
 namespace {
@@ -22,8 +23,12 @@ namespace {
 /// Square of the slope up to which the linear model's area is within 10 % (thesis, section 4.1.2): tan² 50°.
 constexpr double kSteep = 1.4202766254612063;
 
-void measureRim(const PlanarMesh& mesh, const std::vector<double>& contact_angle, Vec2 downhill, ShapeFigures& figures)
+/// @param figures  with the depth: liquid that is nowhere below the ground has no negative contact angle, which only
+///                 recovery makes
+void measureRim(const CapillarySurface& surface, Vec2 downhill, ShapeFigures& figures)
 {
+    const double least = figures.depth_max > 0.0 ? -std::numbers::pi : 0.0;
+    const PlanarMesh mesh = rimOf(surface);
     ContactAngle& angle = figures.contact_angle;
     angle.min = std::numeric_limits<double>::infinity();
     angle.max = -angle.min;
@@ -33,8 +38,8 @@ void measureRim(const PlanarMesh& mesh, const std::vector<double>& contact_angle
             const std::uint32_t next = nextOnRim(mesh, loop, v);
             const Vec2 along = mesh.vertices[next] - mesh.vertices[v];
             const double edge = length(along);
-            const double here = contact_angle[v];
-            sum += 0.5 * edge * (here + contact_angle[next]);
+            const double here = std::max(surface.contact_angle[v], least);
+            sum += 0.5 * edge * (here + std::max(surface.contact_angle[next], least));
             figures.rim_length += edge;
             figures.projected_width += 0.5 * std::abs(cross(along, downhill));
             if (here < angle.min) {
@@ -52,54 +57,86 @@ void measureRim(const PlanarMesh& mesh, const std::vector<double>& contact_angle
 
 /// Sums over triangles.
 struct Sums {
-    double area = 0.0;
+    double footprint = 0.0;
     double dry = 0.0;
-    double volume = 0.0;
-    double liquid_area = 0.0;
-    double linear_area = 0.0;
+    double area = 0.0;    ///< without dry ground
+    double linear = 0.0;  ///< the same in the linear model
     double steep = 0.0;
-    double squares = 0.0;  ///< ∫(u² − h²)
-    Vec2 moment;           ///< ∫x(u − h)
-    double steepest = 0.0;
+    double steepest = 0.0;  ///< angle to the plane [rad]
+
+    void add(const Sums& more)
+    {
+        footprint += more.footprint;
+        dry += more.dry;
+        area += more.area;
+        linear += more.linear;
+        steep += more.steep;
+        steepest = std::max(steepest, more.steepest);
+    }
 };
 
-Sums sumsOver(const PlanarMesh& mesh, const HeightField& field, std::size_t begin, std::size_t end)
+Sums sumsOver(const CapillarySurface& surface, std::size_t begin, std::size_t end)
 {
-    const std::vector<double>& u = field.height;
-    const auto on_ground = [&](std::uint32_t v) { return mesh.onRim(v) || field.dry[v] != 0; };
-    // ∫u² of a linear function over a triangle, divided by its area.
-    const auto mean_square = [](double a, double b, double c) {
-        return (a * a + b * b + c * c + a * b + b * c + c * a) / 6.0;
-    };
     Sums sums;
     for (std::size_t i = begin; i < end; ++i) {
-        const Triangle& t = mesh.triangles[i];
-        const double area = 0.5 * doubleArea(mesh, t);
-        sums.area += area;
-        if (!field.dry.empty() && std::all_of(t.begin(), t.end(), on_ground)) {
-            sums.dry += area;
+        const Triangle& t = surface.triangles[i];
+        const Vec3 normal = areaVector(surface.vertices, t);
+        sums.footprint += normal.z;
+        if (isDry(surface, t)) {
+            sums.dry += normal.z;
             continue;
         }
-        const std::array<double, 3> thick{field.thicknessAt(t[0]), field.thicknessAt(t[1]), field.thicknessAt(t[2])};
-        const double third = area * (thick[0] + thick[1] + thick[2]) / 3.0;
-        const Vec2 g = gradient(mesh, t, u);
-        const double slope = dot(g, g);
-        sums.volume += third;
-        sums.liquid_area += area * std::sqrt(1.0 + slope);
-        sums.linear_area += area * (1.0 + 0.5 * slope);
-        sums.steep += slope > kSteep ? area : 0.0;
-        sums.squares += area * mean_square(u[t[0]], u[t[1]], u[t[2]]);
-        if (!field.ground.empty()) {
-            sums.squares -= area * mean_square(field.ground[t[0]], field.ground[t[1]], field.ground[t[2]]);
+        sums.area += length(normal);
+        const double across = std::hypot(normal.x, normal.y);
+        sums.steepest = std::max(sums.steepest, std::atan2(across, normal.z));
+        if (surface.isHeightField()) {
+            const double slope = across / normal.z;
+            sums.linear += normal.z * (1.0 + 0.5 * slope * slope);
+            sums.steep += slope * slope > kSteep ? normal.z : 0.0;
         }
-        for (std::size_t k = 0; k < 3; ++k) {
-            // ∫φx over a triangle: A/12 (sum of its corners + the vertex).
-            const Vec2 weighted = mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]] + mesh.vertices[t[k]];
-            sums.moment = sums.moment + (area / 12.0 * thick[k]) * weighted;
-        }
-        sums.steepest = std::max(sums.steepest, slope);
     }
     return sums;
+}
+
+/// How far vertices are above and below the ground [m].
+struct Reach {
+    double above = 0.0;
+    double below = 0.0;
+};
+
+Reach reachOf(const CapillarySurface& surface, const SheetBase& base)
+{
+    Reach reach;
+    for (const Reach& part : mapBlocks<Reach>(surface.vertices.size(), [&](std::size_t begin, std::size_t end) {
+             Reach own;
+             for (std::size_t v = begin; v < end; ++v) {
+                 const double clearance = base.clearance(surface.vertices[v]);
+                 if (std::isfinite(clearance)) {
+                     own = {std::max(own.above, clearance), std::max(own.below, -clearance)};
+                 }
+             }
+             return own;
+         })) {
+        reach = {std::max(reach.above, part.above), std::max(reach.below, part.below)};
+    }
+    return reach;
+}
+
+/// Adds what follows from footprint and contact angles.
+/// @param figures  with the footprint's area, and the depth
+void addRimFigures(const CapillarySurface& surface, const SolveOptions& options, ShapeFigures& figures)
+{
+    const PlaneGravity gravity = planeGravity(options);
+    figures.bond_number = options.liquid.density * std::abs(options.gravity) * figures.footprint_area /
+                          (std::numbers::pi * options.liquid.surface_tension);
+    const double along = length(gravity.along);
+    measureRim(surface, along > 0.0 ? (1.0 / along) * gravity.along : Vec2{}, figures);
+    const double angle = figures.contact_angle.mean;
+    if (options.ground.flat() && along == 0.0 && gravity.normal > 0.0 && angle > 0.0) {
+        if (const auto unit = capillaryLength(options.liquid, options.gravity)) {
+            figures.height_bound = 2.0 * *unit * std::sin(0.5 * angle);
+        }
+    }
 }
 
 }  // namespace
@@ -123,57 +160,33 @@ Retention retention(const ShapeFigures& figures, const SolveOptions& options, co
                 (std::cos(hysteresis.receding) - std::cos(hysteresis.advancing))};
 }
 
-void addRimFigures(const PlanarMesh& mesh, const std::vector<double>& contact_angle, const SolveOptions& options,
-                   ShapeFigures& figures)
-{
-    const PlaneGravity gravity = planeGravity(options);
-    figures.bond_number = options.liquid.density * std::abs(options.gravity) * figures.footprint_area /
-                          (std::numbers::pi * options.liquid.surface_tension);
-    const double along = length(gravity.along);
-    measureRim(mesh, contact_angle, along > 0.0 ? (1.0 / along) * gravity.along : Vec2{}, figures);
-    const double angle = figures.contact_angle.mean;
-    if (options.ground.flat() && along == 0.0 && gravity.normal > 0.0 && angle > 0.0) {
-        if (const auto unit = capillaryLength(options.liquid, options.gravity)) {
-            figures.height_bound = 2.0 * *unit * std::sin(0.5 * angle);
-        }
-    }
-}
-
-ShapeFigures measure(const PlanarMesh& mesh, const HeightField& field, const SolveOptions& options)
+ShapeFigures measure(const CapillarySurface& surface, const SolveOptions& options)
 {
     Sums total;
-    for (const Sums& block : mapBlocks<Sums>(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
-             return sumsOver(mesh, field, begin, end);
+    for (const Sums& block : mapBlocks<Sums>(surface.triangles.size(), [&](std::size_t begin, std::size_t end) {
+             return sumsOver(surface, begin, end);
          })) {
-        total.area += block.area;
-        total.dry += block.dry;
-        total.volume += block.volume;
-        total.liquid_area += block.liquid_area;
-        total.linear_area += block.linear_area;
-        total.steep += block.steep;
-        total.squares += block.squares;
-        total.moment = total.moment + block.moment;
-        total.steepest = std::max(total.steepest, block.steepest);
+        total.add(block);
     }
-    const PlaneGravity gravity = planeGravity(options);
-    const double density = options.liquid.density;
+    const Vec3 weight = weightOf(options);
+    const SheetBase base = baseOf(surface, options.ground, weight);
+    const SheetIntegrals liquid = integrate(surface, weight);
+    const Reach reach = reachOf(surface, base);
     const double sigma = options.liquid.surface_tension;
     ShapeFigures figures;
-    figures.footprint_area = total.area;
+    figures.footprint_area = total.footprint;
     figures.dry_area = total.dry;
-    figures.volume = total.volume;
-    figures.liquid_area = total.liquid_area;
-    figures.linear_area = total.linear_area;
+    figures.volume = liquid.volume - base.integrals.volume;
+    figures.height_max = reach.above;
+    figures.depth_max = reach.below;
+    figures.overhang = surface.isHeightField() ? 0.0 : overhangOf(surface);
+    figures.liquid_area = total.area;
+    figures.linear_area = total.linear;
+    figures.surface_energy = sigma * total.area;
+    figures.gravity_energy = sigma * (liquid.gravity - base.integrals.gravity);
+    figures.slope_max = total.steepest;
     figures.steep_area = total.steep;
-    for (std::uint32_t v = 0; v < field.height.size(); ++v) {
-        const double thickness = field.thicknessAt(v);
-        figures.height_max = std::max(figures.height_max, thickness);
-        figures.depth_max = std::max(figures.depth_max, -thickness);
-    }
-    figures.surface_energy = sigma * figures.liquid_area;
-    figures.gravity_energy = density * (0.5 * gravity.normal * total.squares - dot(gravity.along, total.moment));
-    figures.slope_max = std::atan(std::sqrt(total.steepest));
-    addRimFigures(mesh, field.contact_angle, options, figures);
+    addRimFigures(surface, options, figures);
     return figures;
 }
 

@@ -135,57 +135,69 @@ PlanarMesh join(const std::vector<PlanarMesh>& footprints)
     return joined;
 }
 
-ParametricSheet join(const std::vector<ParametricSheet>& sheets)
+CapillarySurface join(const std::vector<CapillarySurface>& surfaces)
 {
-    std::vector<PlanarMesh> footprints;
+    std::uint32_t rim = 0;
     std::size_t vertices = 0;
-    for (const ParametricSheet& sheet : sheets) {
-        footprints.push_back(sheet.footprint);
-        vertices += sheet.vertices.size();
+    std::vector<PlanarMesh> footprints;
+    for (const CapillarySurface& surface : surfaces) {
+        rim += surface.rimVertexCount();
+        vertices += surface.vertices.size();
+        footprints.push_back(footprintOf(surface));
     }
-    ParametricSheet joined;
+    CapillarySurface joined;
     joined.footprint = join(footprints);
-    joined.rim = joined.footprint.rimVertexCount();
-    joined.pressure = sheets.front().pressure;
+    joined.loop_starts = joined.footprint->loop_starts;
+    joined.pressure = surfaces.front().pressure;
     joined.vertices.resize(vertices);
-    Numbering numbering(joined.rim);
-    for (const ParametricSheet& sheet : sheets) {
-        numbering.add(sheet.rim, sheet.vertices.size());
-        add(sheet.vertices, sheet.triangles, numbering, joined.vertices, joined.triangles);
-        joined.contact_angle.insert(joined.contact_angle.end(), sheet.contact_angle.begin(), sheet.contact_angle.end());
+    joined.dry.resize(vertices, 0);
+    Numbering numbering(rim);
+    for (const CapillarySurface& surface : surfaces) {
+        numbering.add(surface.rimVertexCount(), surface.vertices.size());
+        add(surface.vertices, surface.triangles, numbering, joined.vertices, joined.triangles);
+        for (std::uint32_t v = 0; v < surface.dry.size(); ++v) {
+            joined.dry[numbering.of(v)] = surface.dry[v];
+        }
+        joined.contact_angle.insert(joined.contact_angle.end(), surface.contact_angle.begin(),
+                                    surface.contact_angle.end());
     }
     return joined;
 }
 
-std::vector<ParametricSheet> separate(const ParametricSheet& sheet)
+std::vector<CapillarySurface> separate(const CapillarySurface& surface)
 {
-    std::vector<ParametricSheet> sheets;
-    const PlanarMesh& footprint = sheet.footprint;
+    std::vector<CapillarySurface> surfaces;
+    const PlanarMesh footprint = footprintOf(surface);
+    std::uint32_t rim = 0;
     for (std::size_t loop = 0; loop < footprint.loopCount(); ++loop) {
         if (isOuter(footprint, loop)) {
-            sheets.emplace_back();
+            surfaces.emplace_back().footprint.emplace();
+            surfaces.back().pressure = surface.pressure;
+            surfaces.back().loop_starts.push_back(0);
+            rim = 0;
         }
-        ParametricSheet& own = sheets.back();
-        own.footprint.loop_starts.push_back(own.rim);
-        own.rim += footprint.loop_starts[loop + 1] - footprint.loop_starts[loop];
-        own.pressure = sheet.pressure;
+        rim += footprint.loop_starts[loop + 1] - footprint.loop_starts[loop];
+        surfaces.back().loop_starts.push_back(rim);
     }
     distribute(
         footprint.vertices, footprint.triangles, partsOf(footprint, footprint.vertices.size(), footprint.triangles),
-        sheets.size(), [&](std::size_t part) -> auto& { return sheets[part].footprint.vertices; },
-        [&](std::size_t part) -> auto& { return sheets[part].footprint.triangles; });
-    const std::vector<std::size_t> parts = partsOf(footprint, sheet.vertices.size(), sheet.triangles);
+        surfaces.size(), [&](std::size_t part) -> auto& { return surfaces[part].footprint->vertices; },
+        [&](std::size_t part) -> auto& { return surfaces[part].footprint->triangles; });
+    const std::vector<std::size_t> parts = partsOf(footprint, surface.vertices.size(), surface.triangles);
     distribute(
-        sheet.vertices, sheet.triangles, parts,
-        sheets.size(), [&](std::size_t part) -> auto& { return sheets[part].vertices; },
-        [&](std::size_t part) -> auto& { return sheets[part].triangles; });
-    for (std::uint32_t v = 0; v < sheet.rim; ++v) {
-        sheets[parts[v]].contact_angle.push_back(sheet.contact_angle[v]);
+        surface.vertices, surface.triangles, parts,
+        surfaces.size(), [&](std::size_t part) -> auto& { return surfaces[part].vertices; },
+        [&](std::size_t part) -> auto& { return surfaces[part].triangles; });
+    for (std::size_t v = 0; v < surface.dry.size(); ++v) {
+        surfaces[parts[v]].dry.push_back(surface.dry[v]);
     }
-    for (ParametricSheet& own : sheets) {
-        own.footprint.loop_starts.push_back(own.rim);
+    for (std::uint32_t v = 0; v < surface.rimVertexCount(); ++v) {
+        surfaces[parts[v]].contact_angle.push_back(surface.contact_angle[v]);
     }
-    return sheets;
+    for (CapillarySurface& own : surfaces) {
+        own.footprint->loop_starts = own.loop_starts;
+    }
+    return surfaces;
 }
 
 }  // namespace droplet

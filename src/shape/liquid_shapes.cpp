@@ -24,7 +24,6 @@
 #include "shape/own_options.h"
 #include "shape/sheet_base.h"
 #include "shape/sheet_contact.h"
-#include "shape/sheet_mesh.h"
 #include "shape/work.h"
 #include "union_find.h"
 
@@ -122,21 +121,22 @@ std::vector<std::vector<std::size_t>> groupsOf(std::size_t count, const SolveOpt
     return groups;
 }
 
-bool isUpright(const HeightField& field)
+bool isUpright(const CapillarySurface& field)
 {
     return std::any_of(field.contact_angle.begin(), field.contact_angle.end(),
                        [](double angle) { return angle >= kUpright; });
 }
 
-bool areUpright(const std::vector<HeightField>& fields)
+bool areUpright(const std::vector<CapillarySurface>& fields)
 {
     return std::any_of(fields.begin(), fields.end(), isUpright);
 }
 
 /// Whether sheets are more exact: rims are upright, or steep at corners that point inward.
-bool areSteep(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields)
+bool areSteep(const std::vector<CapillarySurface>& fields)
 {
-    const auto is_steep = [](const PlanarMesh& mesh, const HeightField& field) {
+    const auto is_steep = [](const CapillarySurface& field) {
+        const PlanarMesh mesh = rimOf(field);
         for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
             std::uint32_t last = mesh.loop_starts[loop + 1] - 1;
             for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; last = v++) {
@@ -150,24 +150,15 @@ bool areSteep(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFie
         }
         return false;
     };
-    for (std::size_t k = 0; k < fields.size(); ++k) {
-        if (isUpright(fields[k]) || is_steep(meshes[k], fields[k])) {
-            return true;
-        }
-    }
-    return false;
+    return std::any_of(fields.begin(), fields.end(),
+                       [&](const CapillarySurface& field) { return isUpright(field) || is_steep(field); });
 }
 
 /// Whether no height field is so deep below the ground, as on a wall, that it has no liquid.
-bool haveLiquid(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields,
-                const SolveOptions& options)
+bool haveLiquid(const std::vector<CapillarySurface>& fields, const SolveOptions& options)
 {
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        if (measure(meshes[k], fields[k], options).volume <= 0.0) {
-            return false;
-        }
-    }
-    return true;
+    return std::all_of(fields.begin(), fields.end(),
+                       [&](const CapillarySurface& field) { return measure(field, options).volume > 0.0; });
 }
 
 /// Beginning of a message about one droplet of several.
@@ -267,17 +258,16 @@ std::optional<Probe> probe(const std::vector<PlanarMesh>& meshes, const SolveOpt
         return std::nullopt;
     }
     const Solution solution = findFields(coarse, quickly(options), {});
-    const bool exists = solution.report.usable() && haveLiquid(coarse, solution.droplets, options);
-    const bool is_steep =
-        exists ? areSteep(coarse, solution.droplets) : solution.report.termination != Termination::Unstable;
+    const bool exists = solution.report.usable() && haveLiquid(solution.droplets, options);
+    const bool is_steep = exists ? areSteep(solution.droplets) : solution.report.termination != Termination::Unstable;
     return Probe{exists, is_steep};
 }
 
 /// What was found of droplets before their shape is solved.
 struct Before {
-    std::vector<HeightField> fields = {};    ///< one per droplet, or empty
-    std::optional<Probe> probed = {};        ///< of them alone
-    std::optional<SolveReport> failed = {};  ///< of height fields that do not exist
+    std::vector<CapillarySurface> fields = {};  ///< one per droplet, or empty
+    std::optional<Probe> probed = {};           ///< of them alone
+    std::optional<SolveReport> failed = {};     ///< of height fields that do not exist
 };
 
 /// Shapes of the linear model in place of exact ones, if there are any.
@@ -288,7 +278,7 @@ std::optional<LiquidShapes> linearStandIn(const std::vector<PlanarMesh>& meshes,
     }
     options.model = Model::Linear;
     LiquidShapes shapes{.solution = findFields(meshes, options, {}), .is_stand_in = true};
-    const bool exist = shapes.solution.report.usable() && haveLiquid(meshes, shapes.solution.droplets, options);
+    const bool exist = shapes.solution.report.usable() && haveLiquid(shapes.solution.droplets, options);
     return exist ? std::optional(std::move(shapes)) : std::nullopt;
 }
 
@@ -336,7 +326,7 @@ std::string refusal(const SheetResult& result, const Refused& refused)
 
 /// Shape of one droplet, or of all at one pressure.
 struct Shape {
-    std::vector<HeightField> fields = {};  ///< one per droplet, or empty
+    std::vector<CapillarySurface> fields = {};  ///< one per droplet, or empty
     std::optional<SheetResult> sheet = {};
     SolveReport report = {};            ///< of the height fields
     std::optional<double> lesser = {};  ///< mean contact angle, if they have less liquid than was wanted [rad]
@@ -388,7 +378,7 @@ Shape solveFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& opt
     };
     Solution solution = findFields(meshes, options, reached ? Progress(report) : Progress{});
     Shape shape{.report = solution.report, .work = solution.report.work};
-    if (solution.report.usable() && haveLiquid(meshes, solution.droplets, options)) {
+    if (solution.report.usable() && haveLiquid(solution.droplets, options)) {
         shape.fields = std::move(solution.droplets);
     }
     return shape;
@@ -415,7 +405,7 @@ Shape lesserFields(const std::vector<PlanarMesh>& meshes, const SolveOptions& op
     }
     std::vector<ShapeFigures> figures;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        figures.push_back(measure(meshes[k], lesser.fields[k], options));
+        figures.push_back(measure(lesser.fields[k], options));
     }
     lesser.lesser = combine(figures).contact_angle.mean;
     return lesser;
@@ -448,7 +438,7 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
         solve_quickly();
     }
     if (!is_steep &&
-        (shape.fields.empty() ? shape.report.termination == Termination::Unstable : !areSteep(meshes, shape.fields))) {
+        (shape.fields.empty() ? shape.report.termination == Termination::Unstable : !areSteep(shape.fields))) {
         return shape;
     }
     // A height field that is upright in a few places may stand, unless the exact shape was asked for.
@@ -480,16 +470,6 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
                    : upright;
     }
     return shape;
-}
-
-/// Surface of a height field as a sheet.
-SheetMesh sheetOf(const PlanarMesh& mesh, const HeightField& field)
-{
-    SheetMesh sheet{{}, mesh.triangles, mesh.rimVertexCount()};
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        sheet.vertices.push_back({mesh.vertices[v].x, mesh.vertices[v].y, field.height[v]});
-    }
-    return sheet;
 }
 
 /// Number of every mesh's cluster. Meshes with a common rim vertex are in one cluster.
@@ -541,25 +521,22 @@ struct Box {
 /// that none touches itself, its own solver has seen.
 std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes)
 {
-    if (meshes.size() == 1) {
+    if (meshes.size() == 1 || !shapes.hasSheets()) {
         return std::nullopt;
     }
-    std::vector<SheetMesh> sheets;
+    const std::vector<CapillarySurface>& surfaces = shapes.solution.droplets;
     std::vector<Box> boxes;
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        const std::optional<ParametricSheet>& sheet = shapes.sheets[k];
-        sheets.push_back(sheet ? SheetMesh{sheet->vertices, sheet->triangles, sheet->rim}
-                               : sheetOf(meshes[k], shapes.solution.droplets[k]));
-        boxes.emplace_back(sheets.back().vertices);
+    for (const CapillarySurface& surface : surfaces) {
+        boxes.emplace_back(surface.vertices);
     }
     const std::vector<std::size_t> clusters = clustersOf(meshes);
-    std::vector<const SheetMesh*> near;
+    std::vector<const CapillarySurface*> near;
     std::vector<std::size_t> near_clusters;
     std::vector<std::size_t> droplets;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         for (std::size_t other = 0; other < meshes.size(); ++other) {
             if (clusters[other] != clusters[k] && boxes[other].meets(boxes[k])) {
-                near.push_back(&sheets[k]);
+                near.push_back(&surfaces[k]);
                 near_clusters.push_back(clusters[k]);
                 droplets.push_back(k);
                 break;
@@ -577,18 +554,13 @@ std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& mesh
 /// Takes up the result of droplets that are sheets.
 void take(SheetResult& result, const std::vector<std::size_t>& droplets, LiquidShapes& shapes)
 {
-    std::vector<ParametricSheet> sheets;
     if (droplets.size() == 1) {
-        sheets.push_back(std::move(result.sheet));
+        shapes.solution.droplets[droplets.front()] = std::move(result.surface);
     } else {
-        sheets = separate(result.sheet);
-    }
-    for (std::size_t i = 0; i < droplets.size(); ++i) {
-        HeightField& field = shapes.solution.droplets[droplets[i]];
-        field = {};
-        field.contact_angle = sheets[i].contact_angle;
-        field.pressure = sheets[i].pressure;
-        shapes.sheets[droplets[i]] = std::move(sheets[i]);
+        std::vector<CapillarySurface> parts = separate(result.surface);
+        for (std::size_t i = 0; i < droplets.size(); ++i) {
+            shapes.solution.droplets[droplets[i]] = std::move(parts[i]);
+        }
     }
     SolveReport& report = shapes.solution.report;
     report.newton_steps = std::max(report.newton_steps, result.newton_steps);
@@ -607,28 +579,26 @@ void limit(const std::vector<std::size_t>& droplets, double angle, LiquidShapes&
 
 /// States the unknowns of what was found, and how the largest part of it was solved.
 /// @param method  of height fields
-void describe(const std::vector<PlanarMesh>& meshes, const std::string& method, LiquidShapes& shapes)
+void describe(const std::string& method, Solution& solution)
 {
-    SolveReport& report = shapes.solution.report;
-    report.unknowns = 0;
+    solution.report.unknowns = 0;
     std::size_t most = 0;
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        const std::optional<ParametricSheet>& sheet = shapes.sheets[k];
-        const std::size_t own = sheet ? sheet->vertices.size() - sheet->rim : unknownsOf(meshes[k]);
-        report.unknowns += own;
+    for (const CapillarySurface& surface : solution.droplets) {
+        const std::size_t own = surface.vertices.size() - surface.rimVertexCount();
+        solution.report.unknowns += own;
         if (own > most) {
             most = own;
-            report.method = sheet ? "multifrontal-ldlt" : method;
+            solution.report.method = surface.isHeightField() ? method : "multifrontal-ldlt";
         }
     }
 }
 
 /// Work of neighbourContact().
-double contactWork(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes)
+double contactWork(const LiquidShapes& shapes)
 {
     std::size_t triangles = 0;
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        triangles += shapes.sheets[k] ? shapes.sheets[k]->triangles.size() : meshes[k].triangles.size();
+    for (const CapillarySurface& surface : shapes.solution.droplets) {
+        triangles += surface.triangles.size();
     }
     return kContactWork * static_cast<double>(triangles);
 }
@@ -641,18 +611,18 @@ std::optional<SheetContact> lowerUntilApart(const std::vector<PlanarMesh>& meshe
     std::vector<double> lowerings(meshes.size(), kLower);
     for (int round = 0; round < kMaxLowerings && work.isLeft(); ++round) {
         const std::optional<SheetContact> contact = neighbourContact(meshes, shapes);
-        work.done += contactWork(meshes, shapes);
+        work.done += contactWork(shapes);
         if (!contact) {
             return std::nullopt;
         }
         for (const std::size_t k : {contact->first, contact->second}) {
-            if (!shapes.sheets[k]) {
+            if (shapes.solution.droplets[k].isHeightField()) {
                 continue;
             }
             SolveOptions own = options;
             own.volumes.clear();
             own.fill = {FillBy::ContactAngle, 0.0, FillSharing::Each};
-            const double angle = measure(*shapes.sheets[k], options).contact_angle.mean;
+            const double angle = measure(shapes.solution.droplets[k], options).contact_angle.mean;
             for (double& lowering = lowerings[k]; angle > lowering && work.isLeft(); lowering *= kLowerMore) {
                 own.fill.amount = angle - lowering;
                 own.max_work = work.left();
@@ -680,7 +650,7 @@ bool refillFields(const std::vector<PlanarMesh>& meshes, const std::vector<doubl
     own.volumes.clear();
     std::vector<std::size_t> own_places;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        if (shapes.sheets.empty() || !shapes.sheets[k]) {
+        if (shapes.solution.droplets[k].isHeightField()) {
             own_meshes.push_back(meshes[k]);
             own.volumes.push_back(volumes[k]);
             own_places.push_back(k);
@@ -700,7 +670,7 @@ bool refillFields(const std::vector<PlanarMesh>& meshes, const std::vector<doubl
         return false;
     }
     for (std::size_t k = 0; k < own_places.size(); ++k) {
-        HeightField& field = shapes.solution.droplets[own_places[k]];
+        CapillarySurface& field = shapes.solution.droplets[own_places[k]];
         if (isUpright(solution.droplets[k]) && !isUpright(field)) {
             return false;
         }
@@ -715,24 +685,15 @@ std::optional<LiquidShapes> empty(LiquidShapes shapes, const SolveOptions& optio
     if (!options.ground.flat() || planeGravity(options).along != Vec2{}) {
         return std::nullopt;
     }
-    for (HeightField& field : shapes.solution.droplets) {
-        std::fill(field.height.begin(), field.height.end(), 0.0);
-        std::fill(field.rim_slope.begin(), field.rim_slope.end(), 0.0);
-        std::fill(field.contact_angle.begin(), field.contact_angle.end(), 0.0);
-        field.pressure = 0.0;
-    }
-    for (std::optional<ParametricSheet>& sheet : shapes.sheets) {
-        if (!sheet) {
-            continue;
-        }
-        if (measure(*sheet, options).contact_angle.mean > kFlat) {
+    for (CapillarySurface& surface : shapes.solution.droplets) {
+        if (!surface.isHeightField() && measure(surface, options).contact_angle.mean > kFlat) {
             return std::nullopt;
         }
-        for (Vec3& place : sheet->vertices) {
+        for (Vec3& place : surface.vertices) {
             place.z = 0.0;
         }
-        std::fill(sheet->contact_angle.begin(), sheet->contact_angle.end(), 0.0);
-        sheet->pressure = 0.0;
+        std::fill(surface.contact_angle.begin(), surface.contact_angle.end(), 0.0);
+        surface.pressure = 0.0;
     }
     return shapes;
 }
@@ -799,8 +760,8 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     if (tried) {
         solution = findFields(meshes, quickly(options), progress);
         shapes.work = solution.report.work;
-        has_fields = solution.report.usable() && haveLiquid(meshes, solution.droplets, options);
-        if (has_fields && !areSteep(meshes, solution.droplets)) {
+        has_fields = solution.report.usable() && haveLiquid(solution.droplets, options);
+        if (has_fields && !areSteep(solution.droplets)) {
             return shapes;
         }
     } else if (progress) {
@@ -856,7 +817,6 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         }
     });
     solution.droplets.assign(count, {});
-    shapes.sheets.resize(count);
     shapes.limits.assign(count, FillLimit::None);
     shapes.least_angle = std::numbers::pi;
     // Only what was found counts, not what was tried.
@@ -909,7 +869,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
             take(*shape.sheet, groups[g], shapes);
         }
     }
-    describe(meshes, method, shapes);
+    describe(method, solution);
     return shapes;
 }
 
@@ -930,8 +890,8 @@ bool areApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options
     SolveOptions own = scaled(options, share);
     own.max_work = work.left();
     const LiquidShapes shapes = solveAll(meshes, own, true, {});
-    work.done += shapes.work + (shapes.sheets.empty() ? 0.0 : contactWork(meshes, shapes));
-    return shapes.withLess() == 0 && (shapes.sheets.empty() || !neighbourContact(meshes, shapes));
+    work.done += shapes.work + (shapes.hasSheets() ? contactWork(shapes) : 0.0);
+    return shapes.withLess() == 0 && !neighbourContact(meshes, shapes);
 }
 
 /// Why neighbours are refused, with the largest amount at which no droplets touch, or one that was found with the work.
@@ -966,8 +926,7 @@ std::string refusal(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
         own.max_work = work.left();
         const LiquidShapes shapes = solveAll(meshes, own, true, {});
         work.done += shapes.work;
-        const std::optional<SheetContact> next =
-            shapes.sheets.empty() ? std::nullopt : neighbourContact(meshes, shapes);
+        const std::optional<SheetContact> next = neighbourContact(meshes, shapes);
         if (!next) {
             break;
         }
@@ -990,6 +949,12 @@ std::string refusal(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
 
 }  // namespace
 
+bool LiquidShapes::hasSheets() const
+{
+    return std::any_of(solution.droplets.begin(), solution.droplets.end(),
+                       [](const CapillarySurface& surface) { return !surface.isHeightField(); });
+}
+
 std::size_t LiquidShapes::withLess() const
 {
     return static_cast<std::size_t>(std::count(limits.begin(), limits.end(), FillLimit::Existence));
@@ -1005,19 +970,17 @@ std::optional<LiquidShapes> refill(const std::vector<PlanarMesh>& meshes, const 
     if (!refillFields(meshes, volumes, options, result)) {
         return std::nullopt;
     }
-    if (shapes.sheets.empty()) {
-        return result;
-    }
+    const std::vector<CapillarySurface>& surfaces = shapes.solution.droplets;
     const std::vector<std::vector<std::size_t>> groups = groupsOf(meshes.size(), options);
     std::vector<std::optional<SheetResult>> found(groups.size());
     tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t g) {
-        if (!shapes.sheets[groups[g].front()]) {
+        if (surfaces[groups[g].front()].isHeightField()) {
             return;
         }
-        std::vector<ParametricSheet> sheets;
+        std::vector<CapillarySurface> sheets;
         double volume = 0.0;
         for (const std::size_t k : groups[g]) {
-            sheets.push_back(*shapes.sheets[k]);
+            sheets.push_back(surfaces[k]);
             volume += volumes[k];
         }
         if (volume > 0.0) {
@@ -1025,7 +988,7 @@ std::optional<LiquidShapes> refill(const std::vector<PlanarMesh>& meshes, const 
         }
     });
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        if (shapes.sheets[groups[g].front()]) {
+        if (!surfaces[groups[g].front()].isHeightField()) {
             if (!found[g] || found[g]->end != SheetEnd::Reached) {
                 return std::nullopt;
             }
@@ -1039,7 +1002,7 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
                          const Progress& progress, std::vector<std::optional<SheetResult>> followed)
 {
     LiquidShapes shapes = solveAll(meshes, options, allow_less, progress, std::move(followed));
-    if (shapes.sheets.empty() || options.fill.sharing == FillSharing::Total) {
+    if (!shapes.hasSheets() || options.fill.sharing == FillSharing::Total) {
         return shapes;
     }
     const double most = runWork(meshes, options, allow_less);

@@ -18,8 +18,7 @@ inline constexpr double kUpright = 89.0 * kDegree;
 
 /// Shapes of all droplets.
 struct LiquidShapes {
-    Solution solution = {};  ///< height fields; that of a sheet has a pressure and angles alone
-    std::vector<std::optional<ParametricSheet>> sheets = {};  ///< one per droplet, or empty if there are none
+    Solution solution = {};
     std::vector<FillLimit> limits = {};  ///< one per droplet: Existence where it has less liquid than was wanted, or
                                          ///< None; empty: all None
     double least_angle = 0.0;            ///< smallest mean contact angle of those [rad]
@@ -28,6 +27,8 @@ struct LiquidShapes {
     bool is_stand_in = false;  ///< whether the linear model stands in for an exact shape that was not found
     double work = 0.0;         ///< done, as SolveOptions::max_work
 
+    /// Whether any droplet may hang over its rim.
+    [[nodiscard]] bool hasSheets() const;
     /// Number of droplets that have less liquid than was wanted.
     [[nodiscard]] std::size_t withLess() const;
 };

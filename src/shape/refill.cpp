@@ -9,24 +9,24 @@
 #include <string>
 #include <utility>
 
-#include "blocks.h"
 #include "droplet/error.h"
+#include "droplet/shape/figures.h"
 #include "number_text.h"
+#include "shape/recovered_normals.h"
 
 namespace droplet {
 namespace {
 
-double volumeOf(const PlanarMesh& mesh, const HeightField& field)
+/// Gain of a level field on flat ground, in the linear model: the field itself.
+FillGain gainOf(const CapillarySurface& field)
 {
-    return sumOverBlocks(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
-        double sum = 0.0;
-        for (std::size_t i = begin; i < end; ++i) {
-            const Triangle& t = mesh.triangles[i];
-            sum += doubleArea(mesh, t) / 6.0 *
-                   (field.thicknessAt(t[0]) + field.thicknessAt(t[1]) + field.thicknessAt(t[2]));
-        }
-        return sum;
-    });
+    FillGain gain;
+    for (const Vec3& p : field.vertices) {
+        gain.height.push_back(p.z);
+    }
+    gain.rim_slope = rimSlopes(field, {});
+    gain.pressure = field.pressure;
+    return gain;
 }
 
 void scale(FillGain& gain, double factor)
@@ -40,7 +40,8 @@ void scale(FillGain& gain, double factor)
     gain.pressure *= factor;
 }
 
-void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const SolveOptions& options)
+void check(const std::vector<PlanarMesh>& meshes, const std::vector<CapillarySurface>& fields,
+           const SolveOptions& options)
 {
     options.validate();
     requireRefillable(options);
@@ -49,7 +50,7 @@ void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>
                     fmt::format("fields must have {} entries, one per mesh, not {}", meshes.size(), fields.size()));
     }
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        if (fields[k].height.size() != meshes[k].vertices.size()) {
+        if (fields[k].vertices.size() != meshes[k].vertices.size()) {
             throw Error(ErrorCode::InvalidArgument, "field " + std::to_string(k) + " does not belong to its mesh");
         }
     }
@@ -76,7 +77,7 @@ void requireRefillable(const SolveOptions& options)
     }
 }
 
-std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields,
+std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const std::vector<CapillarySurface>& fields,
                                    const SolveOptions& options)
 {
     check(meshes, fields, options);
@@ -87,7 +88,7 @@ std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const 
     std::vector<double> volumes;
     double total = 0.0;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        volumes.push_back(volumeOf(meshes[k], fields[k]));
+        volumes.push_back(measure(fields[k], options).volume);
         total += volumes.back();
         if (!shared && !(volumes.back() > 0.0)) {
             throw Error(ErrorCode::NoSuchDroplet,
@@ -104,7 +105,7 @@ std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const 
     std::vector<FillGain> gains(meshes.size());
     if (options.ground.flat() && gravity.along == Vec2{}) {
         for (std::size_t k = 0; k < meshes.size(); ++k) {
-            gains[k] = {fields[k].height, fields[k].rim_slope, fields[k].pressure};
+            gains[k] = gainOf(fields[k]);
         }
         return gains;
     }
@@ -121,8 +122,7 @@ std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const 
                                                   "); try another number of triangles");
     }
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        HeightField& field = solution.droplets[k];
-        gains[k] = {std::move(field.height), std::move(field.rim_slope), field.pressure};
+        gains[k] = gainOf(solution.droplets[k]);
         if (!shared) {
             scale(gains[k], volumes[k] / level.fill.amount);
         }

@@ -24,6 +24,13 @@ void SheetBase::lift(std::vector<Vec3>& places, std::size_t first) const
     }
 }
 
+Vec3 weightOf(const SolveOptions& options)
+{
+    const double scale = options.liquid.density / options.liquid.surface_tension;
+    const PlaneGravity gravity = planeGravity(options);
+    return scale * Vec3{-gravity.along.x, -gravity.along.y, gravity.normal};
+}
+
 Vec3 normalOf(const GroundPoint& ground)
 {
     const Vec3 up{-ground.gradient.x, -ground.gradient.y, 1.0};
@@ -40,9 +47,9 @@ std::vector<double> heightsUnder(const PlanarMesh& footprint, const BaseSurface&
     return heights;
 }
 
-SheetMesh drySheet(const PlanarMesh& footprint, const BaseSurface& ground)
+CapillarySurface drySheet(const PlanarMesh& footprint, const BaseSurface& ground)
 {
-    SheetMesh sheet{{}, footprint.triangles, footprint.rimVertexCount()};
+    CapillarySurface sheet{.triangles = footprint.triangles, .loop_starts = footprint.loop_starts};
     const std::vector<double> heights = heightsUnder(footprint, ground);
     sheet.vertices.reserve(heights.size());
     for (std::size_t v = 0; v < heights.size(); ++v) {
@@ -54,6 +61,11 @@ SheetMesh drySheet(const PlanarMesh& footprint, const BaseSurface& ground)
 SheetBase baseOf(const PlanarMesh& footprint, const BaseSurface& ground, Vec3 weight)
 {
     return {ground, ground.flat() ? SheetIntegrals{} : integrate(drySheet(footprint, ground), weight)};
+}
+
+SheetBase baseOf(const CapillarySurface& surface, const BaseSurface& ground, Vec3 weight)
+{
+    return ground.flat() ? SheetBase{} : baseOf(footprintOf(surface), ground, weight);
 }
 
 }  // namespace droplet

@@ -6,6 +6,7 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/shape/base_surface.h"
+#include "droplet/shape/solve.h"
 #include "shape/sheet_energy.h"
 
 namespace droplet {
@@ -24,17 +25,23 @@ struct SheetBase {
     void lift(std::vector<Vec3>& places, std::size_t first) const;
 };
 
+/// Gradient of gravity's potential over the surface tension, as of integrate() [1/m²].
+Vec3 weightOf(const SolveOptions& options);
+
 /// Upward unit normal of the ground.
 Vec3 normalOf(const GroundPoint& ground);
 
 /// Height of the ground at every vertex of a footprint [m].
 std::vector<double> heightsUnder(const PlanarMesh& footprint, const BaseSurface& ground);
 
-/// Ground under a footprint, as a sheet without liquid.
-SheetMesh drySheet(const PlanarMesh& footprint, const BaseSurface& ground);
+/// Ground under a footprint, as a surface without liquid.
+CapillarySurface drySheet(const PlanarMesh& footprint, const BaseSurface& ground);
 
 /// Base with the footprint's triangles.
 /// @param weight  as in integrate()
 SheetBase baseOf(const PlanarMesh& footprint, const BaseSurface& ground, Vec3 weight);
+
+/// Base under a surface.
+SheetBase baseOf(const CapillarySurface& surface, const BaseSurface& ground, Vec3 weight);
 
 }  // namespace droplet

@@ -40,14 +40,14 @@ struct Shadow {
 
 /// Faces that may touch others: those above or below one that does not face up. Where all face up, sheets cover every
 /// place once; and where one breaks through another from below, it does so through its lower side, too.
-std::vector<Face> facesNearFolds(const std::vector<const SheetMesh*>& sheets)
+std::vector<Face> facesNearFolds(const std::vector<const CapillarySurface*>& sheets)
 {
     std::vector<Shadow> shadows;
     std::vector<std::uint8_t> is_upward;
     Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     Vec2 high = -1.0 * low;
     double width = 0.0;
-    for (const SheetMesh* sheet : sheets) {
+    for (const CapillarySurface* sheet : sheets) {
         for (const Triangle& t : sheet->triangles) {
             const Vec3 normal = areaVector(sheet->vertices, t);
             is_upward.push_back(normal.z > kUpward * length(normal) ? 1 : 0);
@@ -98,7 +98,7 @@ std::vector<Face> facesNearFolds(const std::vector<const SheetMesh*>& sheets)
 
 }  // namespace
 
-std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets,
+std::optional<SheetContact> firstContact(const std::vector<const CapillarySurface*>& sheets,
                                          const std::vector<std::size_t>& clusters)
 {
     const std::vector<Face> faces = facesNearFolds(sheets);
@@ -107,7 +107,7 @@ std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sh
     }
     Mesh mesh;
     std::vector<std::size_t> first_face;  // of every sheet
-    for (const SheetMesh* sheet : sheets) {
+    for (const CapillarySurface* sheet : sheets) {
         const auto first = static_cast<std::uint32_t>(mesh.number_of_vertices());
         first_face.push_back(mesh.number_of_faces());
         for (const Vec3& p : sheet->vertices) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "shape/sheet_mesh.h"
+#include "shape/area_vector.h"
 
 namespace droplet {
 
@@ -20,7 +20,7 @@ struct SheetContact {
 ///
 /// Guarantees: exact; the same input gives the same result at any number of threads.
 /// @param clusters  number of every sheet's cluster; different sheets of one cluster may touch. Empty: none may
-std::optional<SheetContact> firstContact(const std::vector<const SheetMesh*>& sheets,
+std::optional<SheetContact> firstContact(const std::vector<const CapillarySurface*>& sheets,
                                          const std::vector<std::size_t>& clusters = {});
 
 }  // namespace droplet

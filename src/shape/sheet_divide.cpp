@@ -245,19 +245,21 @@ struct Edge {
 /// Vertices inside of every sheet's edge, with the edges in ascending order.
 class Divider {
 public:
-    Divider(const SheetMesh& sheet, const PlanarMesh& fine, const RimMatch& rim) : sheet_(sheet), fine_(fine), rim_(rim)
+    Divider(const CapillarySurface& sheet, const PlanarMesh& fine, const RimMatch& rim)
+        : sheet_(sheet), fine_(fine), rim_(rim)
     {
     }
 
-    SheetMesh run()
+    CapillarySurface run()
     {
         moveRim();
         findNormals();
-        result_.rim = fine_.rimVertexCount();
-        for (std::uint32_t v = 0; v < result_.rim; ++v) {
+        result_.loop_starts = fine_.loop_starts;
+        for (std::uint32_t v = 0; v < result_.rimVertexCount(); ++v) {
             result_.vertices.push_back({fine_.vertices[v].x, fine_.vertices[v].y, 0.0});
         }
-        result_.vertices.insert(result_.vertices.end(), sheet_.vertices.begin() + sheet_.rim, sheet_.vertices.end());
+        result_.vertices.insert(result_.vertices.end(), sheet_.vertices.begin() + sheet_.rimVertexCount(),
+                                sheet_.vertices.end());
         addMiddles();
         for (std::uint32_t k = 0; k < sheet_.triangles.size(); ++k) {
             divideTriangle(k);
@@ -266,12 +268,12 @@ public:
     }
 
 private:
-    [[nodiscard]] bool onRim(std::uint32_t v) const { return v < sheet_.rim; }
+    [[nodiscard]] bool onRim(std::uint32_t v) const { return v < sheet_.rimVertexCount(); }
 
     /// Number of a vertex of the coarse sheet in the result.
     [[nodiscard]] std::uint32_t numberOf(std::uint32_t v) const
     {
-        return onRim(v) ? rim_.vertex[v] : v - sheet_.rim + result_.rim;
+        return onRim(v) ? rim_.vertex[v] : v - sheet_.rimVertexCount() + result_.rimVertexCount();
     }
 
     /// Moves the rim to its new places, and what is near along with it.
@@ -285,11 +287,11 @@ private:
             }
         }
         std::vector<Vec2> way(count);
-        for (std::uint32_t v = 0; v < sheet_.rim; ++v) {
+        for (std::uint32_t v = 0; v < sheet_.rimVertexCount(); ++v) {
             way[v] = fine_.vertices[rim_.vertex[v]] - Vec2{sheet_.vertices[v].x, sheet_.vertices[v].y};
         }
         for (int sweep = 0; sweep < kSweeps; ++sweep) {
-            for (std::size_t v = sheet_.rim; v < count; ++v) {
+            for (std::size_t v = sheet_.rimVertexCount(); v < count; ++v) {
                 Vec2 sum;
                 for (const std::uint32_t other : around[v]) {
                     sum = sum + way[other];
@@ -395,17 +397,17 @@ private:
         }
     }
 
-    SheetMesh sheet_;  ///< coarse
+    CapillarySurface sheet_;  ///< coarse
     const PlanarMesh& fine_;
     const RimMatch& rim_;
     std::vector<Vec3> normals_;
     std::vector<std::uint32_t> middles_;  ///< of every triangle's edge inside, in the result
-    SheetMesh result_;
+    CapillarySurface result_;
 };
 
 }  // namespace
 
-std::optional<SheetMesh> divide(const SheetMesh& sheet, const PlanarMesh& coarse, const PlanarMesh& fine)
+std::optional<CapillarySurface> divide(const CapillarySurface& sheet, const PlanarMesh& coarse, const PlanarMesh& fine)
 {
     const std::optional<RimMatch> rim = matchRims(coarse, fine);
     return rim ? std::optional(Divider(sheet, fine, *rim).run()) : std::nullopt;

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "droplet/mesh/planar_mesh.h"
-#include "shape/sheet_mesh.h"
+#include "shape/area_vector.h"
 
 namespace droplet {
 
@@ -16,6 +16,6 @@ namespace droplet {
 /// @param coarse  footprint of the sheet
 /// @param fine    the same one, with shorter edges; its corners may be rounded less, its holes in another order
 /// @return        none if the rims do not match
-std::optional<SheetMesh> divide(const SheetMesh& sheet, const PlanarMesh& coarse, const PlanarMesh& fine);
+std::optional<CapillarySurface> divide(const CapillarySurface& sheet, const PlanarMesh& coarse, const PlanarMesh& fine);
 
 }  // namespace droplet

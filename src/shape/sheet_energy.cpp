@@ -26,7 +26,7 @@ struct Facet {
     std::array<Vec3, 3> x;
     Vec3 normal;  ///< N, as long as the area
 
-    Facet(const SheetMesh& sheet, const Triangle& t)
+    Facet(const CapillarySurface& sheet, const Triangle& t)
         : x{sheet.vertices[t[0]], sheet.vertices[t[1]], sheet.vertices[t[2]]}, normal(areaVector(sheet.vertices, t))
     {
     }
@@ -103,7 +103,7 @@ std::array<double, 6> hessianOf(const Facet& f, const std::array<Vec3, 3>& d, Ve
 
 }  // namespace
 
-SheetIntegrals integrate(const SheetMesh& sheet, Vec3 weight)
+SheetIntegrals integrate(const CapillarySurface& sheet, Vec3 weight)
 {
     SheetIntegrals total;
     for (const SheetIntegrals& part : mapBlocks<SheetIntegrals>(
@@ -126,7 +126,7 @@ SheetIntegrals integrate(const SheetMesh& sheet, Vec3 weight)
 namespace {
 
 /// @param count  of vertices from the first on, whose gradients are wanted
-SheetGradients gradientsOfFirst(std::size_t count, const SheetMesh& sheet, Vec3 weight)
+SheetGradients gradientsOfFirst(std::size_t count, const CapillarySurface& sheet, Vec3 weight)
 {
     SheetGradients result{std::vector<Vec3>(count), std::vector<Vec3>(count), std::vector<double>(count, 0.0)};
     for (const Triangle& t : sheet.triangles) {
@@ -147,14 +147,14 @@ SheetGradients gradientsOfFirst(std::size_t count, const SheetMesh& sheet, Vec3 
 
 }  // namespace
 
-SheetGradients gradientsOf(const SheetMesh& sheet, Vec3 weight)
+SheetGradients gradientsOf(const CapillarySurface& sheet, Vec3 weight)
 {
     return gradientsOfFirst(sheet.vertices.size(), sheet, weight);
 }
 
-SheetGradients rimGradientsOf(const SheetMesh& sheet, Vec3 weight)
+SheetGradients rimGradientsOf(const CapillarySurface& sheet, Vec3 weight)
 {
-    return gradientsOfFirst(sheet.rim, sheet, weight);
+    return gradientsOfFirst(sheet.rimVertexCount(), sheet, weight);
 }
 
 SheetPattern::Gathering SheetPattern::gather(const std::vector<std::int32_t>& sum_of, std::size_t sums)
@@ -178,11 +178,11 @@ SheetPattern::Gathering SheetPattern::gather(const std::vector<std::int32_t>& su
     return result;
 }
 
-SheetPattern::SheetPattern(const SheetMesh& sheet)
+SheetPattern::SheetPattern(const CapillarySurface& sheet)
 {
-    const std::size_t unknowns = sheet.vertices.size() - sheet.rim;
+    const std::size_t unknowns = sheet.vertices.size() - sheet.rimVertexCount();
     const auto row_of = [&](std::uint32_t v) {
-        return static_cast<std::int32_t>(v) - static_cast<std::int32_t>(sheet.rim);
+        return static_cast<std::int32_t>(v) - static_cast<std::int32_t>(sheet.rimVertexCount());
     };
     std::vector<std::int32_t> corner_of;
     corner_of.reserve(3 * sheet.triangles.size());
@@ -198,7 +198,7 @@ SheetPattern::SheetPattern(const SheetMesh& sheet)
     std::vector<int> inner;
     inner.reserve(4 * unknowns);
     outer.reserve(unknowns + 1);
-    for (std::size_t v = sheet.rim; v < sheet.vertices.size(); ++v) {
+    for (std::size_t v = sheet.rimVertexCount(); v < sheet.vertices.size(); ++v) {
         const auto first = static_cast<std::ptrdiff_t>(inner.size());
         inner.push_back(row_of(static_cast<std::uint32_t>(v)));
         for (auto k = corners_.starts[v]; k < corners_.starts[v + 1]; ++k) {
@@ -237,7 +237,7 @@ SheetPattern::SheetPattern(const SheetMesh& sheet)
     entries_ = gather(entry_of, inner.size());
 }
 
-SheetGradients SheetPattern::gradients(const SheetMesh& sheet, Vec3 weight) const
+SheetGradients SheetPattern::gradients(const CapillarySurface& sheet, Vec3 weight) const
 {
     std::vector<Forces> forces(sheet.triangles.size());
     forBlocks(
@@ -267,7 +267,7 @@ SheetGradients SheetPattern::gradients(const SheetMesh& sheet, Vec3 weight) cons
     return result;
 }
 
-Eigen::SparseMatrix<double> SheetPattern::hessian(const SheetMesh& sheet, const std::vector<Vec3>& directions,
+Eigen::SparseMatrix<double> SheetPattern::hessian(const CapillarySurface& sheet, const std::vector<Vec3>& directions,
                                                   Vec3 weight, double pressure) const
 {
     std::vector<std::array<double, 6>> parts(sheet.triangles.size());

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "shape/sheet_mesh.h"
+#include "shape/area_vector.h"
 
 namespace droplet {
 
@@ -21,7 +21,7 @@ struct SheetIntegrals {
 
 /// Integrates over a sheet.
 /// @param weight  w = ρ(g⊥e_z − g∥)/σ, gradient of gravity's potential over the surface tension [1/m²]
-SheetIntegrals integrate(const SheetMesh& sheet, Vec3 weight);
+SheetIntegrals integrate(const CapillarySurface& sheet, Vec3 weight);
 
 /// Derivatives by the place of every vertex.
 struct SheetGradients {
@@ -31,27 +31,28 @@ struct SheetGradients {
 };
 
 /// Gradients at all vertices, on the rim too: there they are forces.
-SheetGradients gradientsOf(const SheetMesh& sheet, Vec3 weight);
+SheetGradients gradientsOf(const CapillarySurface& sheet, Vec3 weight);
 
 /// The same at the rim's vertices alone.
-SheetGradients rimGradientsOf(const SheetMesh& sheet, Vec3 weight);
+SheetGradients rimGradientsOf(const CapillarySurface& sheet, Vec3 weight);
 
 /// Entries of a sheet's matrices: one unknown for every vertex inside, its way along a direction of its own.
 class SheetPattern {
 public:
-    explicit SheetPattern(const SheetMesh& sheet);
+    explicit SheetPattern(const CapillarySurface& sheet);
 
     /// ∂²(area + gravity − λ volume) by the unknowns, lower triangle.
     /// @param directions  of all vertices, unit length; those of the rim do not count
     /// @param pressure    λ over the surface tension [1/m]
-    [[nodiscard]] Eigen::SparseMatrix<double> hessian(const SheetMesh& sheet, const std::vector<Vec3>& directions,
-                                                      Vec3 weight, double pressure) const;
+    [[nodiscard]] Eigen::SparseMatrix<double> hessian(const CapillarySurface& sheet,
+                                                      const std::vector<Vec3>& directions, Vec3 weight,
+                                                      double pressure) const;
 
     /// Lower triangle with the entries that may differ from 0, all 0.
     [[nodiscard]] const Eigen::SparseMatrix<double>& empty() const { return empty_; }
 
     /// The same as gradientsOf(), in parallel.
-    [[nodiscard]] SheetGradients gradients(const SheetMesh& sheet, Vec3 weight) const;
+    [[nodiscard]] SheetGradients gradients(const CapillarySurface& sheet, Vec3 weight) const;
 
 private:
     /// Lists of what adds up to every one of many sums.

@@ -49,7 +49,7 @@ struct Similarity {
 };
 
 /// Similarity that is nearest to the motion of a rim.
-Similarity nearestSimilarity(const SheetMesh& sheet, const std::vector<Vec2>& rim)
+Similarity nearestSimilarity(const CapillarySurface& sheet, const std::vector<Vec2>& rim)
 {
     Similarity similarity;
     for (std::size_t v = 0; v < rim.size(); ++v) {
@@ -71,10 +71,10 @@ Similarity nearestSimilarity(const SheetMesh& sheet, const std::vector<Vec2>& ri
 
 /// Harmonic motion of the vertices inside, along the ground.
 /// @param moves  of the rim's vertices, in two columns
-Eigen::MatrixX2d harmonic(const SheetMesh& sheet, const Eigen::MatrixX2d& moves)
+Eigen::MatrixX2d harmonic(const CapillarySurface& sheet, const Eigen::MatrixX2d& moves)
 {
-    const auto inner = static_cast<Eigen::Index>(sheet.vertices.size() - sheet.rim);
-    const auto row_of = [&](std::uint32_t v) { return static_cast<int>(v - sheet.rim); };
+    const auto inner = static_cast<Eigen::Index>(sheet.vertices.size() - sheet.rimVertexCount());
+    const auto row_of = [&](std::uint32_t v) { return static_cast<int>(v - sheet.rimVertexCount()); };
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(inner, 2);
     for (const Triangle& t : sheet.triangles) {
@@ -85,11 +85,11 @@ Eigen::MatrixX2d harmonic(const SheetMesh& sheet, const Eigen::MatrixX2d& moves)
             const Vec3& tip = sheet.vertices[t[k]];
             const double weight = 0.5 * dot(sheet.vertices[a] - tip, sheet.vertices[b] - tip) / twice;
             for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
-                if (from < sheet.rim) {
+                if (from < sheet.rimVertexCount()) {
                     continue;
                 }
                 entries.emplace_back(row_of(from), row_of(from), weight);
-                if (to < sheet.rim) {
+                if (to < sheet.rimVertexCount()) {
                     right.row(row_of(from)) += weight * moves.row(static_cast<Eigen::Index>(to));
                 } else {
                     entries.emplace_back(row_of(from), row_of(to), -weight);
@@ -103,7 +103,7 @@ Eigen::MatrixX2d harmonic(const SheetMesh& sheet, const Eigen::MatrixX2d& moves)
 }
 
 /// Motion of all vertices when the rim goes to new places.
-std::vector<Vec3> motionOf(const SheetMesh& sheet, const std::vector<Vec2>& rim, const Similarity& similarity)
+std::vector<Vec3> motionOf(const CapillarySurface& sheet, const std::vector<Vec2>& rim, const Similarity& similarity)
 {
     std::vector<Vec3> motion;
     motion.reserve(sheet.vertices.size());
@@ -135,7 +135,7 @@ double pressureAfter(const Similarity& similarity, double pressure, Vec3 weight)
 /// Sheet whose rim moves.
 class MovedSheet {
 public:
-    MovedSheet(const SheetMesh& first, const SheetMesh& last, double pressure, Vec3 weight)
+    MovedSheet(const CapillarySurface& first, const CapillarySurface& last, double pressure, Vec3 weight)
         : weight_(weight),
           sheet_(last),
           pressure_(pressure),
@@ -164,7 +164,7 @@ public:
         for (double left = 1.0; left > 0.0;) {
             const bool is_last = step >= left;
             const double size = std::min(step, left);
-            SheetMesh next = sheet_;
+            CapillarySurface next = sheet_;
             for (std::size_t v = 0; v < next.vertices.size(); ++v) {
                 next.vertices[v] = next.vertices[v] + size * motion[v];
             }
@@ -173,7 +173,7 @@ public:
             }
             const double next_volume = is_last ? volume : volume_ + size * filling;
             const double missing = next_volume - integrate(next, weight_).volume;
-            for (std::size_t v = next.rim; v < next.vertices.size(); ++v) {
+            for (std::size_t v = next.rimVertexCount(); v < next.vertices.size(); ++v) {
                 next.vertices[v] = next.vertices[v] + missing * newton_.tangent[v];
                 next.vertices[v].z = std::max(next.vertices[v].z, 0.0);
             }
@@ -202,12 +202,12 @@ public:
         return growth <= kMostGrowth && growth >= 1.0 / kMostGrowth;
     }
 
-    [[nodiscard]] const SheetMesh& sheet() const { return sheet_; }
+    [[nodiscard]] const CapillarySurface& sheet() const { return sheet_; }
     [[nodiscard]] double pressure() const { return pressure_; }
     [[nodiscard]] int newtonSteps() const { return newton_steps_; }
 
 private:
-    bool solve(SheetMesh& sheet, double volume, double& pressure, const NewtonLimits& limits)
+    bool solve(CapillarySurface& sheet, double volume, double& pressure, const NewtonLimits& limits)
     {
         newton_ = solver_.solve(sheet, volume, pressure, limits);
         newton_steps_ += newton_.steps;
@@ -216,7 +216,7 @@ private:
     }
 
     /// Moves the vertices of an equilibrium along it where triangles are worn.
-    bool repair(SheetMesh& sheet, double volume, double& pressure)
+    bool repair(CapillarySurface& sheet, double volume, double& pressure)
     {
         if (!isWorn(made_angles_, sheet, kWorn)) {
             return true;
@@ -226,7 +226,7 @@ private:
     }
 
     Vec3 weight_;
-    SheetMesh sheet_;
+    CapillarySurface sheet_;
     double pressure_;
     double volume_;
     std::vector<double> made_angles_;
@@ -239,8 +239,8 @@ private:
 
 }  // namespace
 
-FilledSheet followSheet(const SheetMesh& first, const SheetMesh& last, double pressure, const std::vector<Vec2>& rim,
-                        const SheetTarget& target, Vec3 weight)
+FilledSheet followSheet(const CapillarySurface& first, const CapillarySurface& last, double pressure,
+                        const std::vector<Vec2>& rim, const SheetTarget& target, Vec3 weight)
 {
     MovedSheet moved(first, last, pressure, weight);
     if (!moved.move(rim, target)) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "shape/sheet_mesh.h"
+#include "shape/area_vector.h"
 #include "shape/sheet_path.h"
 
 namespace droplet {
@@ -15,7 +15,7 @@ namespace droplet {
 /// @param last      an equilibrium
 /// @param pressure  of it, over the surface tension [1/m]
 /// @param rim       new places of the rim's vertices [m]
-FilledSheet followSheet(const SheetMesh& first, const SheetMesh& last, double pressure, const std::vector<Vec2>& rim,
-                        const SheetTarget& target, Vec3 weight);
+FilledSheet followSheet(const CapillarySurface& first, const CapillarySurface& last, double pressure,
+                        const std::vector<Vec2>& rim, const SheetTarget& target, Vec3 weight);
 
 }  // namespace droplet

@@ -36,7 +36,8 @@ std::optional<FilledSheet> fillByLevels(const std::vector<SheetLevel>& levels, c
             return std::nullopt;
         }
         const SheetOptions& options = levels[k].options;
-        const std::optional<SheetMesh> divided = divide(filled.mesh, levels[k - 1].footprint, levels[k].footprint);
+        const std::optional<CapillarySurface> divided =
+            divide(filled.mesh, levels[k - 1].footprint, levels[k].footprint);
         if (!divided) {
             return std::nullopt;
         }

@@ -57,7 +57,7 @@ bool isGentle(Vec3 area_before, Vec3 area_after, const MotionLimits& limits)
            after <= limits.max_area * before;
 }
 
-bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimits& limits)
+bool isGentle(const CapillarySurface& before, const CapillarySurface& after, const MotionLimits& limits)
 {
     const std::vector<std::uint8_t> are_gentle = mapBlocks<std::uint8_t>(
         before.triangles.size(),
@@ -75,20 +75,20 @@ bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimit
     return std::find(are_gentle.begin(), are_gentle.end(), 0) == are_gentle.end();
 }
 
-SheetSolver::SheetSolver(const SheetMesh& sheet, Vec3 weight, SheetBase base)
-    : rim_(sheet.rim),
+SheetSolver::SheetSolver(const CapillarySurface& sheet, Vec3 weight, SheetBase base)
+    : rim_(sheet.rimVertexCount()),
       weight_(weight),
       base_(std::move(base)),
       pattern_(sheet),
-      held_(sheet.vertices.size() - sheet.rim, 0),
-      held_motion_(sheet.vertices.size() - sheet.rim, 0.0),
-      damping_(sheet.vertices.size() - sheet.rim, 0.0)
+      held_(sheet.vertices.size() - sheet.rimVertexCount(), 0),
+      held_motion_(sheet.vertices.size() - sheet.rimVertexCount(), 0.0),
+      damping_(sheet.vertices.size() - sheet.rimVertexCount(), 0.0)
 {
     linear_.matrix = pattern_.empty();
     factor_ = SheetFactor(linear_.matrix, {sheet.vertices.begin() + rim_, sheet.vertices.end()});
 }
 
-void SheetSolver::linearise(const SheetMesh& sheet)
+void SheetSolver::linearise(const CapillarySurface& sheet)
 {
     const SheetGradients gradients = pattern_.gradients(sheet, weight_);
     const std::size_t count = sheet.vertices.size() - rim_;
@@ -120,7 +120,7 @@ void SheetSolver::linearise(const SheetMesh& sheet)
     }
 }
 
-void SheetSolver::assemble(const SheetMesh& sheet, double pressure)
+void SheetSolver::assemble(const CapillarySurface& sheet, double pressure)
 {
     linear_.full = pattern_.hessian(sheet, linear_.directions, weight_, pressure);
 }
@@ -232,7 +232,7 @@ bool SheetSolver::changeHeld(const Step& step, const Vector& forces, bool may_re
     return has_changed;
 }
 
-std::optional<SheetSolver::Step> SheetSolver::chord(const SheetMesh& sheet, double pressure, double missing)
+std::optional<SheetSolver::Step> SheetSolver::chord(const CapillarySurface& sheet, double pressure, double missing)
 {
     if (!respond()) {
         return std::nullopt;
@@ -243,7 +243,7 @@ std::optional<SheetSolver::Step> SheetSolver::chord(const SheetMesh& sheet, doub
     return is_fit ? std::optional(std::move(step)) : std::nullopt;
 }
 
-bool SheetSolver::damp(const SheetMesh& sheet, const Step& step)
+bool SheetSolver::damp(const CapillarySurface& sheet, const Step& step)
 {
     std::vector<Vec3> places = sheet.vertices;
     for (Eigen::Index i = 0; i < step.motion.size(); ++i) {
@@ -285,7 +285,7 @@ double SheetSolver::residual(double pressure) const
     return std::sqrt(rest / scale) / std::max(std::abs(pressure), 2.0 / std::sqrt(area));
 }
 
-SheetIntegrals SheetSolver::liquidUnder(const SheetMesh& sheet) const
+SheetIntegrals SheetSolver::liquidUnder(const CapillarySurface& sheet) const
 {
     const SheetIntegrals sums = integrate(sheet, weight_);
     return {sums.area, sums.gravity - base_.integrals.gravity, sums.volume - base_.integrals.volume};
@@ -297,16 +297,16 @@ double SheetSolver::volumeScale(double volume) const
     return std::max(volume, 1e-6 * std::pow(linear_.mass.sum(), 1.5));
 }
 
-double SheetSolver::workOf(int factorisations, const SheetMesh& sheet) const
+double SheetSolver::workOf(int factorisations, const CapillarySurface& sheet) const
 {
     const double pass = base_.ground.flat() ? kPassWork : kPassWork + kGroundWork;
     return factorisations * factorWork(sheet.triangles.size()) +
            static_cast<double>(passes_) * pass * static_cast<double>(sheet.triangles.size());
 }
 
-bool SheetSolver::moveWithin(SheetMesh& sheet, const Step& step, double volume, SheetIntegrals& sums)
+bool SheetSolver::moveWithin(CapillarySurface& sheet, const Step& step, double volume, SheetIntegrals& sums)
 {
-    const SheetMesh before = sheet;
+    const CapillarySurface before = sheet;
     const SheetIntegrals start = sums;
     // A step that first has to reach the volume may cost energy.
     const double scale = volumeScale(volume);
@@ -359,7 +359,7 @@ void SheetSolver::describe(NewtonResult& result) const
     }
 }
 
-NewtonResult SheetSolver::solve(SheetMesh& sheet, double volume, double& pressure, const NewtonLimits& limits)
+NewtonResult SheetSolver::solve(CapillarySurface& sheet, double volume, double& pressure, const NewtonLimits& limits)
 {
     NewtonResult result;
     passes_ = 0;

@@ -44,13 +44,13 @@ public:
     /// @param sheet   gives the topology
     /// @param weight  as in integrate()
     /// @param base    what the sheet lies on; volumes are those above it
-    SheetSolver(const SheetMesh& sheet, Vec3 weight, SheetBase base = {});
+    SheetSolver(const CapillarySurface& sheet, Vec3 weight, SheetBase base = {});
 
     /// Moves the vertices inside until the sheet is in equilibrium; the volume is exact in every step.
     /// @param sheet     start, near enough; receives the result, also of a failure
     /// @param volume    [m³]
     /// @param pressure  λ over the surface tension, start and result [1/m]
-    NewtonResult solve(SheetMesh& sheet, double volume, double& pressure, const NewtonLimits& limits = {});
+    NewtonResult solve(CapillarySurface& sheet, double volume, double& pressure, const NewtonLimits& limits = {});
 
 private:
     struct Linear {
@@ -68,31 +68,31 @@ private:
         double pressure = 0.0;  ///< change
     };
 
-    void linearise(const SheetMesh& sheet);
-    void assemble(const SheetMesh& sheet, double pressure);
+    void linearise(const CapillarySurface& sheet);
+    void assemble(const CapillarySurface& sheet, double pressure);
     bool factor(double shift);
     /// Solves for the response to the pressure.
     bool respond();
     /// Step with the last factors.
-    [[nodiscard]] std::optional<Step> chord(const SheetMesh& sheet, double pressure, double missing);
+    [[nodiscard]] std::optional<Step> chord(const CapillarySurface& sheet, double pressure, double missing);
     /// Takes up vertices that a step would move below the ground, and releases those that it would pull up.
     /// @return  whether there are any
     bool changeHeld(const Step& step, const Eigen::VectorXd& forces, bool may_release);
     /// Damps vertices of triangles that a step would turn or squeeze too much.
     /// @return  whether there are any
-    bool damp(const SheetMesh& sheet, const Step& step);
+    bool damp(const CapillarySurface& sheet, const Step& step);
     /// Number of negative eigenvalues of the bordered matrix: 1 at a minimum.
     [[nodiscard]] int negatives() const;
     [[nodiscard]] Step solveBordered(const Eigen::VectorXd& forces, double volume_change) const;
     [[nodiscard]] double residual(double pressure) const;
     /// Integrals over the liquid between a sheet and its base.
-    [[nodiscard]] SheetIntegrals liquidUnder(const SheetMesh& sheet) const;
+    [[nodiscard]] SheetIntegrals liquidUnder(const CapillarySurface& sheet) const;
     /// What errors of the volume are relative to [m³].
     [[nodiscard]] double volumeScale(double volume) const;
     /// Work so far in the current solve().
-    [[nodiscard]] double workOf(int factorisations, const SheetMesh& sheet) const;
+    [[nodiscard]] double workOf(int factorisations, const CapillarySurface& sheet) const;
     /// @param sums  integrals over the sheet, before and after
-    bool moveWithin(SheetMesh& sheet, const Step& step, double volume, SheetIntegrals& sums);
+    bool moveWithin(CapillarySurface& sheet, const Step& step, double volume, SheetIntegrals& sums);
     void describe(NewtonResult& result) const;
 
     std::uint32_t rim_;
@@ -121,6 +121,6 @@ struct MotionLimits {
 bool isGentle(Vec3 area_before, Vec3 area_after, const MotionLimits& limits);
 
 /// Whether all triangles do.
-bool isGentle(const SheetMesh& before, const SheetMesh& after, const MotionLimits& limits);
+bool isGentle(const CapillarySurface& before, const CapillarySurface& after, const MotionLimits& limits);
 
 }  // namespace droplet

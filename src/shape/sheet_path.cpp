@@ -78,7 +78,7 @@ constexpr double kLoose = 1e-3;
 /// Relative residual from which on Newton's method keeps its factors on such a way.
 constexpr double kChord = 1e-3;
 
-double heightOf(const SheetMesh& sheet, const SheetBase& base)
+double heightOf(const CapillarySurface& sheet, const SheetBase& base)
 {
     double height = 0.0;
     for (const Vec3& p : sheet.vertices) {
@@ -90,7 +90,7 @@ double heightOf(const SheetMesh& sheet, const SheetBase& base)
 
 /// Equilibrium on the path.
 struct State {
-    SheetMesh sheet;
+    CapillarySurface sheet;
     double pressure = 0.0;  ///< λ over the surface tension [1/m]
     double volume = 0.0;    ///< [m³]
     NewtonResult newton;    ///< how it was reached, and where it leads
@@ -106,7 +106,7 @@ struct Renewal {
 std::vector<Vec3> movedPlaces(const State& state, double size)
 {
     std::vector<Vec3> places = state.sheet.vertices;
-    for (std::size_t v = state.sheet.rim; v < places.size(); ++v) {
+    for (std::size_t v = state.sheet.rimVertexCount(); v < places.size(); ++v) {
         places[v] = places[v] + size * state.newton.tangent[v];
     }
     return places;
@@ -123,7 +123,7 @@ public:
         for (Vec3& place : now_.sheet.vertices) {
             place.z = base_.under(place).height;
         }
-        const SheetMesh dry = now_.sheet;
+        const CapillarySurface dry = now_.sheet;
         if (!isSolvable(dry)) {
             work_ = options_.max_work;
             meshed_area_ = integrate(dry, options_.weight).area;
@@ -149,7 +149,7 @@ public:
     }
 
     /// Begins at an equilibrium, and keeps its triangles.
-    Path(const SheetMesh& sheet, double pressure, const SheetTarget& target, Vec3 weight, const SheetBase& base)
+    Path(const CapillarySurface& sheet, double pressure, const SheetTarget& target, Vec3 weight, const SheetBase& base)
         : target_(target),
           options_{weight},
           base_(base),
@@ -326,7 +326,7 @@ private:
     }
 
     /// Height or mean contact angle, whichever is the target, over it.
-    [[nodiscard]] double shareOf(const SheetMesh& sheet, double pressure) const
+    [[nodiscard]] double shareOf(const CapillarySurface& sheet, double pressure) const
     {
         if (target_.by == FillBy::Height) {
             return heightOf(sheet, base_) / target_.amount;
@@ -354,7 +354,7 @@ private:
     [[nodiscard]] double slopeOfShare() const
     {
         const double probe = 1e-6 * std::pow(meshed_area_, 1.5);
-        SheetMesh moved = now_.sheet;
+        CapillarySurface moved = now_.sheet;
         moved.vertices = movedPlaces(now_, probe);
         return (shareOf(moved, now_.pressure + probe * now_.newton.pressure_slope) -
                 shareOf(now_.sheet, now_.pressure)) /
@@ -364,7 +364,7 @@ private:
     /// Size of a step along the tangent, shortened until no triangle turns too far.
     [[nodiscard]] double gentle(double size) const
     {
-        SheetMesh moved = now_.sheet;
+        CapillarySurface moved = now_.sheet;
         for (int k = 0; k < 30; ++k, size *= 0.6) {
             moved.vertices = movedPlaces(now_, size);
             if (isGentle(now_.sheet, moved, kPredicted)) {
@@ -382,7 +382,7 @@ private:
         is_loose_ = false;
         State next{now_.sheet, now_.pressure + size * now_.newton.pressure_slope, now_.volume + size, {}};
         next.sheet.vertices = movedPlaces(now_, size);
-        base_.lift(next.sheet.vertices, next.sheet.rim);
+        base_.lift(next.sheet.vertices, next.sheet.rimVertexCount());
         next.newton = solver_->solve(next.sheet, next.volume, next.pressure, within({}));
         count(next, false);
         if (!next.newton.converged) {
@@ -409,13 +409,13 @@ private:
     /// Whether a droplet lies on the ground all along its rim, or would with finer triangles.
     [[nodiscard]] bool isLoose(const State& state) const
     {
-        std::vector<std::uint8_t> is_laid(state.sheet.rim, 0);
+        std::vector<std::uint8_t> is_laid(state.sheet.rimVertexCount(), 0);
         for (const Triangle& t : state.sheet.triangles) {
             const bool is_grounded = std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
-                return v >= state.sheet.rim && base_.clearance(state.sheet.vertices[v]) <= 0.0;
+                return v >= state.sheet.rimVertexCount() && base_.clearance(state.sheet.vertices[v]) <= 0.0;
             });
             for (const std::uint32_t v : t) {
-                if (v < state.sheet.rim && is_grounded) {
+                if (v < state.sheet.rimVertexCount() && is_grounded) {
                     is_laid[v] = 1;
                 }
             }
@@ -427,8 +427,8 @@ private:
             double vertices = 0.0;
         };
         const RimAngles angles = rimAngles(state.sheet, options_.weight, state.pressure, base_.ground);
-        std::vector<Rim> rims(state.sheet.rim);
-        for (std::uint32_t v = 0; v < state.sheet.rim; ++v) {
+        std::vector<Rim> rims(state.sheet.rimVertexCount());
+        for (std::uint32_t v = 0; v < state.sheet.rimVertexCount(); ++v) {
             Rim& rim = rims[droplet_[v]];
             rim.turned += angles.angle[v] * angles.weight[v];
             rim.length += angles.weight[v];
@@ -447,7 +447,7 @@ private:
     {
         if (isWorn(meshed_angles_, state.sheet, kWorn)) {
             state.sheet = relax(state.sheet, kRelaxations, base_.ground.flat());
-            base_.lift(state.sheet.vertices, state.sheet.rim);
+            base_.lift(state.sheet.vertices, state.sheet.rimVertexCount());
             state.newton = solver_->solve(state.sheet, state.volume, state.pressure, within(kSettling));
             count(state, false);
         }
@@ -567,7 +567,7 @@ private:
         return std::abs(wayTo()) <= 1e-6 * now_.volume;
     }
 
-    [[nodiscard]] bool needsTriangles(const SheetMesh& sheet) const
+    [[nodiscard]] bool needsTriangles(const CapillarySurface& sheet) const
     {
         return isWorn(meshed_angles_, sheet, kWorn) || integrate(sheet, options_.weight).area > kGrowth * meshed_area_;
     }
@@ -614,26 +614,26 @@ private:
 
     [[nodiscard]] RemeshOptions trianglesOf(double edge) const { return {edge, edge / 8.0, base_.ground.flat()}; }
 
-    [[nodiscard]] SheetMesh newTriangles(const SheetMesh& sheet, const RemeshOptions& triangles) const
+    [[nodiscard]] CapillarySurface newTriangles(const CapillarySurface& sheet, const RemeshOptions& triangles) const
     {
         RemeshOptions limited = triangles;
         limited.max_triangles = most();
-        SheetMesh made = remesh(sheet, limited);
-        base_.lift(made.vertices, made.rim);
+        CapillarySurface made = remesh(sheet, limited);
+        base_.lift(made.vertices, made.rimVertexCount());
         return made;
     }
 
-    [[nodiscard]] std::unique_ptr<SheetSolver> solverOf(const SheetMesh& sheet) const
+    [[nodiscard]] std::unique_ptr<SheetSolver> solverOf(const CapillarySurface& sheet) const
     {
         return std::make_unique<SheetSolver>(sheet, options_.weight, base_);
     }
 
     /// Pressure under which all of a dry sheet rises: more than the largest force on a vertex over its area [1/m].
-    [[nodiscard]] double liftingPressure(const SheetMesh& sheet) const
+    [[nodiscard]] double liftingPressure(const CapillarySurface& sheet) const
     {
         const SheetGradients gradients = gradientsOf(sheet, options_.weight);
         double pressure = 0.0;
-        for (std::size_t v = sheet.rim; v < sheet.vertices.size(); ++v) {
+        for (std::size_t v = sheet.rimVertexCount(); v < sheet.vertices.size(); ++v) {
             const Vec3& volume = gradients.volume[v];
             pressure = std::max(pressure, dot(gradients.energy[v], volume) / dot(volume, volume));
         }
@@ -664,12 +664,12 @@ private:
         return trianglesFor(std::max(options_.max_work - work_, 0.0), kLeastFactorisations);
     }
 
-    [[nodiscard]] bool isSolvable(const SheetMesh& sheet) const { return sheet.triangles.size() < most(); }
+    [[nodiscard]] bool isSolvable(const CapillarySurface& sheet) const { return sheet.triangles.size() < most(); }
 
     [[nodiscard]] bool hasWork() const { return work_ < options_.max_work; }
 
     /// Takes the solver of new triangles.
-    void use(std::unique_ptr<SheetSolver> solver, const SheetMesh& sheet)
+    void use(std::unique_ptr<SheetSolver> solver, const CapillarySurface& sheet)
     {
         solver_ = std::move(solver);
         meshed_area_ = integrate(sheet, options_.weight).area;
@@ -679,8 +679,8 @@ private:
             droplets.join(t[0], t[1]);
             droplets.join(t[0], t[2]);
         }
-        droplet_.resize(sheet.rim);
-        for (std::uint32_t v = 0; v < sheet.rim; ++v) {
+        droplet_.resize(sheet.rimVertexCount());
+        for (std::uint32_t v = 0; v < sheet.rimVertexCount(); ++v) {
             droplet_[v] = droplets.find(v);
         }
     }
@@ -718,23 +718,23 @@ double RimAngles::mean() const
     return sum / total;
 }
 
-RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure, const BaseSurface& ground)
+RimAngles rimAngles(const CapillarySurface& sheet, Vec3 weight, double pressure, const BaseSurface& ground)
 {
     const SheetGradients gradients = rimGradientsOf(sheet, weight);
     RimAngles rim;
-    rim.angle.resize(sheet.rim);
-    rim.weight.resize(sheet.rim, 0.0);
-    std::vector<Vec3> up(sheet.rim);
-    for (std::uint32_t v = 0; v < sheet.rim; ++v) {
+    rim.angle.resize(sheet.rimVertexCount());
+    rim.weight.resize(sheet.rimVertexCount(), 0.0);
+    std::vector<Vec3> up(sheet.rimVertexCount());
+    for (std::uint32_t v = 0; v < sheet.rimVertexCount(); ++v) {
         up[v] = normalOf(ground.at({sheet.vertices[v].x, sheet.vertices[v].y}));
     }
-    std::vector<Vec3> outward(sheet.rim);
+    std::vector<Vec3> outward(sheet.rimVertexCount());
     for (const Triangle& t : sheet.triangles) {
         for (std::size_t a = 0; a < 3; ++a) {
             const std::uint32_t i = t[a];
             const std::uint32_t j = t[(a + 1) % 3];
             // No inner edge joins two rim vertices.
-            if (i < sheet.rim && j < sheet.rim) {
+            if (i < sheet.rimVertexCount() && j < sheet.rimVertexCount()) {
                 const Vec3 side = sheet.vertices[j] - sheet.vertices[i];
                 outward[i] = outward[i] + 0.5 * cross(side, up[i]);
                 outward[j] = outward[j] + 0.5 * cross(side, up[j]);
@@ -744,7 +744,7 @@ RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure, const 
             }
         }
     }
-    for (std::uint32_t v = 0; v < sheet.rim; ++v) {
+    for (std::uint32_t v = 0; v < sheet.rimVertexCount(); ++v) {
         const Vec3 force = gradients.energy[v] - pressure * gradients.volume[v];
         const double along = dot(force, outward[v]) / length(outward[v]);
         const double angle = std::atan2(-dot(force, up[v]), along);
@@ -765,7 +765,7 @@ std::optional<FilledSheet> settleSheet(SheetStart start, const SheetTarget& targ
     return Path(std::move(start), target, options).settled(is_last);
 }
 
-FilledSheet refillSheet(const SheetMesh& sheet, double pressure, const SheetTarget& target, Vec3 weight,
+FilledSheet refillSheet(const CapillarySurface& sheet, double pressure, const SheetTarget& target, Vec3 weight,
                         const SheetBase& base)
 {
     return Path(sheet, pressure, target, weight, base).run();

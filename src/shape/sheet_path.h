@@ -7,8 +7,8 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/shape/sheet.h"
+#include "shape/area_vector.h"
 #include "shape/sheet_base.h"
-#include "shape/sheet_mesh.h"
 
 namespace droplet {
 
@@ -48,11 +48,11 @@ struct RimAngles {
 /// Angles from the forces that the rim holds; they include the pressure and gravity on the triangles there.
 /// @param pressure  λ over the surface tension [1/m]
 /// @param ground    to which the angles are measured
-RimAngles rimAngles(const SheetMesh& sheet, Vec3 weight, double pressure, const BaseSurface& ground = {});
+RimAngles rimAngles(const CapillarySurface& sheet, Vec3 weight, double pressure, const BaseSurface& ground = {});
 
 /// Equilibrium of a liquid that may hang over its rim.
 struct FilledSheet {
-    SheetMesh mesh;
+    CapillarySurface mesh;
     double pressure = 0.0;  ///< λ over the surface tension [1/m]
     double volume = 0.0;    ///< [m³]
     double height = 0.0;    ///< [m]
@@ -74,7 +74,7 @@ FilledSheet fillSheet(const PlanarMesh& footprint, const SheetTarget& target, co
 
 /// Sheet near an equilibrium, on flat ground.
 struct SheetStart {
-    SheetMesh mesh;
+    CapillarySurface mesh;
     double pressure = 0.0;  ///< λ over the surface tension [1/m]
     double volume = 0.0;    ///< near that of the target [m³]
     bool is_last = true;  ///< meets the target, and must not touch itself; otherwise the result is a start in its turn
@@ -89,7 +89,7 @@ std::optional<FilledSheet> settleSheet(SheetStart start, const SheetTarget& targ
 /// @param sheet     an equilibrium
 /// @param pressure  of it, over the surface tension [1/m]
 /// @param base      what it lies on
-FilledSheet refillSheet(const SheetMesh& sheet, double pressure, const SheetTarget& target, Vec3 weight,
+FilledSheet refillSheet(const CapillarySurface& sheet, double pressure, const SheetTarget& target, Vec3 weight,
                         const SheetBase& base);
 
 }  // namespace droplet

@@ -67,7 +67,7 @@ std::uint64_t spread(std::uint64_t bits)
 }
 
 /// The same sheet, with inner vertices and triangles along a Z-curve: neighbours in space are so in memory.
-SheetMesh inSpaceOrder(const SheetMesh& sheet)
+CapillarySurface inSpaceOrder(const CapillarySurface& sheet)
 {
     Vec3 least = sheet.vertices.front();
     Vec3 most = least;
@@ -79,18 +79,18 @@ SheetMesh inSpaceOrder(const SheetMesh& sheet)
     const Vec3 size = most - least;
     const double scale = kCells / std::max({size.x, size.y, size.z});
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
-    for (std::uint32_t v = sheet.rim; v < sheet.vertices.size(); ++v) {
+    for (std::uint32_t v = sheet.rimVertexCount(); v < sheet.vertices.size(); ++v) {
         const Vec3 at = scale * (sheet.vertices[v] - least);
         keys.emplace_back(spread(static_cast<std::uint64_t>(at.x)) | spread(static_cast<std::uint64_t>(at.y)) << 1U |
                               spread(static_cast<std::uint64_t>(at.z)) << 2U,
                           v);
     }
     std::sort(keys.begin(), keys.end());
-    SheetMesh ordered;
-    ordered.rim = sheet.rim;
-    ordered.vertices.assign(sheet.vertices.begin(), sheet.vertices.begin() + sheet.rim);
+    CapillarySurface ordered;
+    ordered.loop_starts = sheet.loop_starts;
+    ordered.vertices.assign(sheet.vertices.begin(), sheet.vertices.begin() + sheet.rimVertexCount());
     std::vector<std::uint32_t> number(sheet.vertices.size());
-    for (std::uint32_t v = 0; v < sheet.rim; ++v) {
+    for (std::uint32_t v = 0; v < sheet.rimVertexCount(); ++v) {
         number[v] = v;
     }
     for (const auto& [key, v] : keys) {
@@ -112,8 +112,8 @@ SheetMesh inSpaceOrder(const SheetMesh& sheet)
 
 class Remesher {
 public:
-    Remesher(const SheetMesh& sheet, const RemeshOptions& options)
-        : rim_(static_cast<int>(sheet.rim)), options_(options)
+    Remesher(const CapillarySurface& sheet, const RemeshOptions& options)
+        : loop_starts_(sheet.loop_starts), rim_(static_cast<int>(sheet.rimVertexCount())), options_(options)
     {
         for (const Vec3& p : sheet.vertices) {
             mesh_.add_vertex(Point(p.x, p.y, p.z));
@@ -123,7 +123,7 @@ public:
         }
     }
 
-    SheetMesh run()
+    CapillarySurface run()
     {
         findNormals();
         flip();
@@ -155,7 +155,7 @@ public:
         return inSpaceOrder(result());
     }
 
-    SheetMesh relax(int rounds)
+    CapillarySurface relax(int rounds)
     {
         for (int round = 0; round < rounds; ++round) {
             findNormals();
@@ -652,10 +652,10 @@ private:
         }
     }
 
-    [[nodiscard]] SheetMesh result() const
+    [[nodiscard]] CapillarySurface result() const
     {
-        SheetMesh sheet;
-        sheet.rim = static_cast<std::uint32_t>(rim_);
+        CapillarySurface sheet;
+        sheet.loop_starts = loop_starts_;
         std::vector<std::uint32_t> number(mesh_.n_vertices(), 0);
         for (const VertexHandle v : mesh_.vertices()) {
             number[static_cast<std::size_t>(v.idx())] = static_cast<std::uint32_t>(sheet.vertices.size());
@@ -672,6 +672,7 @@ private:
         return sheet;
     }
 
+    std::vector<std::uint32_t> loop_starts_;
     int rim_;
     RemeshOptions options_;
     HalfEdgeMesh mesh_;
@@ -684,14 +685,14 @@ private:
 
 }  // namespace
 
-SheetMesh remesh(const SheetMesh& sheet, const RemeshOptions& options)
+CapillarySurface remesh(const CapillarySurface& sheet, const RemeshOptions& options)
 {
     return Remesher(sheet, options).run();
 }
 
-SheetMesh relax(const SheetMesh& sheet, int rounds, bool is_ground_flat)
+CapillarySurface relax(const CapillarySurface& sheet, int rounds, bool is_ground_flat)
 {
-    SheetMesh relaxed = Remesher(sheet, {.is_ground_flat = is_ground_flat}).relax(rounds);
+    CapillarySurface relaxed = Remesher(sheet, {.is_ground_flat = is_ground_flat}).relax(rounds);
     relaxed.triangles = sheet.triangles;  // half-edges may turn them
     return relaxed;
 }
@@ -699,7 +700,7 @@ SheetMesh relax(const SheetMesh& sheet, int rounds, bool is_ground_flat)
 namespace {
 
 /// Angle at the corner opposite to the shortest edge [rad].
-double minAngle(const SheetMesh& sheet, const Triangle& t)
+double minAngleOf(const CapillarySurface& sheet, const Triangle& t)
 {
     std::array<Vec3, 3> sides;  // opposite to every corner
     std::array<double, 3> squares{};
@@ -715,21 +716,21 @@ double minAngle(const SheetMesh& sheet, const Triangle& t)
 
 }  // namespace
 
-std::vector<double> minAngles(const SheetMesh& sheet)
+std::vector<double> minAngles(const CapillarySurface& sheet)
 {
     std::vector<double> angles;
     angles.reserve(sheet.triangles.size());
     for (const Triangle& t : sheet.triangles) {
-        angles.push_back(minAngle(sheet, t));
+        angles.push_back(minAngleOf(sheet, t));
     }
     return angles;
 }
 
-bool isWorn(const std::vector<double>& before, const SheetMesh& sheet, double share)
+bool isWorn(const std::vector<double>& before, const CapillarySurface& sheet, double share)
 {
     constexpr double kNarrow = std::numbers::pi / 10.0;
     for (std::size_t k = 0; k < sheet.triangles.size(); ++k) {
-        if (minAngle(sheet, sheet.triangles[k]) < std::min(kNarrow, share * before[k])) {
+        if (minAngleOf(sheet, sheet.triangles[k]) < std::min(kNarrow, share * before[k])) {
             return true;
         }
     }

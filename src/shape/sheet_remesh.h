@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "shape/sheet_mesh.h"
+#include "shape/area_vector.h"
 
 namespace droplet {
 
@@ -28,17 +28,17 @@ struct RemeshOptions {
 /// Guarantees: the rim keeps its vertices and edges; no triangle has three rim vertices and no edge inside joins two;
 /// the topology stays; vertices inside move along the sheet alone, up to its curvature; the same input gives the same
 /// bytes. A given number of triangles is met to 5 % where the rim's edges allow it.
-SheetMesh remesh(const SheetMesh& sheet, const RemeshOptions& options);
+CapillarySurface remesh(const CapillarySurface& sheet, const RemeshOptions& options);
 
 /// Moves the inner vertices of a sheet along it, to make its triangles more even. They stay the same triangles.
 /// @param is_ground_flat  as in RemeshOptions
-SheetMesh relax(const SheetMesh& sheet, int rounds, bool is_ground_flat);
+CapillarySurface relax(const CapillarySurface& sheet, int rounds, bool is_ground_flat);
 
 /// Smallest angle of every triangle [rad].
-std::vector<double> minAngles(const SheetMesh& sheet);
+std::vector<double> minAngles(const CapillarySurface& sheet);
 
 /// Whether a triangle that moved has become narrow: below 18° and below a share of its angle before.
 /// @param before  minAngles() before
-bool isWorn(const std::vector<double>& before, const SheetMesh& sheet, double share);
+bool isWorn(const std::vector<double>& before, const CapillarySurface& sheet, double share);
 
 }  // namespace droplet

@@ -20,12 +20,14 @@
 #include "droplet/units.h"
 #include "mesh/lattice.h"
 #include "number_text.h"
+#include "shape/area_vector.h"
 #include "shape/constrained.h"
 #include "shape/energy.h"
 #include "shape/equilibrium.h"
 #include "shape/existence.h"
 #include "shape/hanging.h"
 #include "shape/own_options.h"
+#include "shape/recovered_normals.h"
 #include "shape/work.h"
 
 namespace droplet {
@@ -109,27 +111,22 @@ struct Group {
     Outcome outcome;
 };
 
-HeightField fieldOf(const Energy& energy, Sheet&& sheet, double surface_tension)
+CapillarySurface fieldOf(const Energy& energy, const Sheet& sheet, double surface_tension)
 {
     const PlanarMesh& mesh = energy.mesh();
     const std::uint32_t rim = mesh.rimVertexCount();
-    HeightField field;
-    field.height = std::move(sheet.height);
-    field.ground = energy.ground();
+    CapillarySurface field{.triangles = mesh.triangles, .loop_starts = mesh.loop_starts, .lattice = mesh.lattice};
+    field.vertices.reserve(mesh.vertices.size());
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        field.vertices.push_back({mesh.vertices[v].x, mesh.vertices[v].y, sheet.height[v]});
+    }
     field.pressure = surface_tension * sheet.pressure;
     if (!sheet.held.empty()) {
         field.dry.assign(rim, 0);
         field.dry.insert(field.dry.end(), sheet.held.begin(), sheet.held.end());
     }
-    bool above = true;
-    for (std::uint32_t v = rim; v < field.height.size() && above; ++v) {
-        above = field.thicknessAt(v) >= 0.0;
-    }
     for (std::uint32_t v = 0; v < rim; ++v) {
-        field.rim_slope.push_back(energy.slopeOf(v, sheet.flux[v]));
-        // A sheet that is nowhere below the ground has no negative contact angle.
-        const double flux = above ? std::max(sheet.flux[v], energy.groundFlux(v)) : sheet.flux[v];
-        field.contact_angle.push_back(energy.contactAngle(v, flux).first);
+        field.contact_angle.push_back(energy.contactAngle(v, sheet.flux[v]).first);
     }
     return field;
 }
@@ -209,25 +206,29 @@ namespace {
 constexpr double kSmallError = 0.0027;
 
 /// Whether the linear model is within 0.3 % of the exact one.
-bool linearSuffices(const PlanarMesh& mesh, const HeightField& field)
+bool linearSuffices(const CapillarySurface& field, const BaseSurface& ground)
 {
     double excess = 0.0;
     double force = 0.0;
-    for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
-        for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
-            const double edge = length(mesh.vertices[nextOnRim(mesh, loop, v)] - mesh.vertices[v]);
-            const double slope = std::abs(field.rim_slope[v]);
+    const std::vector<double> slopes = rimSlopes(field, ground);
+    const PlanarMesh rim = rimOf(field);
+    for (std::size_t loop = 0; loop < rim.loopCount(); ++loop) {
+        for (std::uint32_t v = rim.loop_starts[loop]; v < rim.loop_starts[loop + 1]; ++v) {
+            const double edge = length(rim.vertices[nextOnRim(rim, loop, v)] - rim.vertices[v]);
+            const double slope = std::abs(slopes[v]);
             excess += 0.5 * edge * slope * slope * slope;
             force += edge * slope;
         }
     }
     double inside = 0.0;
-    for (const Triangle& t : mesh.triangles) {
-        const Vec2 slope = gradient(mesh, t, field.height);
-        inside += 0.5 * doubleArea(mesh, t) * dot(slope, slope);
+    double covered = 0.0;
+    for (const Triangle& t : field.triangles) {
+        const Vec3 normal = areaVector(field.vertices, t);
+        inside += (normal.x * normal.x + normal.y * normal.y) / normal.z;
+        covered += normal.z;
     }
     // On a disc the mean square of the slope is half of that along the rim.
-    return excess <= kSmallError * force && inside <= kSmallError * area(mesh);
+    return excess <= kSmallError * force && inside <= kSmallError * covered;
 }
 
 Solution solveModel(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, const Progress& progress)
@@ -307,7 +308,7 @@ Solution solveModel(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
     }
     if (report.usable()) {
         for (std::size_t k = 0; k < meshes.size(); ++k) {
-            solution.droplets.push_back(fieldOf(*energies[k], std::move(sheets[k]), options.liquid.surface_tension));
+            solution.droplets.push_back(fieldOf(*energies[k], sheets[k], options.liquid.surface_tension));
         }
     }
     return solution;
@@ -329,7 +330,7 @@ Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& option
         Solution linear = solveModel(meshes, own, progress);
         bool suffices = linear.report.usable();
         for (std::size_t k = 0; suffices && k < meshes.size(); ++k) {
-            suffices = linearSuffices(meshes[k], linear.droplets[k]);
+            suffices = linearSuffices(linear.droplets[k], own.ground);
         }
         if (suffices) {
             return linear;

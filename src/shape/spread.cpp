@@ -10,7 +10,7 @@
 #include "droplet/shape/figures.h"
 #include "droplet/units.h"
 #include "shape/cap.h"
-#include "shape/recovered_gradients.h"
+#include "shape/recovered_normals.h"
 
 namespace droplet {
 namespace {
@@ -23,14 +23,15 @@ constexpr double kSteep = 60.0 * kDegree;
 constexpr double kSteepest = 86.0 * kDegree;
 
 /// Mean of the squared slope along the rim.
-double meanSquaredSlope(const PlanarMesh& mesh, const HeightField& field)
+double meanSquaredSlope(const PlanarMesh& mesh, const CapillarySurface& field)
 {
     double sum = 0.0;
     double rim_length = 0.0;
+    const std::vector<double> slopes = rimSlopes(field, {});
     for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
         for (std::uint32_t v = mesh.loop_starts[loop]; v < mesh.loop_starts[loop + 1]; ++v) {
             const double edge = length(mesh.vertices[nextOnRim(mesh, loop, v)] - mesh.vertices[v]);
-            sum += edge * field.rim_slope[v] * field.rim_slope[v];
+            sum += edge * slopes[v] * slopes[v];
             rim_length += edge;
         }
     }
@@ -38,10 +39,12 @@ double meanSquaredSlope(const PlanarMesh& mesh, const HeightField& field)
 }
 
 /// Displacement of every vertex [m].
-std::vector<Vec2> displacements(const PlanarMesh& mesh, const HeightField& field, double angle)
+std::vector<Vec2> displacements(const PlanarMesh& mesh, const CapillarySurface& field, double angle)
 {
-    const std::vector<double>& u = field.height;
-    const double highest = *std::max_element(u.begin(), u.end());
+    double highest = 0.0;
+    for (const Vec3& p : field.vertices) {
+        highest = std::max(highest, p.z);
+    }
     const double t = std::tan(0.5 * angle);
     const double squared = t * t;
     // On a disc of radius 1 with u ∝ 1 − r² the projection maps r to r(1 + t²) / (1 + t²r²). So a point moves along −r,
@@ -49,17 +52,19 @@ std::vector<Vec2> displacements(const PlanarMesh& mesh, const HeightField& field
     // footprint: the spacing at the rim shrinks by (1 − t²) / (1 + t²) = cos θ where the slope is the mean slope.
     const double scale = 2.0 * highest / meanSquaredSlope(mesh, field);
     const double max = 2.0 * squared / (1.0 + squared);
-    const std::vector<Vec2> gradients = recoveredGradients(mesh, u);
-    std::vector<Vec2> moves(u.size());
-    for (std::size_t v = mesh.rimVertexCount(); v < u.size(); ++v) {
-        const double share = u[v] / highest;
-        const double slope = length(gradients[v]);
+    const std::vector<Vec3> normals = recoveredNormals(field, {});
+    std::vector<Vec2> moves(normals.size());
+    for (std::size_t v = mesh.rimVertexCount(); v < moves.size(); ++v) {
+        const double height = field.vertices[v].z;
+        const double share = height / highest;
+        const Vec2 gradient = (-1.0 / normals[v].z) * Vec2{normals[v].x, normals[v].y};
+        const double slope = length(gradient);
         if (!(slope > 0.0 && share > 0.0)) {
             continue;
         }
         const double wanted = scale * squared * share / (1.0 + squared * (1.0 - share)) * slope;
         // u / |∇u| is about the distance to the rim.
-        moves[v] = (-std::min(wanted, max * u[v] / slope) / slope) * gradients[v];
+        moves[v] = (-std::min(wanted, max * height / slope) / slope) * gradient;
     }
     return moves;
 }
@@ -118,8 +123,8 @@ std::vector<PlanarMesh> spread(std::vector<PlanarMesh> meshes, const SolveOption
         return meshes;
     }
     tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) {
-        const HeightField& field = solution.droplets[k];
-        const double linear = measure(meshes[k], field, level).contact_angle.mean;
+        const CapillarySurface& field = solution.droplets[k];
+        const double linear = measure(field, level).contact_angle.mean;
         const double angle = std::min(capAngleOfLinear(linear), kSteepest);
         if (angle > kSteep) {
             move(meshes[k], displacements(meshes[k], field, angle), angle);

@@ -27,8 +27,8 @@
 #include <utility>
 #include <vector>
 
+#include "shape/area_vector.h"
 #include "shape/sheet_factor.h"
-#include "shape/sheet_mesh.h"
 
 namespace droplet {
 namespace {
@@ -85,7 +85,7 @@ std::array<Vec2, 2> wantedSides(const std::vector<Vec3>& places, const Triangle&
     return {Vec2{dot(p, level), dot(p, slope)}, Vec2{dot(q, level), dot(q, slope)}};
 }
 
-std::vector<Wanted> wantedTriangles(const ParametricSheet& sheet)
+std::vector<Wanted> wantedTriangles(const CapillarySurface& sheet)
 {
     std::vector<Wanted> all;
     double total = 0.0;
@@ -174,8 +174,11 @@ Places solveBoth(const SheetFactor& factor, const Places& right)
 
 class Flattening {
 public:
-    explicit Flattening(const ParametricSheet& sheet)
-        : rim_(sheet.rim), places_(sheet.vertices), wanted_(wantedTriangles(sheet)), at_(sheet.vertices.size(), 2)
+    explicit Flattening(const CapillarySurface& sheet)
+        : rim_(sheet.rimVertexCount()),
+          places_(sheet.vertices),
+          wanted_(wantedTriangles(sheet)),
+          at_(sheet.vertices.size(), 2)
     {
         for (std::size_t v = 0; v < sheet.vertices.size(); ++v) {
             at_.row(static_cast<Eigen::Index>(v)) << sheet.vertices[v].x, sheet.vertices[v].y;
@@ -565,7 +568,7 @@ bool Flattening::run()
 
 }  // namespace
 
-FlatMap projected(const ParametricSheet& sheet)
+FlatMap projected(const CapillarySurface& sheet)
 {
     FlatMap map;
     for (const Vec3& p : sheet.vertices) {
@@ -577,7 +580,7 @@ FlatMap projected(const ParametricSheet& sheet)
     return map;
 }
 
-FlatMap flatMap(const ParametricSheet& sheet)
+FlatMap flatMap(const CapillarySurface& sheet)
 {
     FlatMap map = projected(sheet);
     if (map.kind == TextureMap::Projection) {
@@ -586,7 +589,7 @@ FlatMap flatMap(const ParametricSheet& sheet)
     Flattening flattening(sheet);
     if (flattening.run()) {
         map.kind = TextureMap::Flat;
-        for (std::uint32_t v = sheet.rim; v < map.places.size(); ++v) {
+        for (std::uint32_t v = sheet.rimVertexCount(); v < map.places.size(); ++v) {
             map.places[v] = rowOf(flattening.places(), v);
         }
     }

@@ -16,7 +16,7 @@ struct FlatMap {
 };
 
 /// Vertical projection of a sheet; its kind is Folded if a triangle leans out.
-FlatMap projected(const ParametricSheet& sheet);
+FlatMap projected(const CapillarySurface& sheet);
 
 /// Spreads a sheet over its footprint, so that every point of the footprint belongs to one point of the sheet.
 ///
@@ -27,6 +27,6 @@ FlatMap projected(const ParametricSheet& sheet);
 /// Guarantees: the rim stays; unless the kind is Folded, every triangle is counter-clockwise, so that none overlap; the
 /// same input gives the same bits.
 /// @param sheet  result of solveSheet
-FlatMap flatMap(const ParametricSheet& sheet);
+FlatMap flatMap(const CapillarySurface& sheet);
 
 }  // namespace droplet

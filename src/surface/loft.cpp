@@ -1,9 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-//
-// Normals are those of the recovered gradient, an area-weighted mean: O. C. Zienkiewicz and J. Z. Zhu, "A simple error
-// estimator and adaptive procedure for practical engineering analysis" (1987). On the rim a mean is one-sided and less
-// accurate by one order, so the slope that balances the rim's force is used (see solve).
-
 #include "droplet/surface/loft.h"
 
 #include <tbb/parallel_for.h>
@@ -18,36 +13,14 @@
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
 #include "number_text.h"
-#include "shape/recovered_gradients.h"
+#include "shape/area_vector.h"
+#include "shape/recovered_normals.h"
 #include "shape/sheet_base.h"
-#include "shape/sheet_mesh.h"
 #include "surface/flat_map.h"
-#include "surface/rim_normals.h"
 #include "surface/wet_part.h"
 
 namespace droplet {
 namespace {
-
-/// Recovered gradients; on the rim from the slope across it and the ground along it.
-std::vector<Vec2> surfaceGradients(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
-{
-    std::vector<Vec2> gradients = recoveredGradients(mesh, field.height);
-    const std::vector<Vec2> outward = rimNormals(mesh);
-    for (std::uint32_t v = 0; v < mesh.rimVertexCount(); ++v) {
-        gradients[v] = -field.rim_slope[v] * outward[v];
-        if (!ground.flat()) {
-            const Vec2 along_rim{-outward[v].y, outward[v].x};
-            gradients[v] = gradients[v] + dot(ground.at(mesh.vertices[v]).gradient, along_rim) * along_rim;
-        }
-    }
-    return gradients;
-}
-
-Vec3 normalOf(Vec2 g)
-{
-    const double size = std::sqrt(1.0 + dot(g, g));
-    return {-g.x / size, -g.y / size, 1.0 / size};
-}
 
 /// Numbers of vertices and triangles, or indices of the first ones.
 struct Counts {
@@ -55,38 +28,20 @@ struct Counts {
     std::size_t triangles = 0;
 };
 
-/// Sets the change per fill of the liquid's vertices and normals; rim and base stay.
-///
-/// A normal before normalisation is (−∇u, 1), which is affine in the volume. Its change is divided by its length at
-/// fill 1, so that it can be added to the unit normal.
-void fillRefill(const PlanarMesh& mesh, const FillGain& gain, std::size_t first, Surface& surface)
-{
-    std::vector<Vec2> gradients = recoveredGradients(mesh, gain.height);
-    const std::vector<Vec2> outward = rimNormals(mesh);
-    for (std::uint32_t v = 0; v < mesh.rimVertexCount(); ++v) {
-        gradients[v] = -gain.rim_slope[v] * outward[v];
-    }
-    RefillState& refill = surface.refill->states.front();
-    forBlocks(mesh.vertices.size(), [&](std::size_t from, std::size_t to) {
-        for (std::size_t v = from; v < to; ++v) {
-            const double shortened = surface.normals[first + v].z;
-            refill.positions[first + v] = {0.0, 0.0, gain.height[v]};
-            refill.normals[first + v] = {-shortened * gradients[v].x, -shortened * gradients[v].y, 0.0};
-        }
-    });
-}
-
-/// Droplet, or a part of one, with the place of its vertices and triangles in the surface.
+/// Droplet, or a part of one, with the place of its vertices and triangles in the result.
 struct Piece {
     std::size_t droplet = 0;
-    const PlanarMesh* mesh = nullptr;
-    const HeightField* field = nullptr;
-    bool mirrored = false;  ///< whether its base has the triangles of the liquid
-    PlanarMesh cover;       ///< base, if it is not mirrored
-    Counts liquid;
-    Counts base;
+    const CapillarySurface* liquid = nullptr;
+    PlanarMesh base = {};  ///< empty if there is none
+    TextureMap texture_map = TextureMap::Projection;
+    double volume = 0.0;  ///< [m³]
+    double area = 0.0;    ///< wet area of the footprint [m²]
+    Counts begin = {};    ///< of the liquid; the base follows
 
-    [[nodiscard]] const PlanarMesh& baseMesh() const { return mirrored ? *mesh : cover; }
+    [[nodiscard]] std::uint32_t firstOfBase() const
+    {
+        return static_cast<std::uint32_t>(begin.vertices + liquid->vertices.size());
+    }
 };
 
 Vec2 textureAt(Vec2 p, const LoftOptions& options)
@@ -94,26 +49,55 @@ Vec2 textureAt(Vec2 p, const LoftOptions& options)
     return {0.5 + p.x / options.extent.x, 0.5 - p.y / options.extent.y};
 }
 
-void fillLiquid(const PlanarMesh& mesh, const HeightField& field, const LoftOptions& options, const Counts& begin,
-                Surface& surface)
+/// Sets the change per fill of the liquid's vertices and normals; rim and base stay.
+///
+/// A normal before normalisation is (−∇u, 1), which is affine in the volume. Its change is divided by its length at
+/// fill 1, so that it can be added to the unit normal.
+void fillRefill(const CapillarySurface& field, const FillGain& gain, std::size_t first, Surface& surface)
 {
-    const std::vector<Vec2> gradients = surfaceGradients(mesh, field, options.ground);
-    const auto first = static_cast<std::uint32_t>(begin.vertices);
-    forBlocks(mesh.vertices.size(), [&](std::size_t from, std::size_t to) {
+    CapillarySurface change = field;
+    for (std::size_t v = 0; v < gain.height.size(); ++v) {
+        change.vertices[v].z = gain.height[v];
+    }
+    for (std::size_t v = 0; v < gain.rim_slope.size(); ++v) {
+        change.contact_angle[v] = std::atan(gain.rim_slope[v]);
+    }
+    const std::vector<Vec3> normals = recoveredNormals(change, {});
+    RefillState& refill = surface.refill->states.front();
+    forBlocks(normals.size(), [&](std::size_t from, std::size_t to) {
         for (std::size_t v = from; v < to; ++v) {
-            const Vec2 p = mesh.vertices[v];
-            surface.positions[first + v] = {p.x, p.y, field.height[v]};
-            surface.normals[first + v] = normalOf(gradients[v]);
-            surface.uvs[first + v] = textureAt(p, options);
+            const double shortened = surface.normals[first + v].z / normals[v].z;
+            refill.positions[first + v] = {0.0, 0.0, gain.height[v]};
+            refill.normals[first + v] = {shortened * normals[v].x, shortened * normals[v].y, 0.0};
+        }
+    });
+}
+
+void fillLiquid(Piece& piece, const LoftOptions& options, Surface& surface)
+{
+    const CapillarySurface& liquid = *piece.liquid;
+    const std::vector<Vec3> normals = recoveredNormals(liquid, options.ground);
+    std::optional<FlatMap> map;
+    if (!liquid.isHeightField()) {
+        map = options.flatten ? flatMap(liquid) : projected(liquid);
+        piece.texture_map = map->kind;
+    }
+    const auto first = static_cast<std::uint32_t>(piece.begin.vertices);
+    forBlocks(liquid.vertices.size(), [&](std::size_t from, std::size_t to) {
+        for (std::size_t v = from; v < to; ++v) {
+            const Vec3& p = liquid.vertices[v];
+            surface.positions[first + v] = p;
+            surface.normals[first + v] = normals[v];
+            surface.uvs[first + v] = textureAt(map ? map->places[v] : Vec2{p.x, p.y}, options);
             surface.weld[first + v] = first + static_cast<std::uint32_t>(v);
         }
     });
-    std::transform(field.contact_angle.begin(), field.contact_angle.end(), surface.contact_angle.begin() + first,
-                   [](double angle) { return static_cast<float>(angle); });
-    forBlocks(mesh.triangles.size(), [&](std::size_t from, std::size_t to) {
+    std::transform(liquid.contact_angle.begin(), liquid.contact_angle.end(), surface.contact_angle.begin() + first,
+                   [](double angle) { return static_cast<float>(std::max(angle, 0.0)); });
+    forBlocks(liquid.triangles.size(), [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
-            const Triangle& t = mesh.triangles[i];
-            surface.triangles[begin.triangles + i] = {first + t[0], first + t[1], first + t[2]};
+            const Triangle& t = liquid.triangles[i];
+            surface.triangles[piece.begin.triangles + i] = {first + t[0], first + t[1], first + t[2]};
         }
     });
 }
@@ -121,186 +105,160 @@ void fillLiquid(const PlanarMesh& mesh, const HeightField& field, const LoftOpti
 /// Adds the base. Its rim vertices are copies of the liquid's, with another normal.
 void fillBase(const Piece& piece, const LoftOptions& options, Surface& surface)
 {
-    const PlanarMesh& mesh = piece.baseMesh();
-    const auto first = static_cast<std::uint32_t>(piece.base.vertices);
-    const auto liquid = static_cast<std::uint32_t>(piece.liquid.vertices);
-    forBlocks(mesh.vertices.size(), [&](std::size_t from, std::size_t to) {
+    const std::uint32_t first = piece.firstOfBase();
+    const auto liquid = static_cast<std::uint32_t>(piece.begin.vertices);
+    forBlocks(piece.base.vertices.size(), [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
             const auto v = static_cast<std::uint32_t>(i);
-            const Vec2 p = mesh.vertices[v];
+            const Vec2 p = piece.base.vertices[v];
+            const GroundPoint ground = options.ground.at(p);
             surface.positions[first + v] =
-                mesh.onRim(v) ? surface.positions[liquid + v] : Vec3{p.x, p.y, piece.field->groundAt(v)};
-            surface.normals[first + v] = -1.0 * normalOf(options.ground.at(p).gradient);
+                piece.base.onRim(v) ? surface.positions[liquid + v] : Vec3{p.x, p.y, ground.height};
+            surface.normals[first + v] = -1.0 * normalOf(ground);
             surface.uvs[first + v] = textureAt(p, options);
-            surface.weld[first + v] = mesh.onRim(v) ? liquid + v : first + v;
+            surface.weld[first + v] = piece.base.onRim(v) ? liquid + v : first + v;
         }
     });
-    forBlocks(mesh.triangles.size(), [&](std::size_t from, std::size_t to) {
+    const std::size_t begin = piece.begin.triangles + piece.liquid->triangles.size();
+    forBlocks(piece.base.triangles.size(), [&](std::size_t from, std::size_t to) {
         for (std::size_t i = from; i < to; ++i) {
-            const Triangle& t = mesh.triangles[i];
-            surface.triangles[piece.base.triangles + i] = {first + t[0], first + t[2], first + t[1]};
+            const Triangle& t = piece.base.triangles[i];
+            surface.triangles[begin + i] = {first + t[0], first + t[2], first + t[1]};
         }
     });
 }
 
-/// Volume and area of a droplet, for the mean height.
-struct Extent {
-    double volume = 0.0;
-    double area = 0.0;
-};
-
-Extent extentOf(const PlanarMesh& mesh, const HeightField& field)
+/// Finds the volume of the liquid and the area that it wets.
+void measure(Piece& piece, const BaseSurface& ground)
 {
-    const auto sum_over = [](const std::vector<double>& values, const Triangle& t) {
-        return values[t[0]] + values[t[1]] + values[t[2]];
+    struct Sums {
+        double volume = 0.0;
+        double area = 0.0;
     };
-    const bool on_plane = field.ground.empty();
-    Extent total;
-    for (const Extent& block : mapBlocks<Extent>(mesh.triangles.size(), [&](std::size_t begin, std::size_t end) {
-             Extent sum;
+    const CapillarySurface& liquid = *piece.liquid;
+    for (const Sums& block : mapBlocks<Sums>(liquid.triangles.size(), [&](std::size_t begin, std::size_t end) {
+             Sums sum;
              for (std::size_t i = begin; i < end; ++i) {
-                 const Triangle& t = mesh.triangles[i];
-                 const double area = 0.5 * doubleArea(mesh, t);
-                 sum.area += area;
-                 sum.volume += area * (sum_over(field.height, t) - (on_plane ? 0.0 : sum_over(field.ground, t))) / 3.0;
+                 const Triangle& t = liquid.triangles[i];
+                 const double below = areaVector(liquid.vertices, t).z;
+                 sum.area += isDry(liquid, t) ? 0.0 : below;
+                 sum.volume += below * (liquid.vertices[t[0]].z + liquid.vertices[t[1]].z + liquid.vertices[t[2]].z);
              }
              return sum;
          })) {
-        total.volume += block.volume;
-        total.area += block.area;
+        piece.volume += block.volume / 3.0;
+        piece.area += block.area;
     }
-    return total;
+    piece.volume -= baseOf(liquid, ground, {}).integrals.volume;
 }
 
-bool hasDry(const HeightField& field)
+void check(const std::vector<CapillarySurface>& surfaces, const LoftOptions& options)
 {
-    return std::any_of(field.dry.begin(), field.dry.end(), [](std::uint8_t dry) { return dry != 0; });
-}
-
-void check(const PlanarMesh& mesh, const HeightField& field, const LoftOptions& options, std::size_t k)
-{
-    const std::size_t vertices = mesh.vertices.size();
-    const std::size_t rim = mesh.rimVertexCount();
-    const auto all_or_none = [vertices](std::size_t count) { return count == 0 || count == vertices; };
-    if (field.height.size() != vertices || !all_or_none(field.ground.size()) || !all_or_none(field.dry.size()) ||
-        field.rim_slope.size() != rim || field.contact_angle.size() != rim) {
-        throw Error(ErrorCode::InvalidArgument, "field " + std::to_string(k) + " does not belong to its mesh");
+    options.validate();
+    if (!options.bases.empty() && options.bases.size() != surfaces.size()) {
+        throw Error(ErrorCode::InvalidArgument, std::to_string(options.bases.size()) +
+                                                    " bases must be none, or as many as the " +
+                                                    std::to_string(surfaces.size()) + " surfaces");
     }
-    if (field.ground.empty() != options.ground.flat()) {
-        throw Error(ErrorCode::InvalidArgument, "ground must be the one that field " + std::to_string(k) +
-                                                    " was solved on, which is " +
-                                                    (field.ground.empty() ? "flat" : "not flat"));
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        surfaces[k].validate();
+        if (!options.bases.empty() && options.bases[k].loop_starts != surfaces[k].loop_starts) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "bases[" + std::to_string(k) + "] must have the rim of its surface");
+        }
     }
-}
-
-void check(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const LoftRefill& refill)
-{
-    refill.range.validate();
-    if (refill.gains.size() != meshes.size()) {
-        throw Error(ErrorCode::InvalidArgument, std::to_string(refill.gains.size()) +
+    if (!options.refill) {
+        return;
+    }
+    options.refill->range.validate();
+    if (options.refill->gains.size() != surfaces.size()) {
+        throw Error(ErrorCode::InvalidArgument, std::to_string(options.refill->gains.size()) +
                                                     " refill.gains must be as many as the " +
-                                                    std::to_string(meshes.size()) + " meshes");
+                                                    std::to_string(surfaces.size()) + " surfaces");
     }
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        if (refill.gains[k].height.size() != meshes[k].vertices.size() ||
-            refill.gains[k].rim_slope.size() != meshes[k].rimVertexCount()) {
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        const FillGain& gain = options.refill->gains[k];
+        if (gain.height.size() != surfaces[k].vertices.size() ||
+            gain.rim_slope.size() != surfaces[k].rimVertexCount()) {
             throw Error(ErrorCode::InvalidArgument,
-                        "refill.gains[" + std::to_string(k) + "] does not belong to its mesh");
+                        "refill.gains[" + std::to_string(k) + "] does not belong to its surface");
         }
-        if (hasDry(fields[k])) {
+        if (!surfaces[k].dry.empty() || !surfaces[k].isHeightField()) {
             throw Error(ErrorCode::InvalidArgument,
-                        "field " + std::to_string(k) + " has dry ground, so it cannot be refilled");
+                        "surface " + std::to_string(k) +
+                            (surfaces[k].isHeightField() ? " has dry ground" : " is no height field") +
+                            ", so it has no gain per fill");
         }
     }
 }
 
-/// Lists droplets and parts of droplets.
-/// @param wet  parts of the droplets that have dry vertices
-std::vector<Piece> piecesOf(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields,
-                            const std::vector<std::vector<WetPart>>& wet, const LoftOptions& options)
+/// Base under a droplet, or under a part of one.
+/// @param known  cover() of its rim, if it is known
+PlanarMesh baseUnder(const CapillarySurface& liquid, bool is_flat, const PlanarMesh* known)
+{
+    if (!is_flat) {
+        return footprintOf(liquid);
+    }
+    return known != nullptr ? *known : cover(rimOf(liquid));
+}
+
+/// Lists droplets and parts of droplets, with their bases.
+/// @param wet  wetParts() of every droplet
+std::vector<Piece> piecesOf(const std::vector<CapillarySurface>& surfaces,
+                            const std::vector<std::optional<std::vector<CapillarySurface>>>& wet,
+                            const LoftOptions& options)
 {
     std::vector<Piece> pieces;
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        for (const WetPart& part : wet[k]) {
-            pieces.push_back({k, &part.mesh, &part.field, true, {}, {}, {}});
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        if (!wet[k]) {
+            pieces.push_back({.droplet = k, .liquid = &surfaces[k]});
+            continue;
         }
-        if (!hasDry(fields[k])) {
-            Piece& piece = pieces.emplace_back();
-            piece.droplet = k;
-            piece.mesh = &meshes[k];
-            piece.field = &fields[k];
-            piece.mirrored = !options.ground.flat();
-            if (!options.open && !piece.mirrored && !options.bases.empty()) {
-                piece.cover = options.bases[k];
-            }
+        for (const CapillarySurface& part : *wet[k]) {
+            pieces.push_back({.droplet = k, .liquid = &part});
         }
     }
-    tbb::parallel_for(std::size_t{0}, options.open ? 0 : pieces.size(), [&](std::size_t k) {
-        if (!pieces[k].mirrored && pieces[k].cover.vertices.empty()) {
-            pieces[k].cover = cover(*pieces[k].mesh);
-        }
+    tbb::parallel_for(std::size_t{0}, options.open ? 0 : pieces.size(), [&](std::size_t i) {
+        const std::size_t k = pieces[i].droplet;
+        // The rim of a height field's part may touch itself, so that nothing can cover it.
+        const bool may_touch = wet[k] && surfaces[k].isHeightField();
+        pieces[i].base = baseUnder(*pieces[i].liquid, options.ground.flat() && !may_touch,
+                                   wet[k] || options.bases.empty() ? nullptr : &options.bases[k]);
     });
     return pieces;
 }
 
 /// Gives every piece its place in the surface. Returns the size of the surface.
-Counts assignPlaces(std::vector<Piece>& pieces, bool open)
+Counts assignPlaces(std::vector<Piece>& pieces)
 {
     Counts total;
-    const auto take = [&total](Counts& begin, const PlanarMesh& mesh) {
-        begin = total;
-        total.vertices += mesh.vertices.size();
-        total.triangles += mesh.triangles.size();
-    };
     for (Piece& piece : pieces) {
-        take(piece.liquid, *piece.mesh);
-        if (!open) {
-            take(piece.base, piece.baseMesh());
-        }
+        piece.begin = total;
+        total.vertices += piece.liquid->vertices.size() + piece.base.vertices.size();
+        total.triangles += piece.liquid->triangles.size() + piece.base.triangles.size();
     }
     return total;
 }
 
 /// Droplets of a surface; pieces of one droplet follow each other.
-std::vector<SurfacePart> partsOf(const std::vector<Piece>& pieces, const std::vector<Extent>& extents,
-                                 const Counts& total)
+std::vector<SurfacePart> partsOf(const std::vector<Piece>& pieces, const Counts& total)
 {
     std::vector<SurfacePart> parts;
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-        const Counts& begin = pieces[k].liquid;
-        const Counts end = k + 1 < pieces.size() ? pieces[k + 1].liquid : total;
-        if (parts.empty() || parts.back().droplet != pieces[k].droplet) {
-            SurfacePart& part = parts.emplace_back();
-            part.droplet = pieces[k].droplet;
-            part.first_vertex = begin.vertices;
-            part.first_triangle = begin.triangles;
+        const Piece& piece = pieces[k];
+        const Counts& end = k + 1 < pieces.size() ? pieces[k + 1].begin : total;
+        if (parts.empty() || parts.back().droplet != piece.droplet) {
+            parts.push_back({.droplet = piece.droplet,
+                             .first_vertex = piece.begin.vertices,
+                             .first_triangle = piece.begin.triangles});
         }
         SurfacePart& part = parts.back();
-        part.vertices += end.vertices - begin.vertices;
-        part.triangles += end.triangles - begin.triangles;
-        part.volume += std::max(0.0, extents[k].volume);
-        part.area += extents[k].area;
+        part.vertices += end.vertices - piece.begin.vertices;
+        part.triangles += end.triangles - piece.begin.triangles;
+        part.volume += std::max(0.0, piece.volume);
+        part.area += piece.area;
     }
     return parts;
-}
-
-/// Surface of the parts of one droplet.
-Surface loftAll(const std::vector<ParametricSheet>& parts, LoftOptions options)
-{
-    options.keeps_dry = true;
-    Surface surface;
-    SurfacePart whole;
-    for (const ParametricSheet& part : parts) {
-        options.bases = {part.footprint};
-        append(surface, loft(part, options));
-        whole.area += surface.parts.back().area;
-    }
-    whole.vertices = surface.positions.size();
-    whole.triangles = surface.triangles.size();
-    if (!parts.empty()) {
-        surface.parts = {whole};
-    }
-    return surface;
 }
 
 }  // namespace
@@ -313,38 +271,21 @@ void LoftOptions::validate() const
     }
 }
 
-Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const LoftOptions& options)
+Surface loft(const std::vector<CapillarySurface>& surfaces, const LoftOptions& options)
 {
-    options.validate();
-    if (meshes.size() != fields.size()) {
-        throw Error(ErrorCode::InvalidArgument, "fields must have " + std::to_string(meshes.size()) +
-                                                    " entries, one per mesh, not " + std::to_string(fields.size()));
-    }
-    if (!options.bases.empty() && options.bases.size() != meshes.size()) {
-        throw Error(ErrorCode::InvalidArgument, std::to_string(options.bases.size()) +
-                                                    " bases must be none, or as many as the " +
-                                                    std::to_string(meshes.size()) + " meshes");
-    }
-    std::vector<std::vector<WetPart>> wet(meshes.size());
-    for (std::size_t k = 0; k < meshes.size(); ++k) {
-        check(meshes[k], fields[k], options, k);
-        if (!options.bases.empty() && options.bases[k].loop_starts != meshes[k].loop_starts) {
-            throw Error(ErrorCode::InvalidArgument, "bases[" + std::to_string(k) + "] must have the rim of its mesh");
-        }
-    }
-    tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) {
-        if (hasDry(fields[k])) {
-            wet[k] = wetParts(meshes[k], fields[k], options.ground);
+    check(surfaces, options);
+    std::vector<std::optional<std::vector<CapillarySurface>>> wet(surfaces.size());
+    tbb::parallel_for(std::size_t{0}, surfaces.size(), [&](std::size_t k) {
+        const bool keeps_dry = !surfaces[k].isHeightField() && (options.keeps_dry || !options.ground.flat());
+        if (!surfaces[k].dry.empty() && !keeps_dry) {
+            wet[k] = wetParts(surfaces[k], options.ground);
         }
     });
-    if (options.refill) {
-        check(meshes, fields, *options.refill);
-    }
-    std::vector<Piece> pieces = piecesOf(meshes, fields, wet, options);
+    std::vector<Piece> pieces = piecesOf(surfaces, wet, options);
     if (pieces.empty()) {
-        throw Error(ErrorCode::InvalidArgument, "fields must leave some liquid; all of the footprint is dry");
+        throw Error(ErrorCode::InvalidArgument, "surfaces must leave some liquid; all of the footprint is dry");
     }
-    const Counts total = assignPlaces(pieces, options.open);
+    const Counts total = assignPlaces(pieces);
     Surface surface;
     surface.positions.resize(total.vertices);
     surface.normals.resize(total.vertices);
@@ -357,90 +298,24 @@ Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightFiel
         surface.refill =
             Refill{range.min, range.max, {{2.0, std::vector<Vec3>(total.vertices), std::vector<Vec3>(total.vertices)}}};
     }
-    std::vector<Extent> extents(pieces.size());
     tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t k) {
-        fillLiquid(*pieces[k].mesh, *pieces[k].field, options, pieces[k].liquid, surface);
-        if (!options.open) {
-            fillBase(pieces[k], options, surface);
-        }
-        if (options.refill) {  // without dry ground, pieces are the droplets
-            fillRefill(*pieces[k].mesh, options.refill->gains[k], pieces[k].liquid.vertices, surface);
-        }
-        extents[k] = extentOf(*pieces[k].mesh, *pieces[k].field);
-    });
-    Extent whole;
-    for (const Extent& extent : extents) {
-        whole.volume += extent.volume;
-        whole.area += extent.area;
-    }
-    surface.mean_height = whole.volume / whole.area;
-    surface.parts = partsOf(pieces, extents, total);
-    return surface;
-}
-
-Surface loft(const ParametricSheet& sheet, const LoftOptions& options)
-{
-    options.validate();
-    const PlanarMesh& footprint = sheet.footprint;
-    if (sheet.rim != footprint.rimVertexCount() || sheet.contact_angle.size() != sheet.rim) {
-        throw Error(ErrorCode::InvalidArgument, "the sheet's rim must be that of its footprint");
-    }
-    if (options.ground.flat() && !options.keeps_dry) {
-        if (const std::optional<std::vector<ParametricSheet>> parts = wetParts(sheet)) {
-            return loftAll(*parts, options);
-        }
-    }
-    HeightField ground;
-    if (!options.ground.flat()) {
-        ground.ground = heightsUnder(footprint, options.ground);
-    }
-    Piece piece{
-        0, &footprint, &ground, !options.ground.flat(), {}, {}, {sheet.vertices.size(), sheet.triangles.size()}};
-    Counts total = piece.base;
-    if (!options.open) {
-        if (!piece.mirrored) {
-            piece.cover = options.bases.empty() ? cover(footprint) : options.bases.front();
-        }
-        total.vertices += piece.baseMesh().vertices.size();
-        total.triangles += piece.baseMesh().triangles.size();
-    }
-    Surface surface;
-    surface.positions = sheet.vertices;
-    surface.triangles = sheet.triangles;
-    surface.normals.resize(total.vertices);
-    for (const Triangle& t : sheet.triangles) {
-        const Vec3 normal = areaVector(sheet.vertices, t);
-        for (const std::uint32_t v : t) {
-            surface.normals[v] = surface.normals[v] + normal;
-        }
-    }
-    // On the rim the mean is one-sided; there the contact angle is exact.
-    const std::vector<Vec2> outward = rimNormals(footprint);
-    for (std::uint32_t v = 0; v < sheet.rim; ++v) {
-        const Vec2 slope = options.ground.at(footprint.vertices[v]).gradient;
-        const Vec2 along{-outward[v].y, outward[v].x};
-        const Vec3 up = normalOf(slope);
-        const Vec3 side = cross({along.x, along.y, dot(slope, along)}, up);
-        surface.normals[v] =
-            std::sin(sheet.contact_angle[v]) / length(side) * side + std::cos(sheet.contact_angle[v]) * up;
-    }
-    surface.contact_angle.assign(sheet.contact_angle.begin(), sheet.contact_angle.end());
-    const FlatMap map = options.flatten ? flatMap(sheet) : projected(sheet);
-    surface.texture_map = map.kind;
-    for (std::uint32_t v = 0; v < sheet.vertices.size(); ++v) {
-        surface.normals[v] = (1.0 / length(surface.normals[v])) * surface.normals[v];
-        surface.uvs.push_back(textureAt(map.places[v], options));
-        surface.weld.push_back(v);
-    }
-    surface.positions.resize(total.vertices);
-    surface.uvs.resize(total.vertices);
-    surface.contact_angle.resize(total.vertices, 0.0F);
-    surface.weld.resize(total.vertices);
-    surface.triangles.resize(total.triangles);
-    if (!options.open) {
+        Piece& piece = pieces[k];
+        fillLiquid(piece, options, surface);
         fillBase(piece, options, surface);
+        if (options.refill) {  // without dry ground, pieces are the droplets
+            fillRefill(*piece.liquid, options.refill->gains[k], piece.begin.vertices, surface);
+        }
+        measure(piece, options.ground);
+    });
+    double volume = 0.0;
+    double area = 0.0;
+    for (const Piece& piece : pieces) {
+        volume += piece.volume;
+        area += piece.area;
+        surface.texture_map = std::max(surface.texture_map, piece.texture_map);
     }
-    surface.parts = {{.vertices = total.vertices, .triangles = total.triangles, .area = area(footprint)}};
+    surface.mean_height = volume / area;
+    surface.parts = partsOf(pieces, total);
     return surface;
 }
 

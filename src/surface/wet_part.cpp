@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "droplet/mesh/triangulate.h"
-#include "shape/sheet_mesh.h"
-#include "surface/rim_normals.h"
+#include "shape/area_vector.h"
 
 namespace droplet {
 namespace {
@@ -37,20 +36,6 @@ std::vector<Triangle> wetTriangles(const std::vector<Triangle>& triangles, const
         }
     }
     return wet;
-}
-
-std::vector<Triangle> liquidTriangles(const PlanarMesh& mesh, const HeightField& field)
-{
-    std::vector<Triangle> liquid;
-    liquid.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) {
-        const bool grounded =
-            std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return mesh.onRim(v) || field.dry[v] != 0; });
-        if (!grounded) {
-            liquid.push_back(t);
-        }
-    }
-    return liquid;
 }
 
 /// Opposite half-edge of every half-edge, or kNone on the boundary.
@@ -152,9 +137,6 @@ struct Part {
                                                         ///< or one of them, twice
     std::vector<std::uint32_t> loop_starts;
     std::vector<Triangle> triangles;
-
-    [[nodiscard]] std::uint32_t rimVertexCount() const { return loop_starts.back(); }
-    [[nodiscard]] bool isMiddle(std::size_t vertex) const { return origins[vertex][0] != origins[vertex][1]; }
 };
 
 /// Makes all parts.
@@ -303,112 +285,81 @@ std::vector<Part> partsOf(std::vector<Triangle> triangles, const std::vector<Vec
     return PartMaker(std::move(triangles), places).makeAll();
 }
 
-WetPart wetPart(Part&& part, const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
-{
-    WetPart result;
-    result.field.pressure = field.pressure;
-    for (std::size_t v = 0; v < part.origins.size(); ++v) {
-        const auto [a, b] = part.origins[v];
-        const bool is_middle = part.isMiddle(v);
-        const Vec2 p = is_middle ? 0.5 * (mesh.vertices[a] + mesh.vertices[b]) : mesh.vertices[a];
-        const bool is_inside = v >= part.rimVertexCount();
-        result.mesh.vertices.push_back(p);
-        result.field.height.push_back(is_middle ? ground.at(p).height : field.height[a]);
-        result.field.dry.push_back(is_inside && (is_middle || field.dry[a] != 0) ? 1 : 0);
-        if (!field.ground.empty()) {
-            result.field.ground.push_back(is_middle ? result.field.height.back() : field.ground[a]);
-        }
-    }
-    const std::uint32_t rim = part.rimVertexCount();
-    result.mesh.loop_starts = std::move(part.loop_starts);
-    result.mesh.triangles = std::move(part.triangles);
-    // Along a new rim the liquid has the slope of the ground.
-    const std::vector<Vec2> outward = rimNormals(result.mesh);
-    for (std::uint32_t v = 0; v < rim; ++v) {
-        const std::uint32_t origin = part.origins[v].front();
-        const bool is_old = mesh.onRim(origin);
-        result.field.contact_angle.push_back(is_old ? field.contact_angle[origin] : 0.0);
-        result.field.rim_slope.push_back(is_old ? field.rim_slope[origin]
-                                                : -dot(ground.at(result.mesh.vertices[v]).gradient, outward[v]));
-    }
-    return result;
-}
-
 bool hasDry(const std::vector<std::uint8_t>& is_dry)
 {
     return std::find(is_dry.begin(), is_dry.end(), 1) != is_dry.end();
 }
 
-/// Which triangles of a sheet lie on flat ground, face up: all but those at vertices at which liquid would touch
-/// itself.
-std::vector<std::uint8_t> dryTriangles(const ParametricSheet& sheet)
+/// Keeps triangles at vertices at which liquid would touch itself otherwise.
+void keepPinches(const CapillarySurface& surface, std::vector<std::uint8_t>& is_dry)
 {
-    std::vector<std::uint8_t> is_dry;
-    for (const Triangle& t : sheet.triangles) {
-        const bool is_grounded =
-            std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return sheet.vertices[v].z <= 0.0; });
-        is_dry.push_back(is_grounded && areaVector(sheet.vertices, t).z >= 0.0 ? 1 : 0);
-    }
     for (bool has_changed = hasDry(is_dry); has_changed;) {
-        const Manifold liquid = manifoldOf(wetTriangles(sheet.triangles, is_dry), sheet.vertices.size());
-        std::vector<std::uint8_t> is_passed(sheet.vertices.size(), 0);
-        std::vector<std::uint8_t> is_pinch(sheet.vertices.size(), 0);
+        const Manifold liquid = manifoldOf(wetTriangles(surface.triangles, is_dry), surface.vertices.size());
+        std::vector<std::uint8_t> is_passed(surface.vertices.size(), 0);
+        std::vector<std::uint8_t> is_pinch(surface.vertices.size(), 0);
         for (const std::uint32_t h : liquid.boundary) {
             const std::uint32_t v = liquid.triangles[h / 3][h % 3];
             is_pinch[v] = std::exchange(is_passed[v], std::uint8_t{1});
         }
         has_changed = false;
         for (std::size_t k = 0; k < is_dry.size(); ++k) {
-            const Triangle& t = sheet.triangles[k];
+            const Triangle& t = surface.triangles[k];
             if (is_dry[k] != 0 && std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return is_pinch[v] != 0; })) {
                 is_dry[k] = 0;
                 has_changed = true;
             }
         }
     }
-    return is_dry;
+}
+
+CapillarySurface surfaceOf(Part&& part, const CapillarySurface& whole, const BaseSurface& ground)
+{
+    CapillarySurface own;
+    own.loop_starts = std::move(part.loop_starts);
+    own.triangles = std::move(part.triangles);
+    own.pressure = whole.pressure;
+    for (std::uint32_t v = 0; v < part.origins.size(); ++v) {
+        const auto [a, b] = part.origins[v];
+        const bool is_middle = a != b;
+        Vec3 place = 0.5 * (whole.vertices[a] + whole.vertices[b]);
+        if (is_middle && !ground.flat()) {
+            place.z = ground.at({place.x, place.y}).height;
+        }
+        own.vertices.push_back(is_middle ? place : whole.vertices[a]);
+        own.dry.push_back(!own.onRim(v) && (is_middle || whole.dry[a] != 0) ? 1 : 0);
+        if (own.onRim(v)) {
+            own.contact_angle.push_back(whole.onRim(a) ? whole.contact_angle[a] : 0.0);
+        }
+    }
+    if (whole.footprint) {
+        own.footprint = cover(rimOf(own));
+    }
+    return own;
 }
 
 }  // namespace
 
-std::vector<WetPart> wetParts(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
+std::optional<std::vector<CapillarySurface>> wetParts(const CapillarySurface& surface, const BaseSurface& ground)
 {
-    std::vector<WetPart> result;
-    for (Part& part : partsOf(liquidTriangles(mesh, field), mesh.vertices)) {
-        result.push_back(wetPart(std::move(part), mesh, field, ground));
+    std::vector<std::uint8_t> is_dry;
+    for (const Triangle& t : surface.triangles) {
+        is_dry.push_back(isDry(surface, t) ? 1 : 0);
     }
-    return result;
-}
-
-std::optional<std::vector<ParametricSheet>> wetParts(const ParametricSheet& sheet)
-{
-    const std::vector<std::uint8_t> is_dry = dryTriangles(sheet);
+    if (!surface.isHeightField()) {
+        keepPinches(surface, is_dry);
+    }
     if (!hasDry(is_dry)) {
         return std::nullopt;
     }
     std::vector<Vec2> seen_from_above;
-    for (const Vec3& p : sheet.vertices) {
+    for (const Vec3& p : surface.vertices) {
         seen_from_above.push_back({p.x, p.y});
     }
-    std::vector<ParametricSheet> result;
-    for (Part& part : partsOf(wetTriangles(sheet.triangles, is_dry), seen_from_above)) {
-        ParametricSheet& own = result.emplace_back();
-        own.rim = part.rimVertexCount();
-        own.pressure = sheet.pressure;
-        for (std::size_t v = 0; v < part.origins.size(); ++v) {
-            const auto [a, b] = part.origins[v];
-            own.vertices.push_back(part.isMiddle(v) ? 0.5 * (sheet.vertices[a] + sheet.vertices[b])
-                                                    : sheet.vertices[a]);
-            if (v < own.rim) {
-                own.contact_angle.push_back(a < sheet.rim ? sheet.contact_angle[a] : 0.0);
-                own.footprint.vertices.push_back({own.vertices[v].x, own.vertices[v].y});
-            }
-        }
-        own.triangles = std::move(part.triangles);
-        own.footprint.loop_starts = std::move(part.loop_starts);
-        own.footprint = cover(own.footprint);
+    std::vector<CapillarySurface> parts;
+    for (Part& part : partsOf(wetTriangles(surface.triangles, is_dry), seen_from_above)) {
+        parts.push_back(surfaceOf(std::move(part), surface, ground));
     }
-    return result;
+    return parts;
 }
 
 }  // namespace droplet

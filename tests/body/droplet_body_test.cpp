@@ -20,9 +20,12 @@
 #include "droplet/error.h"
 #include "droplet/shape/solve.h"
 #include "droplet/units.h"
+#include "support/heights.h"
 
 namespace droplet {
 namespace {
+
+using testing::heightsOf;
 
 constexpr double kVolume = 20e-9;
 constexpr Vec3 kDown{0.0, 0.0, -9.81};
@@ -251,7 +254,7 @@ double solvedHeight(const DropletBodies& bodies, const Made& made, double volume
     options.fill = {FillBy::Volume, volume, FillSharing::Each};
     const Solution solution = solve({mesh}, options);
     EXPECT_TRUE(solution.report.usable());
-    const std::vector<double>& height = solution.droplets.at(0).height;
+    const std::vector<double> height = heightsOf(solution.droplets.at(0));
     return *std::max_element(height.begin(), height.end());
 }
 

@@ -23,9 +23,11 @@
 
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
+#include "droplet/shape/sheet.h"
 #include "droplet/units.h"
 #include "support/command.h"
 #include "support/domains.h"
+#include "support/heights.h"
 
 namespace droplet {
 namespace {
@@ -35,6 +37,7 @@ using testing::CommandResult;
 using testing::domainOf;
 using testing::ellipseLoop;
 using ::testing::HasSubstr;
+using testing::heightsOf;
 using testing::polygonLoop;
 using testing::reversed;
 using testing::runProgram;
@@ -225,14 +228,13 @@ Statement recomputed(const Datafile& file)
 /// Droplets with given heights.
 struct Droplets {
     std::vector<PlanarMesh> meshes;
-    std::vector<HeightField> fields;
+    std::vector<CapillarySurface> fields;
     SolveOptions options;
-    std::vector<std::optional<ParametricSheet>> sheets = {};
 
     [[nodiscard]] std::string written() const
     {
         std::ostringstream out;
-        const std::uint64_t bytes = writeEvolver(out, meshes, fields, sheets, options);
+        const std::uint64_t bytes = writeEvolver(out, fields, options);
         EXPECT_TRUE(out.good());
         EXPECT_EQ(bytes, out.str().size());
         return out.str();
@@ -241,19 +243,21 @@ struct Droplets {
 
 using Function = std::function<double(Vec2)>;
 
-/// Field of given heights, without the results of solving.
-HeightField fieldOf(const PlanarMesh& mesh, const Function& thickness, const Function& ground = {})
+/// Ground of a given height, whose slope does not count.
+BaseSurface groundOf(const Function& height)
 {
-    HeightField field;
+    return BaseSurface([height](Vec2 p) { return GroundPoint{height(p), {}}; });
+}
+
+/// Field of a given thickness, without the results of solving.
+CapillarySurface fieldOf(const PlanarMesh& mesh, const Function& thickness, const BaseSurface& ground = {})
+{
+    std::vector<double> heights;
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
         const Vec2 p = mesh.vertices[v];
-        const double h = ground ? ground(p) : 0.0;
-        field.height.push_back((mesh.onRim(v) ? 0.0 : thickness(p)) + h);
-        if (ground) {
-            field.ground.push_back(h);
-        }
+        heights.push_back((mesh.onRim(v) ? 0.0 : thickness(p)) + ground.at(p).height);
     }
-    return field;
+    return testing::fieldOn(mesh, heights);
 }
 
 /// A square with a hole and a disc beside it, 10 mm and 4 mm wide, with all forces and a curved ground.
@@ -273,10 +277,10 @@ Droplets awkwardDroplets(FillSharing sharing)
     droplets.options.tilt = 100.0 * kDegree;  // beyond vertical: gravity also pulls away from the ground
     droplets.options.tilt_direction = 20.0 * kDegree;
     droplets.options.fill.sharing = sharing;
-    const Function wavy = [](Vec2 p) { return 1e-4 * std::sin(1e3 * p.x) - 20.0 * p.y * p.y; };
+    droplets.options.ground = groundOf([](Vec2 p) { return 1e-4 * std::sin(1e3 * p.x) - 20.0 * p.y * p.y; });
     for (const PlanarMesh& mesh : droplets.meshes) {
         droplets.fields.push_back(fieldOf(
-            mesh, [](Vec2 p) { return 1e-3 * (1.0 + 0.3 * std::cos(700.0 * (p.x - p.y))); }, wavy));
+            mesh, [](Vec2 p) { return 1e-3 * (1.0 + 0.3 * std::cos(700.0 * (p.x - p.y))); }, droplets.options.ground));
         droplets.fields.back().pressure = 36.4 * static_cast<double>(droplets.fields.size());
     }
     return droplets;
@@ -297,8 +301,9 @@ TEST(Evolver, DatafileHasTheTriangulation)
             const double unit = std::abs(written.place.x) > 0.0 ? mesh.vertices[v].x / written.place.x : 1e-2;
             EXPECT_NEAR(unit, 1e-2, 1e-16);
             EXPECT_NEAR(written.place.y, 1e2 * mesh.vertices[v].y, 1e-15);
-            EXPECT_NEAR(written.place.z, 1e2 * droplets.fields[k].height[v], 1e-16);
-            EXPECT_NEAR(file.groundAt(vertex), 1e2 * droplets.fields[k].ground[v], 1e-16);
+            EXPECT_NEAR(written.place.z, 1e2 * droplets.fields[k].vertices[v].z, 1e-16);
+            EXPECT_NEAR(file.groundAt(vertex), 1e2 * testing::groundAt(droplets.fields[k], v, droplets.options.ground),
+                        1e-16);
             EXPECT_EQ(written.words.find(" fixed") != std::string::npos, mesh.onRim(v)) << written.words;
         }
         for (const Triangle& t : mesh.triangles) {
@@ -392,19 +397,20 @@ TEST(Evolver, DatafileGivesFactorsToSi)
     const double weight = droplets.options.liquid.density * droplets.options.gravity;
     for (std::size_t k = 0; k < droplets.meshes.size(); ++k) {
         const PlanarMesh& mesh = droplets.meshes[k];
-        const HeightField& field = droplets.fields[k];
+        const CapillarySurface& field = droplets.fields[k];
         for (const Triangle& t : mesh.triangles) {
             const double third = doubleArea(mesh, t) / 6.0;
             std::array<Vec3, 3> p;
             for (std::size_t i = 0; i < 3; ++i) {
-                p[i] = {mesh.vertices[t[i]].x, mesh.vertices[t[i]].y, field.height[t[i]]};
-                height = std::max(height, field.thicknessAt(t[i]));
+                p[i] = {mesh.vertices[t[i]].x, mesh.vertices[t[i]].y, field.vertices[t[i]].z};
+                height = std::max(height, testing::thicknessAt(field, t[i], droplets.options.ground));
             }
             energy += 0.5 * sigma * length(cross(p[1] - p[0], p[2] - p[0]));
             for (std::size_t i = 0; i < 3; ++i) {
                 const std::size_t j = (i + 1) % 3;
                 const Vec3 m = 0.5 * (p[i] + p[j]);
-                const double h = 0.5 * (field.ground[t[i]] + field.ground[t[j]]);
+                const double h = 0.5 * (testing::groundAt(field, t[i], droplets.options.ground) +
+                                        testing::groundAt(field, t[j], droplets.options.ground));
                 const double downhill =
                     m.x * std::cos(droplets.options.tilt_direction) + m.y * std::sin(droplets.options.tilt_direction);
                 volume += third * (m.z - h);
@@ -424,9 +430,7 @@ TEST(Evolver, DatafileHasOnlyTheForcesThatAct)
 {
     Droplets droplets = awkwardDroplets(FillSharing::Each);
     droplets.options.tilt = 0.0;
-    for (HeightField& field : droplets.fields) {
-        field.ground.clear();
-    }
+    droplets.options.ground = {};
     const Datafile level = parsed(droplets.written());
     EXPECT_EQ(level.top.find("tilt"), std::string::npos);
     EXPECT_EQ(level.top.find("constraint"), std::string::npos);
@@ -449,7 +453,7 @@ TEST(Evolver, RefusesInconsistentInput)
     const auto refusal = [](const Droplets& droplets) {
         std::ostringstream out;
         try {
-            writeEvolver(out, droplets.meshes, droplets.fields, droplets.sheets, droplets.options);
+            writeEvolver(out, droplets.fields, droplets.options);
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
             EXPECT_EQ(out.str(), "");
@@ -457,19 +461,16 @@ TEST(Evolver, RefusesInconsistentInput)
         }
         return std::string();
     };
-    EXPECT_EQ(refusal({{}, {}, good.options}), "meshes must hold at least one droplet");
+    EXPECT_EQ(refusal({{}, {}, good.options}), "surfaces must hold at least one droplet");
     Droplets bad = good;
-    bad.fields.pop_back();
-    EXPECT_EQ(refusal(bad), "fields has 1 droplets, meshes 2");
+    bad.fields[1].vertices.pop_back();
+    EXPECT_THAT(refusal(bad), HasSubstr("triangles of its own vertices"));
     bad = good;
-    bad.fields[1].height.pop_back();
-    EXPECT_THAT(refusal(bad), HasSubstr("fields[1] has "));
+    bad.fields[1].contact_angle.pop_back();
+    EXPECT_THAT(refusal(bad), HasSubstr("a contact angle for every rim vertex"));
     bad = good;
-    bad.fields[1].ground.pop_back();
-    EXPECT_THAT(refusal(bad), HasSubstr("fields[1] has "));
-    bad = good;
-    bad.fields[0].height.back() = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(refusal(bad), "fields[0] must be finite");
+    bad.fields[0].vertices.back().z = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(refusal(bad), "surfaces[0] must be finite");
     bad = good;
     bad.options.liquid.surface_tension = 0.0;
     EXPECT_NE(refusal(bad), "");
@@ -586,9 +587,10 @@ TEST(Evolver, EvolverKnowsWhatLiesUnderTheGround)
         Droplets droplets = unitDisc(0.4, 0.1);
         droplets.options.gravity = 2.0;
         droplets.options.tilt = 40.0 * kDegree;
+        droplets.options.ground =
+            groundOf([i](Vec2 p) { return 0.1 * p.x * p.x - 0.2 * p.y + (i == 0 ? 0.0 : kRaised); });
         droplets.fields = {fieldOf(
-            droplets.meshes[0], [](Vec2 p) { return 0.3 * (1.0 - dot(p, p)); },
-            [&](Vec2 p) { return 0.1 * p.x * p.x - 0.2 * p.y + (i == 0 ? 0.0 : kRaised); })};
+            droplets.meshes[0], [](Vec2 p) { return 0.3 * (1.0 - dot(p, p)); }, droplets.options.ground)};
         found[i] = evolved(droplets, "equilibrate; report");
         weight = parsed(droplets.written()).parameters.at("weight");
     }
@@ -604,9 +606,9 @@ TEST(Evolver, EvolverKnowsWhatLiesUnderTheGround)
 TEST(Evolver, EvolverKeepsAboveTheGround)
 {
     Droplets droplets = unitDisc(0.1, 0.1);
-    const Function hill = [](Vec2 p) { return 0.5 * std::pow(1.0 - dot(p, p), 2.0); };
+    droplets.options.ground = groundOf([](Vec2 p) { return 0.5 * std::pow(1.0 - dot(p, p), 2.0); });
     droplets.fields = {fieldOf(
-        droplets.meshes[0], [](Vec2 p) { return 0.1 * (1.0 - dot(p, p)); }, hill)};
+        droplets.meshes[0], [](Vec2 p) { return 0.1 * (1.0 - dot(p, p)); }, droplets.options.ground)};
     const std::string commands = "equilibrate; printf \"energy %g height 0\\n\", min(vertex, z - ground)";
     EXPECT_LT(evolved(droplets, commands).energy, -0.01);
     droplets.options.no_penetration = true;
@@ -709,9 +711,7 @@ TEST(Evolver, EvolverAgreesOnSheets)
         droplets.options.fill = {FillBy::ContactAngle, bead.degrees * kDegree, FillSharing::Each};
         SheetResult result = solveSheet(droplets.meshes.front(), droplets.options);
         ASSERT_EQ(result.end, SheetEnd::Reached);
-        droplets.fields.resize(1);
-        droplets.fields.front().pressure = result.sheet.pressure;
-        droplets.sheets.emplace_back(std::move(result.sheet));
+        droplets.fields = {std::move(result.surface)};
         const Statement ours = statementIn(parsed(droplets.written()).opening);
         const Statement theirs = evolved(droplets, "equilibrate; report");
         EXPECT_NEAR(ours.energy, theirs.energy, 1e-9 * std::abs(theirs.energy));

@@ -159,7 +159,7 @@ TEST(Follow, HeightsMatchThoseOfANewMesh)
         const auto moved = follow(mesh, mesh, ellipse);
         ASSERT_TRUE(moved);
         const auto error = [&](const PlanarMesh& on) {
-            const ShapeFigures figures = measure(on, solve({on}, options).droplets.at(0), options);
+            const ShapeFigures figures = measure(solve({on}, options).droplets.at(0), options);
             return std::abs(figures.height_max / height - 1.0);
         };
         const double fresh = error(meshOf(ellipse, triangles));

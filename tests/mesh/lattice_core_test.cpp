@@ -184,7 +184,7 @@ TEST(LatticeCore, LayersAndSeamFollowTheirDefinitions)
                 EXPECT_EQ(mesh.vertices[seam[k]], points[k]);
             }
             EXPECT_EQ(on_seam.size(), core.fixedCount() - eroded(fixed).size());
-            for (const GridRun& run : regularRuns(mesh)) {
+            for (const GridRun& run : regularRuns(mesh.lattice.get())) {
                 for (std::uint32_t k = 0; k < run.count; ++k) {
                     EXPECT_FALSE(on_seam.contains(run.first + k));
                     // The neighbours are at the places that the run gives.

@@ -83,8 +83,8 @@ TEST(FollowedSheets, ABeadThatMovesKeepsItsShape)
     ASSERT_TRUE(frames[1].continues);
     EXPECT_EQ(frames[1].droplets[0].volume, frames[0].droplets[0].volume);
     const Vec3 way{2.0 * kPixel, 0.0, 0.0};
-    const ParametricSheet& from = *frames[0].droplet.sheets[0];
-    const ParametricSheet& to = *frames[1].droplet.sheets[0];
+    const CapillarySurface& from = frames[0].droplet.solution.droplets[0];
+    const CapillarySurface& to = frames[1].droplet.solution.droplets[0];
     for (std::size_t v = 0; v < from.vertices.size(); ++v) {
         ASSERT_LT(length(to.vertices[v] - from.vertices[v] - way), 0.01 * kPixel) << v;
     }
@@ -108,8 +108,9 @@ TEST(FollowedSheets, RoundedCornersAndTheirBasesMoveAlong)
         return trace(testing::hardMask(300, 300, inside), {.pixel_size = 0.2 * kPixel});
     };
     const Frame first = firstFrame(outline(120), options);
-    ASSERT_FALSE(first.droplet.sheets.empty());
-    EXPECT_NE(first.droplet.sheets[0]->footprint.rimVertexCount(), first.droplet.meshes[0].rimVertexCount());
+    const CapillarySurface& surface = first.droplet.solution.droplets[0];
+    ASSERT_FALSE(surface.isHeightField());
+    EXPECT_NE(surface.rimVertexCount(), first.droplet.meshes[0].rimVertexCount());
     Frame last = first;
     for (const double size : {122.0, 124.0}) {
         last = nextFrame(last, outline(size), options);
@@ -131,8 +132,9 @@ TEST(FollowedSheets, HeightFieldsMayBeBesideThem)
     }
     const std::vector<Frame> frames = framesOf(masks, optionsFor(70.0));
     for (std::size_t k = 0; k < frames.size(); ++k) {
-        ASSERT_EQ(frames[k].droplet.sheets.size(), 2U);
-        EXPECT_NE(frames[k].droplet.sheets[0].has_value(), frames[k].droplet.sheets[1].has_value());
+        const std::vector<CapillarySurface>& surfaces = frames[k].droplet.solution.droplets;
+        ASSERT_EQ(surfaces.size(), 2U);
+        EXPECT_NE(surfaces[0].isHeightField(), surfaces[1].isHeightField());
         EXPECT_EQ(frames[k].continues, k > 0);
     }
 }

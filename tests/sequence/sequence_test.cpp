@@ -120,7 +120,7 @@ TEST(Sequence, TotalKeepsTheVolumeAndOnePressureWhateverTheTopology)
         EXPECT_EQ(frame.volume_gained, 0.0);
         EXPECT_EQ(frame.volume_lost, 0.0);
     }
-    const std::vector<HeightField>& two = frames.back().droplet.solution.droplets;
+    const std::vector<CapillarySurface>& two = frames.back().droplet.solution.droplets;
     ASSERT_EQ(two.size(), 2U);
     EXPECT_NEAR(two[0].pressure / two[1].pressure, 1.0, 1e-9);
 }

@@ -17,6 +17,7 @@
 #include "droplet/units.h"
 #include "support/domains.h"
 #include "support/equilibrium.h"
+#include "support/heights.h"
 
 namespace droplet {
 namespace {
@@ -24,6 +25,7 @@ namespace {
 using testing::discMeshes;
 using testing::domainOf;
 using testing::ellipseLoop;
+using testing::heightsOf;
 using testing::integrate;
 using testing::integrateRim;
 using testing::polygonLoop;
@@ -32,20 +34,20 @@ using testing::unitOptions;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Field from functions of the place.
-HeightField fieldOf(const PlanarMesh& mesh, const std::function<double(Vec2)>& height,
-                    const std::function<double(Vec2)>& ground = {})
+/// Field from a function of the place.
+CapillarySurface fieldOf(const PlanarMesh& mesh, const std::function<double(Vec2)>& height)
 {
-    HeightField field;
+    std::vector<double> heights;
     for (const Vec2 p : mesh.vertices) {
-        field.height.push_back(height(p));
-        if (ground) {
-            field.ground.push_back(ground(p));
-        }
+        heights.push_back(height(p));
     }
-    field.rim_slope.assign(mesh.rimVertexCount(), 0.0);
-    field.contact_angle.assign(mesh.rimVertexCount(), 0.0);
-    return field;
+    return testing::fieldOn(mesh, heights);
+}
+
+/// Ground of a given height, whose slope does not count.
+BaseSurface groundOf(const std::function<double(Vec2)>& height)
+{
+    return BaseSurface([height](Vec2 p) { return GroundPoint{height(p), {}}; });
 }
 
 std::vector<PlanarMesh> square(double side, double edge)
@@ -56,12 +58,12 @@ std::vector<PlanarMesh> square(double side, double edge)
 TEST(Figures, OfAnInclinedPlaneAreExact)
 {
     const std::vector<PlanarMesh> meshes = square(2.0, 0.1);
-    const HeightField field = fieldOf(meshes[0], [](Vec2 p) { return 0.5 + 0.75 * p.x; });
+    const CapillarySurface field = fieldOf(meshes[0], [](Vec2 p) { return 0.5 + 0.75 * p.x; });
     SolveOptions options = unitOptions(Model::Linear, 3.0, 1.0);
     options.liquid = {"other", 0.5, 2.0};
     options.tilt = 0.4;
     options.tilt_direction = 0.3;
-    const ShapeFigures figures = measure(meshes[0], field, options);
+    const ShapeFigures figures = measure(field, options);
     EXPECT_NEAR(figures.footprint_area, 4.0, 1e-12);
     EXPECT_NEAR(figures.rim_length, 8.0, 1e-12);
     EXPECT_NEAR(figures.volume, 5.0, 1e-12);
@@ -86,10 +88,10 @@ TEST(Figures, OfAnInclinedPlaneAreExact)
 TEST(Figures, OnGroundAreExact)
 {
     const std::vector<PlanarMesh> meshes = square(2.0, 0.1);
-    const HeightField field = fieldOf(
-        meshes[0], [](Vec2 p) { return 0.5 + 0.75 * p.x; }, [](Vec2 p) { return 1.0 + 0.2 * p.y; });
-    const SolveOptions options = unitOptions(Model::Exact, -2.0, 1.0);
-    const ShapeFigures figures = measure(meshes[0], field, options);
+    const CapillarySurface field = fieldOf(meshes[0], [](Vec2 p) { return 0.5 + 0.75 * p.x; });
+    SolveOptions options = unitOptions(Model::Exact, -2.0, 1.0);
+    options.ground = groundOf([](Vec2 p) { return 1.0 + 0.2 * p.y; });
+    const ShapeFigures figures = measure(field, options);
     // ∫h = 4 · 1.2
     EXPECT_NEAR(figures.volume, 5.0 - 4.8, 1e-12);
     EXPECT_NEAR(figures.height_max, 2.0 - 1.0, 1e-12);
@@ -107,32 +109,34 @@ TEST(Figures, AgreeWithBruteForce)
         triangulate(domainOf(ellipseLoop(1, 0.8), {reversed(ellipseLoop(0.3, 0.2))}), {.edge = 0.07});
     const auto height = [](Vec2 p) { return 0.4 * std::sin(2 * p.x + 1) + 0.9 * p.y * p.y; };
     const auto ground = [](Vec2 p) { return 0.2 * std::cos(3 * p.x * p.y); };
-    const HeightField field = fieldOf(meshes[0], height, ground);
+    const CapillarySurface field = fieldOf(meshes[0], height);
     SolveOptions options = unitOptions(Model::Exact, 1.7, 1.0);
+    options.ground = groundOf(ground);
     options.tilt = 2.0;
     options.tilt_direction = -0.6;
-    const ShapeFigures figures = measure(meshes[0], field, options);
+    const ShapeFigures figures = measure(field, options);
+    std::vector<double> below;
     std::vector<double> thickness;
-    for (std::uint32_t v = 0; v < field.height.size(); ++v) {
-        thickness.push_back(field.thicknessAt(v));
+    for (std::uint32_t v = 0; v < field.vertices.size(); ++v) {
+        below.push_back(testing::groundAt(field, v, options.ground));
+        thickness.push_back(field.vertices[v].z - below.back());
     }
     const auto square_of = [](Vec2, double u) { return u * u; };
     const Vec2 down{std::cos(-0.6), std::sin(-0.6)};
     const double head = integrate(meshes[0], thickness, [&](Vec2 p, double u) { return dot(p, down) * u; });
     EXPECT_NEAR(figures.volume, integrate(meshes[0], thickness, [](Vec2, double u) { return u; }), 1e-12);
-    EXPECT_NEAR(
-        figures.gravity_energy,
-        0.5 * 1.7 * std::cos(2.0) *
-                (integrate(meshes[0], field.height, square_of) - integrate(meshes[0], field.ground, square_of)) -
-            1.7 * std::sin(2.0) * head,
-        1e-12);
+    EXPECT_NEAR(figures.gravity_energy,
+                0.5 * 1.7 * std::cos(2.0) *
+                        (integrate(meshes[0], heightsOf(field), square_of) - integrate(meshes[0], below, square_of)) -
+                    1.7 * std::sin(2.0) * head,
+                1e-12);
     double liquid_area = 0.0;
     double linear_area = 0.0;
     double steep_area = 0.0;
     double steepest = 0.0;
     for (const Triangle& t : meshes[0].triangles) {
         const double area = 0.5 * doubleArea(meshes[0], t);
-        const Vec2 g = testing::gradientOn(meshes[0], t, field.height);
+        const Vec2 g = testing::gradientOn(meshes[0], t, heightsOf(field));
         liquid_area += area * std::hypot(1.0, g.x, g.y);
         linear_area += area * (1.0 + 0.5 * dot(g, g));
         steep_area += std::atan(length(g)) > 50 * kDegree ? area : 0.0;
@@ -154,11 +158,11 @@ TEST(Figures, SteepAreaIsSteeperThanFiftyDegrees)
     const std::vector<PlanarMesh> meshes = discMeshes(0.02);
     const double steep = std::tan(60 * kDegree);
     const double gentle = std::tan(30 * kDegree);
-    const HeightField field = fieldOf(meshes[0], [=](Vec2 p) {
+    const CapillarySurface field = fieldOf(meshes[0], [=](Vec2 p) {
         const double r = length(p);
         return gentle * (1.0 - std::max(r, 0.5)) + steep * std::max(0.5 - r, 0.0);
     });
-    const ShapeFigures figures = measure(meshes[0], field, unitOptions(Model::Linear, 0.0, 1.0));
+    const ShapeFigures figures = measure(field, unitOptions(Model::Linear, 0.0, 1.0));
     // Error of less than an edge around its border.
     EXPECT_NEAR(figures.steep_area, 0.25 * kPi, kPi * 0.02);
     // Near the tip the interpolant is up to 2/√3 times as steep.
@@ -172,11 +176,11 @@ TEST(Figures, ContactAngleHasPlacesAndAMeanByLength)
     const std::vector<PlanarMesh> meshes =
         triangulate(domainOf(ellipseLoop(1, 1), {reversed(ellipseLoop(0.3, 0.3))}), {.edge = 0.05, .grading = 4});
     const PlanarMesh& mesh = meshes[0];
-    HeightField field = fieldOf(mesh, [](Vec2) { return 0.0; });
+    CapillarySurface field = fieldOf(mesh, [](Vec2) { return 0.0; });
     for (std::uint32_t v = 0; v < mesh.rimVertexCount(); ++v) {
         field.contact_angle[v] = 0.7 + 0.2 * mesh.vertices[v].x + (v < mesh.loop_starts[1] ? 0.0 : 0.05);
     }
-    const ContactAngle angle = measure(mesh, field, unitOptions(Model::Linear, 0.0, 1.0)).contact_angle;
+    const ContactAngle angle = measure(field, unitOptions(Model::Linear, 0.0, 1.0)).contact_angle;
     EXPECT_NEAR(angle.mean,
                 integrateRim(mesh, [&](std::uint32_t v, Vec2) { return field.contact_angle[v]; }) / rimLength(mesh),
                 1e-12);
@@ -195,20 +199,21 @@ TEST(Figures, DryGroundIsNotLiquid)
     const std::vector<PlanarMesh> meshes = square(2.0, 0.1);
     const PlanarMesh& mesh = meshes[0];
     const auto ramp = [](Vec2 p) { return std::max(0.0, p.x - 1.0) * (2.0 - p.x) * p.y * (2.0 - p.y); };
-    HeightField field = fieldOf(mesh, ramp);
+    CapillarySurface field = fieldOf(mesh, ramp);
     field.dry.assign(mesh.vertices.size(), 0);
     double dry_area = 0.0;
     for (std::uint32_t v = mesh.rimVertexCount(); v < mesh.vertices.size(); ++v) {
-        field.dry[v] = field.height[v] == 0.0 ? 1 : 0;
+        field.dry[v] = field.vertices[v].z == 0.0 ? 1 : 0;
     }
     double liquid_area = 0.0;
     for (const Triangle& t : mesh.triangles) {
         const double area = 0.5 * doubleArea(mesh, t);
-        const Vec2 g = testing::gradientOn(mesh, t, field.height);
-        const bool dry = field.height[t[0]] == 0.0 && field.height[t[1]] == 0.0 && field.height[t[2]] == 0.0;
+        const Vec2 g = testing::gradientOn(mesh, t, heightsOf(field));
+        const bool dry =
+            field.vertices[t[0]].z == 0.0 && field.vertices[t[1]].z == 0.0 && field.vertices[t[2]].z == 0.0;
         (dry ? dry_area : liquid_area) += dry ? area : area * std::hypot(1.0, g.x, g.y);
     }
-    const ShapeFigures figures = measure(mesh, field, unitOptions(Model::Linear, 0.0, 1.0));
+    const ShapeFigures figures = measure(field, unitOptions(Model::Linear, 0.0, 1.0));
     EXPECT_NEAR(figures.dry_area, dry_area, 1e-12);
     EXPECT_NEAR(figures.dry_area, 2.0, 0.2);
     EXPECT_NEAR(figures.liquid_area, liquid_area, 1e-12);

@@ -18,6 +18,7 @@
 #include "shape/constrained.h"
 #include "shape/hierarchy.h"
 #include "support/domains.h"
+#include "support/heights.h"
 #include "support/operators.h"
 #include "support/zoo.h"
 
@@ -26,6 +27,7 @@ namespace {
 
 using testing::domainOf;
 using testing::ellipseLoop;
+using testing::heightsOf;
 using testing::weighing;
 
 constexpr Solver kSolvers[] = {Solver::Llt, Solver::Multigrid, Solver::Auto};
@@ -108,12 +110,12 @@ TEST(Solvers, AgreeOnTheZoo)
                     double difference = 0.0;
                     std::size_t not_liquid = 0;
                     for (std::size_t k = 0; k < meshes.size(); ++k) {
-                        const HeightField& field = solution.droplets[k];
-                        const HeightField& wanted = reference.droplets[k];
+                        const CapillarySurface& field = solution.droplets[k];
+                        const CapillarySurface& wanted = reference.droplets[k];
                         EXPECT_NEAR(field.pressure / wanted.pressure, 1.0, 1e-8);
                         for (std::uint32_t v = 0; v < meshes[k].vertices.size(); ++v) {
-                            const double h = field.height[v];
-                            difference = std::max(difference, std::abs(h - wanted.height[v]));
+                            const double h = field.vertices[v].z;
+                            difference = std::max(difference, std::abs(h - wanted.vertices[v].z));
                             not_liquid += meshes[k].onRim(v) ? (h != 0.0) : !(h > 0.0);
                         }
                     }
@@ -212,7 +214,7 @@ TEST(Multigrid, AutoFactorsIfItDoesNotConverge)
     EXPECT_EQ(automatic.report.method, "simplicial-llt");
     ASSERT_TRUE(automatic.report.usable());
     EXPECT_LT(automatic.report.residual, 1e-9);
-    EXPECT_EQ(automatic.droplets[0].height, solved(meshes, 0.0, Solver::Llt).droplets[0].height);
+    EXPECT_EQ(heightsOf(automatic.droplets[0]), heightsOf(solved(meshes, 0.0, Solver::Llt).droplets[0]));
 }
 
 // Only the droplet that does not converge is factored; all droplets are solved.
@@ -223,7 +225,7 @@ TEST(Multigrid, AutoFactorsOnlyDropletsThatDoNotConverge)
     ASSERT_TRUE(both.report.usable());
     EXPECT_EQ(both.report.method, "simplicial-llt");
     EXPECT_GT(both.report.iterations, 1U);
-    EXPECT_EQ(both.droplets[0].height, solved({meshes[0]}, 0.0, Solver::Multigrid).droplets[0].height);
+    EXPECT_EQ(heightsOf(both.droplets[0]), heightsOf(solved({meshes[0]}, 0.0, Solver::Multigrid).droplets[0]));
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include "droplet/units.h"
 #include "support/domains.h"
 #include "support/equilibrium.h"
+#include "support/heights.h"
 #include "support/young_laplace.h"
 
 namespace droplet {
@@ -31,6 +32,7 @@ using testing::domainOf;
 using testing::ellipseLoop;
 using testing::Equilibrium;
 using testing::equilibrium;
+using testing::heightsOf;
 using testing::l2Error;
 using testing::meanOrder;
 using testing::polygonLoop;
@@ -98,7 +100,7 @@ Film exactFilm(double b, double a)
     return film;
 }
 
-void expectKkt(const PlanarMesh& mesh, const HeightField& field, const SolveOptions& options)
+void expectKkt(const PlanarMesh& mesh, const CapillarySurface& field, const SolveOptions& options)
 {
     const Equilibrium found = equilibrium(mesh, field, options);
     EXPECT_LT(found.free_force, 1e-8);
@@ -126,9 +128,9 @@ void expectFilmsConverge(Model model, const Film& film, double b, double a)
         options.no_penetration = true;
         const Solution solution = solve(meshes, options);
         ASSERT_TRUE(solution.report.usable());
-        const HeightField& field = solution.droplets[0];
+        const CapillarySurface& field = solution.droplets[0];
         expectKkt(meshes[0], field, options);
-        const ShapeFigures figures = measure(meshes[0], field, options);
+        const ShapeFigures figures = measure(field, options);
         l2.push_back(l2Error(meshes[0], field, [&](Vec2 p) { return film.height(std::min(length(p), 1.0)); }));
         pressure.push_back(std::abs(field.pressure - film.pressure));
         dry.push_back(std::abs(figures.dry_area - kPi * a * a));
@@ -138,7 +140,7 @@ void expectFilmsConverge(Model model, const Film& film, double b, double a)
         }
         // An error of one edge all around would be 2πa · edge.
         EXPECT_LT(dry.back(), 2.0 * kPi * a * edge);
-        ASSERT_EQ(field.dry.size(), field.height.size());
+        ASSERT_EQ(field.dry.size(), heightsOf(field).size());
         for (std::uint32_t v = 0; v < field.dry.size(); ++v) {
             const double r = length(meshes[0].vertices[v]);
             EXPECT_TRUE(field.dry[v] == 1 || r > a - edge) << r;
@@ -210,7 +212,7 @@ TEST(Penetration, LargeTiltedDiscIsDryAtItsUpperEnd)
     ASSERT_LT(deepest, 0.0);
     const Solution before = solve(meshes, options);
     ASSERT_TRUE(before.report.usable());
-    const ShapeFigures sunk = measure(meshes[0], before.droplets[0], options);
+    const ShapeFigures sunk = measure(before.droplets[0], options);
     EXPECT_NEAR(sunk.depth_max / -deepest, 1.0, 0.01);
     EXPECT_EQ(sunk.dry_area, 0.0);
 
@@ -220,9 +222,9 @@ TEST(Penetration, LargeTiltedDiscIsDryAtItsUpperEnd)
         held.no_penetration = true;
         const Solution after = solve(meshes, held);
         ASSERT_TRUE(after.report.usable());
-        const HeightField& field = after.droplets[0];
+        const CapillarySurface& field = after.droplets[0];
         expectKkt(meshes[0], field, held);
-        const ShapeFigures figures = measure(meshes[0], field, held);
+        const ShapeFigures figures = measure(field, held);
         EXPECT_EQ(figures.depth_max, 0.0);
         EXPECT_NEAR(figures.volume / kVolume, 1.0, 1e-10);
         EXPECT_GT(figures.dry_area, 0.05 * figures.footprint_area);
@@ -248,10 +250,10 @@ TEST(Penetration, DryRimHasNoContactAngle)
     options.no_penetration = true;
     const Solution solution = solve(meshes, options);
     ASSERT_TRUE(solution.report.usable());
-    const HeightField& field = solution.droplets[0];
+    const CapillarySurface& field = solution.droplets[0];
     std::vector<double> wet(meshes[0].rimVertexCount(), 0.0);
     for (const Triangle& t : meshes[0].triangles) {
-        const double thickest = std::max({field.thicknessAt(t[0]), field.thicknessAt(t[1]), field.thicknessAt(t[2])});
+        const double thickest = std::max({field.vertices[t[0]].z, field.vertices[t[1]].z, field.vertices[t[2]].z});
         for (const std::uint32_t v : t) {
             if (meshes[0].onRim(v)) {
                 wet[v] = std::max(wet[v], thickest);
@@ -334,7 +336,7 @@ TEST(Penetration, KktHoldOnAnyFootprintGroundAndTilt)
                             continue;
                         }
                         expectKkt(meshes[0], solution.droplets[0], options);
-                        const double dry = measure(meshes[0], solution.droplets[0], options).dry_area;
+                        const double dry = measure(solution.droplets[0], options).dry_area;
                         EXPECT_EQ(dry > 0.0 && solution.droplets[0].dry.empty(), false);
                         dry_runs += dry > 0.0 ? 1 : 0;
                     }
@@ -360,9 +362,9 @@ TEST(Penetration, ChangesNothingIfNothingSinks)
             EXPECT_TRUE(held.droplets[0].dry.empty());
             EXPECT_NEAR(held.droplets[0].pressure, free.droplets[0].pressure, 1e-9);
             for (std::size_t v = 0; v < meshes[0].vertices.size(); ++v) {
-                EXPECT_NEAR(held.droplets[0].height[v], free.droplets[0].height[v], 1e-9);
+                EXPECT_NEAR(held.droplets[0].vertices[v].z, free.droplets[0].vertices[v].z, 1e-9);
             }
-            EXPECT_EQ(measure(meshes[0], held.droplets[0], options).dry_area, 0.0);
+            EXPECT_EQ(measure(held.droplets[0], options).dry_area, 0.0);
         }
     }
 }
@@ -381,7 +383,7 @@ TEST(Penetration, SolversAgreeAndThreadsDoNotMatter)
             solutions.push_back(solve(meshes, options));
             ASSERT_TRUE(solutions.back().report.usable());
             for (std::size_t v = 0; v < meshes[0].vertices.size(); ++v) {
-                EXPECT_NEAR(solutions.back().droplets[0].height[v], solutions[0].droplets[0].height[v], 1e-8);
+                EXPECT_NEAR(solutions.back().droplets[0].vertices[v].z, solutions[0].droplets[0].vertices[v].z, 1e-8);
             }
             EXPECT_EQ(solutions.back().droplets[0].dry, solutions[0].droplets[0].dry) << solutions.back().report.method;
         }
@@ -393,7 +395,7 @@ TEST(Penetration, SolversAgreeAndThreadsDoNotMatter)
             tbb::task_arena arena(threads);
             arena.execute([&] { runs.push_back(solve(meshes, options)); });
         }
-        EXPECT_EQ(runs[0].droplets[0].height, runs[1].droplets[0].height);
+        EXPECT_EQ(heightsOf(runs[0].droplets[0]), heightsOf(runs[1].droplets[0]));
         EXPECT_EQ(runs[0].droplets[0].dry, runs[1].droplets[0].dry);
         EXPECT_EQ(runs[0].droplets[0].pressure, runs[1].droplets[0].pressure);
     }
@@ -427,7 +429,7 @@ TEST(Penetration, OneReservoirKeepsItsVolume)
             for (std::size_t k = 0; k < meshes.size(); ++k) {
                 EXPECT_EQ(solution.droplets[k].pressure, solution.droplets[0].pressure);
                 expectKkt(meshes[k], solution.droplets[k], options);
-                volume += measure(meshes[k], solution.droplets[k], options).volume;
+                volume += measure(solution.droplets[k], options).volume;
             }
             EXPECT_NEAR(volume / 0.9, 1.0, 1e-8);
         }
@@ -445,14 +447,14 @@ TEST(Penetration, HeightAndMeanAngleAreMet)
         const Solution by_height = solve(meshes, options);
         ASSERT_TRUE(by_height.report.usable());
         expectKkt(meshes[0], by_height.droplets[0], options);
-        const ShapeFigures tall = measure(meshes[0], by_height.droplets[0], options);
+        const ShapeFigures tall = measure(by_height.droplets[0], options);
         EXPECT_NEAR(tall.height_max / 0.2, 1.0, 1e-8);
         EXPECT_GT(tall.dry_area, 0.0);
         options.fill = {FillBy::ContactAngle, 15 * kDegree, FillSharing::Each};
         const Solution by_angle = solve(meshes, options);
         ASSERT_TRUE(by_angle.report.usable());
         expectKkt(meshes[0], by_angle.droplets[0], options);
-        const ShapeFigures wide = measure(meshes[0], by_angle.droplets[0], options);
+        const ShapeFigures wide = measure(by_angle.droplets[0], options);
         EXPECT_NEAR(wide.contact_angle.mean / (15 * kDegree), 1.0, 1e-6);
         EXPECT_GT(wide.dry_area, 0.0);
     }

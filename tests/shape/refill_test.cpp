@@ -15,14 +15,18 @@
 
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
+#include "droplet/shape/figures.h"
 #include "droplet/units.h"
+#include "shape/recovered_normals.h"
 #include "support/grounded.h"
+#include "support/heights.h"
 #include "support/masks.h"
 
 namespace droplet {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::heightsOf;
 using testing::volumeOf;
 
 /// Three droplets of different sizes, one with a hole.
@@ -98,7 +102,7 @@ TEST_P(Refill, EqualsASolutionForThatFill)
     std::vector<double> volumes;
     double total = 0.0;
     for (std::size_t k = 0; k < footprints.size(); ++k) {
-        volumes.push_back(volumeOf(footprints[k], solution.droplets[k]));
+        volumes.push_back(measure(solution.droplets[k], options).volume);
         total += volumes.back();
     }
     const bool shared = options.fill.sharing == FillSharing::Total;
@@ -110,15 +114,18 @@ TEST_P(Refill, EqualsASolutionForThatFill)
         const Solution together = shared ? solve(footprints, again) : Solution{};
         for (std::size_t k = 0; k < footprints.size(); ++k) {
             again.fill.amount = fill * volumes[k];
-            const HeightField wanted = shared ? together.droplets[k] : solve({footprints[k]}, again).droplets.at(0);
-            const HeightField& field = solution.droplets[k];
-            const double height = largest(wanted.height);
-            for (std::size_t v = 0; v < wanted.height.size(); ++v) {
-                ASSERT_NEAR(field.height[v] + (fill - 1) * gains[k].height[v], wanted.height[v], 1e-8 * height);
+            const CapillarySurface wanted =
+                shared ? together.droplets[k] : solve({footprints[k]}, again).droplets.at(0);
+            const CapillarySurface& field = solution.droplets[k];
+            const double height = largest(heightsOf(wanted));
+            for (std::size_t v = 0; v < wanted.vertices.size(); ++v) {
+                ASSERT_NEAR(field.vertices[v].z + (fill - 1) * gains[k].height[v], wanted.vertices[v].z, 1e-8 * height);
             }
-            const double slope = largest(wanted.rim_slope);
-            for (std::size_t v = 0; v < wanted.rim_slope.size(); ++v) {
-                ASSERT_NEAR(field.rim_slope[v] + (fill - 1) * gains[k].rim_slope[v], wanted.rim_slope[v], 1e-7 * slope);
+            const std::vector<double> slopes = rimSlopes(field, options.ground);
+            const std::vector<double> wanted_slopes = rimSlopes(wanted, options.ground);
+            const double slope = largest(wanted_slopes);
+            for (std::size_t v = 0; v < slopes.size(); ++v) {
+                ASSERT_NEAR(slopes[v] + (fill - 1) * gains[k].rim_slope[v], wanted_slopes[v], 1e-7 * slope);
             }
             EXPECT_NEAR(field.pressure + (fill - 1) * gains[k].pressure, wanted.pressure,
                         1e-7 * std::abs(wanted.pressure));
@@ -136,22 +143,21 @@ TEST_P(Refill, GainHasTheVolumeOfOneFillAndIsZeroOnTheRim)
     double before = 0.0;
     double gained = 0.0;
     for (std::size_t k = 0; k < footprints.size(); ++k) {
-        HeightField gain;
-        gain.height = gains[k].height;
-        for (std::uint32_t v = 0; v < footprints[k].rimVertexCount(); ++v) {
-            EXPECT_EQ(gain.height[v], 0.0);
+        const CapillarySurface gain = testing::fieldOn(footprints[k], gains[k].height);
+        for (std::uint32_t v = 0; v < gain.rimVertexCount(); ++v) {
+            EXPECT_EQ(gain.vertices[v].z, 0.0);
         }
-        const double volume = volumeOf(footprints[k], solution.droplets[k]);
+        const double volume = measure(solution.droplets[k], options).volume;
         if (options.fill.sharing == FillSharing::Each) {
-            EXPECT_NEAR(volumeOf(footprints[k], gain) / volume, 1.0, 1e-9);
+            EXPECT_NEAR(measure(gain, {}).volume / volume, 1.0, 1e-9);
         }
         before += volume;
-        gained += volumeOf(footprints[k], gain);
+        gained += measure(gain, {}).volume;
     }
     EXPECT_NEAR(gained / before, 1.0, 1e-9);
 }
 
-std::string refusalOf(const SolveOptions& options, std::vector<HeightField> fields)
+std::string refusalOf(const SolveOptions& options, std::vector<CapillarySurface> fields)
 {
     try {
         gainsPerFill(meshes(), fields, options);
@@ -164,7 +170,7 @@ std::string refusalOf(const SolveOptions& options, std::vector<HeightField> fiel
 TEST(RefillRefuses, OptionsThatAreNotAffine)
 {
     const SolveOptions linear;
-    const std::vector<HeightField> fields = solve(meshes(), linear).droplets;
+    const std::vector<CapillarySurface> fields = solve(meshes(), linear).droplets;
     EXPECT_EQ(refusalOf(linear, fields), "");
     SolveOptions exact;
     exact.model = Model::Exact;
@@ -178,8 +184,10 @@ TEST(RefillRefuses, OptionsThatAreNotAffine)
 
 TEST(RefillRefuses, DropletsWithoutLiquid)
 {
-    std::vector<HeightField> fields = solve(meshes()).droplets;
-    std::fill(fields[1].height.begin(), fields[1].height.end(), 0.0);
+    std::vector<CapillarySurface> fields = solve(meshes()).droplets;
+    for (Vec3& p : fields[1].vertices) {
+        p.z = 0.0;
+    }
     EXPECT_THAT(refusalOf({}, fields), HasSubstr("droplet 2 of 3"));
 }
 

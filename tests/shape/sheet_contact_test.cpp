@@ -16,13 +16,13 @@ namespace droplet {
 namespace {
 
 /// Cap of 140° on a disc of radius 1: it reaches out by 1/sin 140° = 1.556.
-SheetMesh cap()
+CapillarySurface cap()
 {
     const double angle = 140.0 * std::numbers::pi / 180.0;
     return fillSheet(testing::discMeshes(0.15).front(), {FillBy::ContactAngle, angle}, {{}, 0.3, 0.3}).mesh;
 }
 
-SheetMesh moved(SheetMesh sheet, double x)
+CapillarySurface moved(CapillarySurface sheet, double x)
 {
     for (Vec3& place : sheet.vertices) {
         place.x += x;
@@ -32,11 +32,11 @@ SheetMesh moved(SheetMesh sheet, double x)
 
 TEST(SheetContact, FindsNeighboursThatTouch)
 {
-    const SheetMesh one = cap();
+    const CapillarySurface one = cap();
     const double reach = 1.0 / std::sin(140.0 * std::numbers::pi / 180.0);
-    const SheetMesh far = moved(one, 2.05 * reach);
+    const CapillarySurface far = moved(one, 2.05 * reach);
     EXPECT_FALSE(firstContact({&one, &far}));
-    const SheetMesh near = moved(one, 1.95 * reach);
+    const CapillarySurface near = moved(one, 1.95 * reach);
     const std::optional<SheetContact> contact = firstContact({&one, &near});
     EXPECT_TRUE(firstContact({&one, &near}, {0, 1}));
     EXPECT_FALSE(firstContact({&one, &near}, {0, 0})) << "one cluster";
@@ -51,11 +51,11 @@ TEST(SheetContact, FindsNeighboursThatTouch)
 // A needle that faces up everywhere stands below an overhang: its tip is under it, within it, or above all of it.
 TEST(SheetContact, FindsWhatStandsBelowAnOverhang)
 {
-    const SheetMesh bead = cap();
+    const CapillarySurface bead = cap();
     const PlanarMesh disc = testing::discMeshes(0.3).front();
     for (const double height : {0.05, 0.7, 5.0}) {
         for (const double x : {1.25, 2.0}) {
-            SheetMesh needle{{}, disc.triangles, disc.rimVertexCount()};
+            CapillarySurface needle{.triangles = disc.triangles, .loop_starts = disc.loop_starts};
             for (const Vec2 p : disc.vertices) {
                 needle.vertices.push_back({x + 0.1 * p.x, 0.1 * p.y, height * std::max(0.0, 1.0 - length(p))});
             }
@@ -67,11 +67,11 @@ TEST(SheetContact, FindsWhatStandsBelowAnOverhang)
 
 TEST(SheetContact, FindsASheetThatCrossesItself)
 {
-    SheetMesh sheet = cap();
+    CapillarySurface sheet = cap();
     EXPECT_FALSE(firstContact({&sheet}));
     // A vertex of the side is pushed through the other side.
-    std::size_t side = sheet.rim;
-    for (std::size_t v = sheet.rim; v < sheet.vertices.size(); ++v) {
+    std::size_t side = sheet.rimVertexCount();
+    for (std::size_t v = sheet.rimVertexCount(); v < sheet.vertices.size(); ++v) {
         side = sheet.vertices[v].x > sheet.vertices[side].x ? v : side;
     }
     sheet.vertices[side].x = -2.0;

@@ -39,7 +39,7 @@ Problem capProblem(double edge, double pressure)
         directions.push_back((1.0 / length(force)) * force);
     }
     return {SheetPattern(cap.mesh).hessian(cap.mesh, directions, {}, pressure * cap.pressure),
-            {cap.mesh.vertices.begin() + cap.mesh.rim, cap.mesh.vertices.end()}};
+            {cap.mesh.vertices.begin() + cap.mesh.rimVertexCount(), cap.mesh.vertices.end()}};
 }
 
 TEST(SheetFactor, CountsNegativeEigenvaluesAndSolves)

@@ -56,14 +56,14 @@ PlanarMesh moved(const PlanarMesh& mesh, const std::function<Vec2(Vec2)>& motion
     return moveRim(mesh, rim);
 }
 
-double energyOf(const ParametricSheet& sheet, const SolveOptions& options)
+double energyOf(const CapillarySurface& sheet, const SolveOptions& options)
 {
     const ShapeFigures figures = measure(sheet, options);
     return figures.surface_energy + figures.gravity_energy;
 }
 
 /// Largest distance of a sheet's vertices from where a motion brings those of another.
-double gap(const ParametricSheet& from, const ParametricSheet& to, const std::function<Vec3(Vec3)>& motion)
+double gap(const CapillarySurface& from, const CapillarySurface& to, const std::function<Vec3(Vec3)>& motion)
 {
     double largest = 0.0;
     for (std::size_t v = 0; v < from.vertices.size(); ++v) {
@@ -79,15 +79,15 @@ TEST(SheetFollow, ABeadOnAGrowingDiscIsACap)
     // The bead is four times as large as its footprint, and has as many triangles.
     const SheetResult first = solveSheet(discMeshes(0.035).front(), options);
     ASSERT_EQ(first.end, SheetEnd::Reached);
-    ParametricSheet last = first.sheet;
+    CapillarySurface last = first.surface;
     double radius = 1.0;
     for (int frame = 1; frame <= 10; ++frame) {
         radius *= 1.01;
-        const PlanarMesh footprint = moved(first.sheet.footprint, [&](Vec2 p) { return radius * p; });
-        const SheetResult next = follow(first.sheet, last, footprint, options);
+        const PlanarMesh footprint = moved(*first.surface.footprint, [&](Vec2 p) { return radius * p; });
+        const SheetResult next = follow(first.surface, last, footprint, options);
         ASSERT_EQ(next.end, SheetEnd::Reached) << frame;
-        EXPECT_EQ(next.sheet.triangles, first.sheet.triangles);
-        last = next.sheet;
+        EXPECT_EQ(next.surface.triangles, first.surface.triangles);
+        last = next.surface;
     }
     const double ball = radius / std::sin(angle);
     const ShapeFigures figures = measure(last, options);
@@ -96,7 +96,7 @@ TEST(SheetFollow, ABeadOnAGrowingDiscIsACap)
     EXPECT_NEAR(figures.liquid_area, 2.0 * kPi * ball * ball * (1.0 - std::cos(angle)), 5e-4 * figures.liquid_area);
     EXPECT_NEAR(last.pressure, 2.0 / ball, 6e-4 * last.pressure);
     // Without gravity all of it grows alike.
-    EXPECT_LT(gap(first.sheet, last, [&](Vec3 p) { return radius * p; }), 1e-8);
+    EXPECT_LT(gap(first.surface, last, [&](Vec3 p) { return radius * p; }), 1e-8);
 }
 
 TEST(SheetFollow, APuddleOnAGrowingDiscIsAsSolvedAnew)
@@ -104,23 +104,23 @@ TEST(SheetFollow, APuddleOnAGrowingDiscIsAsSolvedAnew)
     SolveOptions options = optionsFor(2.0, {FillBy::Volume, 3.0, FillSharing::Each});
     const SheetResult first = solveSheet(discMeshes(0.05).front(), options);
     ASSERT_EQ(first.end, SheetEnd::Reached);
-    ParametricSheet last = first.sheet;
+    CapillarySurface last = first.surface;
     double radius = 1.0;
     for (int frame = 1; frame <= 10; ++frame) {
         radius *= 1.01;
         options.fill.amount *= 1.02;
-        const PlanarMesh footprint = moved(first.sheet.footprint, [&](Vec2 p) { return radius * p; });
-        const SheetResult next = follow(first.sheet, last, footprint, options);
+        const PlanarMesh footprint = moved(*first.surface.footprint, [&](Vec2 p) { return radius * p; });
+        const SheetResult next = follow(first.surface, last, footprint, options);
         ASSERT_EQ(next.end, SheetEnd::Reached) << frame;
         EXPECT_NEAR(next.volume, options.fill.amount, 1e-10 * options.fill.amount);
-        EXPECT_NEAR(measure(next.sheet, options).volume, options.fill.amount, 1e-10 * options.fill.amount);
-        last = next.sheet;
+        EXPECT_NEAR(measure(next.surface, options).volume, options.fill.amount, 1e-10 * options.fill.amount);
+        last = next.surface;
     }
-    EXPECT_EQ(last.triangles, first.sheet.triangles);
-    const SheetResult anew = solveSheet(last.footprint, options);
+    EXPECT_EQ(last.triangles, first.surface.triangles);
+    const SheetResult anew = solveSheet(*last.footprint, options);
     ASSERT_EQ(anew.end, SheetEnd::Reached);
-    EXPECT_NEAR(energyOf(last, options), energyOf(anew.sheet, options), 3e-4 * energyOf(anew.sheet, options));
-    EXPECT_NEAR(last.pressure, anew.sheet.pressure, 1e-3 * anew.sheet.pressure);
+    EXPECT_NEAR(energyOf(last, options), energyOf(anew.surface, options), 3e-4 * energyOf(anew.surface, options));
+    EXPECT_NEAR(last.pressure, anew.surface.pressure, 1e-3 * anew.surface.pressure);
     EXPECT_NEAR(measure(last, options).contact_angle.mean, anew.contact_angle, 0.1 * kDegree);
 }
 
@@ -133,11 +133,11 @@ TEST(SheetFollow, ABeadThatMovesKeepsItsShape)
     ASSERT_EQ(first.end, SheetEnd::Reached);
     const Vec2 way{0.08, -0.06};
     const SheetResult next =
-        follow(first.sheet, first.sheet, moved(first.sheet.footprint, [&](Vec2 p) { return p + way; }), options);
+        follow(first.surface, first.surface, moved(*first.surface.footprint, [&](Vec2 p) { return p + way; }), options);
     ASSERT_EQ(next.end, SheetEnd::Reached);
-    EXPECT_LT(gap(first.sheet, next.sheet, [&](Vec3 p) { return p + Vec3{way.x, way.y, 0.0}; }), 1e-9);
+    EXPECT_LT(gap(first.surface, next.surface, [&](Vec3 p) { return p + Vec3{way.x, way.y, 0.0}; }), 1e-9);
     EXPECT_NEAR(next.volume, first.volume, 1e-9 * first.volume);
-    EXPECT_NE(next.sheet.pressure, first.sheet.pressure);
+    EXPECT_NE(next.surface.pressure, first.surface.pressure);
 }
 
 TEST(SheetFollow, AnEllipseThatTurnsIsAsSolvedAnew)
@@ -149,7 +149,7 @@ TEST(SheetFollow, AnEllipseThatTurnsIsAsSolvedAnew)
     ASSERT_EQ(first.end, SheetEnd::Reached);
     // Rim vertices go to the nearest place on the turned ellipse: they do not turn with it.
     PlanarMesh mesh = start;
-    ParametricSheet last = first.sheet;
+    CapillarySurface last = first.surface;
     for (int frame = 1; frame <= 8; ++frame) {
         const double turn = 5.0 * kDegree * frame;
         std::vector<Vec2> points;
@@ -160,15 +160,15 @@ TEST(SheetFollow, AnEllipseThatTurnsIsAsSolvedAnew)
         const std::optional<PlanarMesh> footprint = follow(start, mesh, {smoothLoop(points), {}});
         ASSERT_TRUE(footprint);
         mesh = *footprint;
-        const SheetResult next = follow(first.sheet, last, mesh, options);
+        const SheetResult next = follow(first.surface, last, mesh, options);
         ASSERT_EQ(next.end, SheetEnd::Reached) << frame;
-        EXPECT_EQ(next.sheet.triangles, first.sheet.triangles);
-        EXPECT_NEAR(measure(next.sheet, options).contact_angle.mean, 115.0 * kDegree, 1e-8);
-        EXPECT_NEAR(energyOf(next.sheet, options), energyOf(first.sheet, options),
-                    1e-3 * energyOf(first.sheet, options))
+        EXPECT_EQ(next.surface.triangles, first.surface.triangles);
+        EXPECT_NEAR(measure(next.surface, options).contact_angle.mean, 115.0 * kDegree, 1e-8);
+        EXPECT_NEAR(energyOf(next.surface, options), energyOf(first.surface, options),
+                    1e-3 * energyOf(first.surface, options))
             << frame;
-        EXPECT_NEAR(next.sheet.pressure, first.sheet.pressure, 1e-3 * first.sheet.pressure) << frame;
-        last = next.sheet;
+        EXPECT_NEAR(next.surface.pressure, first.surface.pressure, 1e-3 * first.surface.pressure) << frame;
+        last = next.surface;
     }
 }
 
@@ -179,12 +179,12 @@ TEST(SheetFollow, ABeadThatTurnsAtOnceKeepsItsShape)
     ASSERT_EQ(first.end, SheetEnd::Reached);
     const double c = std::cos(15.0 * kDegree);
     const double s = std::sin(15.0 * kDegree);
-    const PlanarMesh footprint = moved(first.sheet.footprint, [=](Vec2 p) {
+    const PlanarMesh footprint = moved(*first.surface.footprint, [=](Vec2 p) {
         return Vec2{c * p.x - s * p.y, s * p.x + c * p.y};
     });
-    const SheetResult next = follow(first.sheet, first.sheet, footprint, options);
+    const SheetResult next = follow(first.surface, first.surface, footprint, options);
     ASSERT_EQ(next.end, SheetEnd::Reached);
-    EXPECT_LT(gap(first.sheet, next.sheet,
+    EXPECT_LT(gap(first.surface, next.surface,
                   [=](Vec3 p) {
                       return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
                   }),
@@ -198,19 +198,19 @@ TEST(SheetFollow, RoundedInnerCornersMoveAlong)
     const SolveOptions options = optionsFor(0.0, angleOf(60.0));
     const SheetResult first = solveSheet(el, options);
     ASSERT_EQ(first.end, SheetEnd::Reached);
-    ASSERT_NE(first.sheet.footprint.rimVertexCount(), el.rimVertexCount());
+    ASSERT_NE(first.surface.footprint->rimVertexCount(), el.rimVertexCount());
     const auto bent = [](Vec2 p) { return Vec2{1.02 * p.x + 0.01 * p.y * p.y, p.y + 0.03 * p.x}; };
     const PlanarMesh after = moved(el, bent);
-    std::vector<Vec2> points(first.sheet.footprint.vertices.begin(),
-                             first.sheet.footprint.vertices.begin() + first.sheet.footprint.rimVertexCount());
-    const PlanarMesh footprint = moveRim(first.sheet.footprint, carryPoints(el, after, points));
-    EXPECT_NEAR(area(footprint) / area(after), area(first.sheet.footprint) / area(el), 1e-4);
-    const SheetResult next = follow(first.sheet, first.sheet, footprint, options);
+    std::vector<Vec2> points(first.surface.footprint->vertices.begin(),
+                             first.surface.footprint->vertices.begin() + first.surface.footprint->rimVertexCount());
+    const PlanarMesh footprint = moveRim(*first.surface.footprint, carryPoints(el, after, points));
+    EXPECT_NEAR(area(footprint) / area(after), area(*first.surface.footprint) / area(el), 1e-4);
+    const SheetResult next = follow(first.surface, first.surface, footprint, options);
     ASSERT_EQ(next.end, SheetEnd::Reached);
     const SheetResult anew = solveSheet(after, options);
     ASSERT_EQ(anew.end, SheetEnd::Reached);
     EXPECT_NEAR(next.volume, anew.volume, 5e-3 * anew.volume);
-    EXPECT_NEAR(next.sheet.pressure, anew.sheet.pressure, 5e-3 * anew.sheet.pressure);
+    EXPECT_NEAR(next.surface.pressure, anew.surface.pressure, 5e-3 * anew.surface.pressure);
 }
 
 TEST(SheetFollow, TellsWhatItCannotFollow)
@@ -218,9 +218,9 @@ TEST(SheetFollow, TellsWhatItCannotFollow)
     const SolveOptions options = optionsFor(0.0, angleOf(120.0));
     const SheetResult first = solveSheet(discMeshes(0.15).front(), options);
     ASSERT_EQ(first.end, SheetEnd::Reached);
-    const ParametricSheet& sheet = first.sheet;
+    const CapillarySurface& sheet = first.surface;
     const auto endOf = [&](const std::function<Vec2(Vec2)>& motion) {
-        return follow(sheet, sheet, moved(sheet.footprint, motion), options).end;
+        return follow(sheet, sheet, moved(*sheet.footprint, motion), options).end;
     };
     EXPECT_EQ(endOf([](Vec2 p) { return 1.2 * p; }), SheetEnd::Reached);
     EXPECT_NE(endOf([](Vec2 p) { return 1.6 * p; }), SheetEnd::Reached) << "triangles would be too large";
@@ -238,15 +238,15 @@ TEST(SheetFollow, GivesTheSameBitsAtAnyNumberOfThreads)
 {
     const SolveOptions options = optionsFor(1.0, angleOf(120.0));
     const SheetResult first = solveSheet(discMeshes(0.1).front(), options);
-    const PlanarMesh footprint = moved(first.sheet.footprint, [](Vec2 p) { return Vec2{1.04 * p.x, 0.98 * p.y}; });
+    const PlanarMesh footprint = moved(*first.surface.footprint, [](Vec2 p) { return Vec2{1.04 * p.x, 0.98 * p.y}; });
     std::vector<SheetResult> results;
     for (const std::size_t threads : {1U, 2U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        results.push_back(follow(first.sheet, first.sheet, footprint, options));
+        results.push_back(follow(first.surface, first.surface, footprint, options));
     }
     ASSERT_EQ(results.front().end, SheetEnd::Reached);
-    EXPECT_EQ(results[0].sheet.vertices, results[1].sheet.vertices);
-    EXPECT_EQ(results[0].sheet.pressure, results[1].sheet.pressure);
+    EXPECT_EQ(results[0].surface.vertices, results[1].surface.vertices);
+    EXPECT_EQ(results[0].surface.pressure, results[1].surface.pressure);
 }
 
 TEST(CarryPoints, FollowTheWholeRim)

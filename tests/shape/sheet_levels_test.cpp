@@ -52,7 +52,7 @@ PlanarMesh rounded(const Domain& domain, double edge)
     return roundInward(mesh, 0.5 * edge, edge).value_or(mesh);
 }
 
-SheetMesh filled(const PlanarMesh& footprint, double edge, double volume)
+CapillarySurface filled(const PlanarMesh& footprint, double edge, double volume)
 {
     const FilledSheet sheet = fillSheet(footprint, {FillBy::Volume, volume}, {{}, edge, edge, 0});
     EXPECT_EQ(sheet.end, SheetEnd::Reached);
@@ -60,12 +60,12 @@ SheetMesh filled(const PlanarMesh& footprint, double edge, double volume)
 }
 
 /// Checks that the boundary is the footprint's rim, on the ground, and that every other edge has two triangles.
-void expectSheetOver(const PlanarMesh& footprint, const SheetMesh& sheet)
+void expectSheetOver(const PlanarMesh& footprint, const CapillarySurface& sheet)
 {
-    ASSERT_EQ(sheet.rim, footprint.rimVertexCount());
+    ASSERT_EQ(sheet.rimVertexCount(), footprint.rimVertexCount());
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (const Triangle& t : sheet.triangles) {
-        EXPECT_FALSE(std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return v < sheet.rim; }));
+        EXPECT_FALSE(std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return v < sheet.rimVertexCount(); }));
         EXPECT_GT(length(areaVector(sheet.vertices, t)), 0.0);
         for (std::size_t a = 0; a < 3; ++a) {
             ++edges[{t[a], t[(a + 1) % 3]}];
@@ -101,8 +101,8 @@ TEST(SheetDivide, KeepsTheTopologyAndTakesTheFineRim)
     for (const Domain& domain : domains) {
         const PlanarMesh coarse = rounded(domain, 0.1);
         const PlanarMesh fine = rounded(domain, 0.05);
-        const SheetMesh sheet = filled(coarse, 0.1, 0.2 * area(coarse));
-        const std::optional<SheetMesh> divided = divide(sheet, coarse, fine);
+        const CapillarySurface sheet = filled(coarse, 0.1, 0.2 * area(coarse));
+        const std::optional<CapillarySurface> divided = divide(sheet, coarse, fine);
         ASSERT_TRUE(divided);
         expectSheetOver(fine, *divided);
         EXPECT_NEAR(static_cast<double>(divided->triangles.size()), 4.0 * static_cast<double>(sheet.triangles.size()),
@@ -125,7 +125,7 @@ TEST(SheetDivide, FindsHolesInAnyOrder)
     };
     const PlanarMesh coarse = rounded(domainOf(outer, {shifted(0.8), shifted(2.2)}), 0.1);
     const PlanarMesh fine = rounded(domainOf(outer, {shifted(2.2), shifted(0.8)}), 0.05);
-    const std::optional<SheetMesh> divided = divide(filled(coarse, 0.1, 0.5), coarse, fine);
+    const std::optional<CapillarySurface> divided = divide(filled(coarse, 0.1, 0.5), coarse, fine);
     ASSERT_TRUE(divided);
     expectSheetOver(fine, *divided);
     EXPECT_FALSE(divide(filled(coarse, 0.1, 0.5), coarse, rounded(domainOf(outer, {shifted(0.8)}), 0.05)));
@@ -138,12 +138,12 @@ TEST(SheetDivide, StaysOnASphere)
     std::vector<double> errors;
     for (const double edge : {0.2, 0.1, 0.05}) {
         const PlanarMesh coarse = discMeshes(edge).front();
-        SheetMesh sheet = filled(coarse, edge, cap.volume());
-        for (std::size_t v = sheet.rim; v < sheet.vertices.size(); ++v) {
+        CapillarySurface sheet = filled(coarse, edge, cap.volume());
+        for (std::size_t v = sheet.rimVertexCount(); v < sheet.vertices.size(); ++v) {
             const Vec3 arm = sheet.vertices[v] - cap.centre();
             sheet.vertices[v] = cap.centre() + (cap.radius() / length(arm)) * arm;
         }
-        const std::optional<SheetMesh> divided = divide(sheet, coarse, discMeshes(0.5 * edge).front());
+        const std::optional<CapillarySurface> divided = divide(sheet, coarse, discMeshes(0.5 * edge).front());
         ASSERT_TRUE(divided);
         double error = 0.0;
         for (const Vec3& p : divided->vertices) {
@@ -203,7 +203,7 @@ TEST(SheetLevels, AgreeWithThePathOnTheFinestMesh)
     ASSERT_EQ(whole.end, SheetEnd::Reached);
     EXPECT_NEAR(nested->angle, target.amount, 1e-8);
     EXPECT_LT(work, whole.work);
-    const SheetMesh made =
+    const CapillarySurface made =
         fillSheet(levels.back().footprint, {FillBy::Volume, nested->volume}, levels.back().options).mesh;
     const double energy = integrate(made, {}).area;
     EXPECT_NEAR(integrate(nested->mesh, {}).area, energy, kEdge * kEdge * energy);
@@ -216,9 +216,9 @@ TEST(SheetLevels, AgreeWithThePathOnTheFinestMesh)
 TEST(SheetLevels, ChordStepsFindTheSameEquilibrium)
 {
     const PlanarMesh mesh = discMeshes(0.1).front();
-    const SheetMesh start = filled(mesh, 0.1, 1.0);
+    const CapillarySurface start = filled(mesh, 0.1, 1.0);
     const auto solved = [&](double chord) {
-        SheetMesh sheet = start;
+        CapillarySurface sheet = start;
         SheetSolver solver(sheet, {});
         double pressure = 2.0;
         const NewtonResult result = solver.solve(sheet, 1.05, pressure, {.chord = chord});

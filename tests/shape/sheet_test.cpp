@@ -39,14 +39,14 @@ using testing::Revolution;
 constexpr double kPi = std::numbers::pi;
 
 /// Dome over the unit disc that is no equilibrium.
-SheetMesh dome()
+CapillarySurface dome()
 {
     const PlanarMesh mesh = discMeshes(0.2).front();
-    SheetMesh sheet{{}, mesh.triangles, mesh.rimVertexCount()};
+    CapillarySurface sheet{.triangles = mesh.triangles, .loop_starts = mesh.loop_starts};
     for (const Vec2 p : mesh.vertices) {
         sheet.vertices.push_back({p.x, p.y, 0.6 * (1.0 - dot(p, p)) * (1.0 + 0.3 * p.x)});
     }
-    for (std::uint32_t v = 0; v < sheet.rim; ++v) {
+    for (std::uint32_t v = 0; v < sheet.rimVertexCount(); ++v) {
         sheet.vertices[v].z = 0.0;
     }
     return sheet;
@@ -54,13 +54,13 @@ SheetMesh dome()
 
 TEST(SheetEnergy, GradientsAreDerivatives)
 {
-    const SheetMesh sheet = dome();
+    const CapillarySurface sheet = dome();
     const Vec3 weight{0.3, -0.2, 1.1};
     const SheetGradients gradients = gradientsOf(sheet, weight);
     constexpr double kStep = 1e-5;
-    for (std::size_t v = sheet.rim; v < sheet.vertices.size(); v += 7) {
+    for (std::size_t v = sheet.rimVertexCount(); v < sheet.vertices.size(); v += 7) {
         for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
-            SheetMesh moved = sheet;
+            CapillarySurface moved = sheet;
             moved.vertices[v].*axis += kStep;
             const SheetIntegrals more = integrate(moved, weight);
             moved.vertices[v].*axis -= 2.0 * kStep;
@@ -73,7 +73,7 @@ TEST(SheetEnergy, GradientsAreDerivatives)
 
 TEST(SheetEnergy, HessianIsTheDerivativeOfTheGradient)
 {
-    const SheetMesh sheet = dome();
+    const CapillarySurface sheet = dome();
     const Vec3 weight{0.3, -0.2, 1.1};
     constexpr double kPressure = 1.3;
     const SheetGradients gradients = gradientsOf(sheet, weight);
@@ -81,14 +81,14 @@ TEST(SheetEnergy, HessianIsTheDerivativeOfTheGradient)
     for (const Vec3& v : gradients.volume) {
         directions.push_back((1.0 / length(v)) * v);
     }
-    const auto unknowns = static_cast<Eigen::Index>(sheet.vertices.size() - sheet.rim);
-    const auto place_of = [&](Eigen::Index i) { return sheet.rim + static_cast<std::size_t>(i); };
+    const auto unknowns = static_cast<Eigen::Index>(sheet.vertices.size() - sheet.rimVertexCount());
+    const auto place_of = [&](Eigen::Index i) { return sheet.rimVertexCount() + static_cast<std::size_t>(i); };
     Eigen::VectorXd motion(unknowns);
     for (Eigen::Index i = 0; i < unknowns; ++i) {
         motion[i] = std::sin(3.0 * static_cast<double>(i));
     }
     const auto forces = [&](double step) {
-        SheetMesh moved = sheet;
+        CapillarySurface moved = sheet;
         for (Eigen::Index i = 0; i < unknowns; ++i) {
             const std::size_t v = place_of(i);
             moved.vertices[v] = moved.vertices[v] + (step * motion[i]) * directions[v];
@@ -170,11 +170,11 @@ RevolutionErrors errorsOf(const Revolution& exact, double edge)
     const SolveOptions options = unitLiquid(exact.weight, FillBy::Volume, exact.volume);
     const SheetResult result = solveSheet(discMeshes(edge).front(), options);
     EXPECT_EQ(result.end, SheetEnd::Reached);
-    const ShapeFigures figures = measure(result.sheet, options);
+    const ShapeFigures figures = measure(result.surface, options);
     EXPECT_NEAR(figures.volume, exact.volume, 1e-10 * exact.volume);
     return {std::abs((figures.surface_energy + figures.gravity_energy) / exact.energy() - 1.0),
-            std::abs(result.sheet.pressure / exact.pressure - 1.0), std::abs(figures.height_max / exact.height - 1.0),
-            std::abs(figures.contact_angle.mean - exact.rim_angle), result.sheet.triangles.size()};
+            std::abs(result.surface.pressure / exact.pressure - 1.0), std::abs(figures.height_max / exact.height - 1.0),
+            std::abs(figures.contact_angle.mean - exact.rim_angle), result.surface.triangles.size()};
 }
 
 /// Puddles of revolution beyond 90°, by their meridian: second order, and small errors at 10 000 triangles or more.
@@ -229,7 +229,7 @@ TEST(Sheet, AnglesAtSingleVerticesConverge)
                 solveSheet(discMeshes(edge).front(), unitLiquid(0.0, FillBy::ContactAngle, degrees * kDegree));
             EXPECT_EQ(result.end, SheetEnd::Reached);
             double largest = 0.0;
-            for (const double angle : result.sheet.contact_angle) {
+            for (const double angle : result.surface.contact_angle) {
                 largest = std::max(largest, std::abs(angle - degrees * kDegree));
             }
             return largest;
@@ -250,8 +250,8 @@ TEST(Sheet, SquaresHaveTheFiguresOfSurfaceEvolver)
     const SolveOptions light = unitLiquid(0.0, FillBy::Volume, 1.6);
     const SheetResult bead = solveSheet(square(1.0, 0.025), light);
     ASSERT_EQ(bead.end, SheetEnd::Reached);
-    EXPECT_NEAR(measure(bead.sheet, light).surface_energy, 5.8192, 2e-3);
-    EXPECT_NEAR(bead.sheet.pressure, 2.6727, 2e-3);
+    EXPECT_NEAR(measure(bead.surface, light).surface_energy, 5.8192, 2e-3);
+    EXPECT_NEAR(bead.surface.pressure, 2.6727, 2e-3);
 
     constexpr double kSide = 4e-3;
     SolveOptions heavy;
@@ -260,7 +260,7 @@ TEST(Sheet, SquaresHaveTheFiguresOfSurfaceEvolver)
     heavy.fill = {FillBy::ContactAngle, 140.0 * kDegree, FillSharing::Each};
     const SheetResult mercury = solveSheet(square(kSide, 0.02 * kSide), heavy);
     ASSERT_EQ(mercury.end, SheetEnd::Reached);
-    const ShapeFigures figures = measure(mercury.sheet, heavy);
+    const ShapeFigures figures = measure(mercury.surface, heavy);
     EXPECT_NEAR(figures.volume / std::pow(kSide, 3), 0.7397, 1e-3);
     EXPECT_NEAR(figures.height_max / kSide, 0.7131, 1e-3);
 }
@@ -273,7 +273,7 @@ TEST(Sheet, IsTheExactHeightFieldWhereThatExists)
     const SolveOptions options = unitLiquid(2.0, FillBy::Volume, 0.1);
     const Solution solution = solve(meshes, options);
     ASSERT_TRUE(solution.report.usable());
-    const ShapeFigures figures = measure(meshes.front(), solution.droplets.front(), options);
+    const ShapeFigures figures = measure(solution.droplets.front(), options);
     const Vec3 weight{0.0, 0.0, 2.0};
     const FilledSheet sheet = fillSheet(meshes.front(), {FillBy::Volume, 0.1}, {weight, 0.05, 0.0});
     const double energy = integrate(sheet.mesh, weight).energy();
@@ -283,7 +283,7 @@ TEST(Sheet, IsTheExactHeightFieldWhereThatExists)
 }
 
 /// Length of boundary edges, and whether every edge has at most two triangles, wound alike.
-void expectBoundedByItsRim(const ParametricSheet& sheet)
+void expectBoundedByItsRim(const CapillarySurface& sheet)
 {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (const Triangle& t : sheet.triangles) {
@@ -295,10 +295,10 @@ void expectBoundedByItsRim(const ParametricSheet& sheet)
     for (const auto& [edge, count] : edges) {
         if (!edges.contains(std::make_pair(edge.second, edge.first))) {
             ++boundary;
-            EXPECT_LT(std::max(edge.first, edge.second), sheet.rim);
+            EXPECT_LT(std::max(edge.first, edge.second), sheet.rimVertexCount());
         }
     }
-    EXPECT_EQ(boundary, sheet.rim);
+    EXPECT_EQ(boundary, sheet.rimVertexCount());
 }
 
 TEST(Sheet, LeansOverInnerCornersAndLiesOnTheGround)
@@ -310,21 +310,21 @@ TEST(Sheet, LeansOverInnerCornersAndLiesOnTheGround)
     const SolveOptions options = unitLiquid(0.0, FillBy::Volume, 1.0);
     const SheetResult result = solveSheet(mesh, options);
     ASSERT_EQ(result.end, SheetEnd::Reached);
-    expectBoundedByItsRim(result.sheet);
-    const ShapeFigures figures = measure(result.sheet, options);
+    expectBoundedByItsRim(result.surface);
+    const ShapeFigures figures = measure(result.surface, options);
     EXPECT_NEAR(figures.volume, 1.0, 1e-10);
     EXPECT_GT(figures.contact_angle.max, 175.0 * kDegree);
     EXPECT_GT(figures.overhang, 0.1);
     std::size_t grounded = 0;
-    for (std::size_t v = result.sheet.rim; v < result.sheet.vertices.size(); ++v) {
-        EXPECT_GE(result.sheet.vertices[v].z, 0.0);
-        grounded += result.sheet.vertices[v].z == 0.0 ? 1 : 0;
+    for (std::size_t v = result.surface.rimVertexCount(); v < result.surface.vertices.size(); ++v) {
+        EXPECT_GE(result.surface.vertices[v].z, 0.0);
+        grounded += result.surface.vertices[v].z == 0.0 ? 1 : 0;
     }
     EXPECT_GT(grounded, 10U);
     // The finer mesh has less energy. With edges of 0.06, folds take nearly all triangles, as they do with 0.08.
     const ShapeFigures fine = [&] {
         const PlanarMesh finer = triangulate(domainOf(loop), {.edge = 0.04}).front();
-        return measure(solveSheet(finer, options).sheet, options);
+        return measure(solveSheet(finer, options).surface, options);
     }();
     EXPECT_LT(fine.surface_energy, figures.surface_energy);
     EXPECT_NEAR(fine.surface_energy, figures.surface_energy, 1e-2 * figures.surface_energy);
@@ -349,8 +349,8 @@ TEST(SheetLimits, PendantDropsDetach)
     const SolveOptions held = unitLiquid(-0.5, FillBy::Volume, 8.10129);
     const SheetResult drop = solveSheet(discMeshes(0.035).front(), held);
     ASSERT_EQ(drop.end, SheetEnd::Reached);
-    EXPECT_NEAR(drop.sheet.pressure, 0.70392, 2e-3 * 0.70392);
-    EXPECT_NEAR(measure(drop.sheet, held).height_max, 2.57215, 1e-3 * 2.57215);
+    EXPECT_NEAR(drop.surface.pressure, 0.70392, 2e-3 * 0.70392);
+    EXPECT_NEAR(measure(drop.surface, held).height_max, 2.57215, 1e-3 * 2.57215);
     EXPECT_NEAR(drop.contact_angle, 94.70 * kDegree, 0.1 * kDegree);
 
     const SheetResult last = solveSheet(discMeshes(0.08).front(), unitLiquid(-0.5, FillBy::Volume, 10.0));
@@ -384,9 +384,9 @@ TEST(SheetLimits, RimsDoNotHoldPuddlesOf180Degrees)
 }
 
 /// Ridge of liquid on a strip of width 1, between mirrors at both ends of a length: part of a cylinder.
-SheetMesh ridge(double angle, double length_of, std::size_t across, std::size_t along)
+CapillarySurface ridge(double angle, double length_of, std::size_t across, std::size_t along)
 {
-    SheetMesh sheet;
+    CapillarySurface sheet;
     const double radius = 0.5 / std::sin(angle);
     const auto place = [&](std::size_t i, std::size_t j) {
         const double turn = angle * (2.0 * static_cast<double>(i) / static_cast<double>(across) - 1.0);
@@ -403,7 +403,7 @@ SheetMesh ridge(double angle, double length_of, std::size_t across, std::size_t 
             add(i, j);
         }
     }
-    sheet.rim = static_cast<std::uint32_t>(sheet.vertices.size());
+    sheet.loop_starts = {0, static_cast<std::uint32_t>(sheet.vertices.size())};
     for (std::size_t i = 1; i < across; ++i) {
         for (std::size_t j = 0; j <= along; ++j) {
             add(i, j);
@@ -429,7 +429,7 @@ SheetMesh ridge(double angle, double length_of, std::size_t across, std::size_t 
 }
 
 /// Number of negative eigenvalues of the bordered matrix of a ridge: 1 if it is stable at its volume.
-int negativesOf(const SheetMesh& sheet, double pressure)
+int negativesOf(const CapillarySurface& sheet, double pressure)
 {
     const SheetGradients gradients = gradientsOf(sheet, {});
     std::vector<Vec3> directions;
@@ -446,9 +446,9 @@ int negativesOf(const SheetMesh& sheet, double pressure)
     }
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(
         SheetPattern(sheet).hessian(sheet, directions, {}, pressure));
-    Eigen::VectorXd border(static_cast<Eigen::Index>(sheet.vertices.size() - sheet.rim));
+    Eigen::VectorXd border(static_cast<Eigen::Index>(sheet.vertices.size() - sheet.rimVertexCount()));
     for (Eigen::Index i = 0; i < border.size(); ++i) {
-        const std::size_t v = sheet.rim + static_cast<std::size_t>(i);
+        const std::size_t v = sheet.rimVertexCount() + static_cast<std::size_t>(i);
         border[i] = dot(directions[v], gradients.volume[v]);
     }
     const Eigen::VectorXd response = factor.solve(border);
@@ -485,7 +485,7 @@ TEST(SheetLimits, ShortRectanglesHoldAnyVolume)
     const SolveOptions options = unitLiquid(0.0, FillBy::Volume, 12.0);
     const SheetResult bulge = solveSheet(mesh, options);
     ASSERT_EQ(bulge.end, SheetEnd::Reached);
-    EXPECT_NEAR(measure(bulge.sheet, options).surface_energy, 24.84, 0.05);
+    EXPECT_NEAR(measure(bulge.surface, options).surface_energy, 24.84, 0.05);
 }
 
 TEST(Sheet, EndsAtAnEquilibriumWhenItsWorkIsDone)
@@ -512,8 +512,8 @@ TEST(Sheet, GivesTheSameBytesAgain)
     const SolveOptions options = unitLiquid(1.0, FillBy::ContactAngle, 130.0 * kDegree);
     const SheetResult one = solveSheet(mesh, options);
     const SheetResult other = solveSheet(mesh, options);
-    EXPECT_TRUE(one.sheet.vertices == other.sheet.vertices);
-    EXPECT_TRUE(one.sheet.triangles == other.sheet.triangles);
+    EXPECT_TRUE(one.surface.vertices == other.surface.vertices);
+    EXPECT_TRUE(one.surface.triangles == other.surface.triangles);
     EXPECT_NEAR(one.contact_angle, 130.0 * kDegree, 1e-7);
 }
 

@@ -19,8 +19,10 @@
 #include "droplet/shape/figures.h"
 #include "droplet/shape/solve.h"
 #include "droplet/units.h"
+#include "shape/recovered_normals.h"
 #include "support/domains.h"
 #include "support/equilibrium.h"
+#include "support/heights.h"
 #include "support/young_laplace.h"
 
 namespace droplet {
@@ -31,6 +33,7 @@ using testing::domainOf;
 using testing::ellipseLoop;
 using testing::Equilibrium;
 using testing::equilibrium;
+using testing::heightsOf;
 using testing::integrate;
 using testing::integrateRim;
 using testing::l2Error;
@@ -54,12 +57,12 @@ Vec2 downhill(double direction)
 }
 
 /// Centroid of the liquid.
-Vec2 centroid(const PlanarMesh& mesh, const HeightField& field)
+Vec2 centroid(const PlanarMesh& mesh, const CapillarySurface& field)
 {
     const auto moment = [&](Vec2 axis) {
-        return integrate(mesh, field.height, [=](Vec2 p, double u) { return dot(axis, p) * u; });
+        return integrate(mesh, heightsOf(field), [=](Vec2 p, double u) { return dot(axis, p) * u; });
     };
-    const double volume = integrate(mesh, field.height, [](Vec2, double u) { return u; });
+    const double volume = integrate(mesh, heightsOf(field), [](Vec2, double u) { return u; });
     return (1.0 / volume) * Vec2{moment({1, 0}), moment({0, 1})};
 }
 
@@ -118,8 +121,8 @@ TEST(Tilt, DropletOnAWallConvergesWithOrderTwo)
             const SolveOptions options = tilted(Model::Linear, kGravity, kVolume, 90 * kDegree, direction);
             const Solution solution = solve(meshes, options);
             ASSERT_TRUE(solution.report.usable());
-            const HeightField& field = solution.droplets[0];
-            const ShapeFigures figures = measure(meshes[0], field, options);
+            const CapillarySurface& field = solution.droplets[0];
+            const ShapeFigures figures = measure(field, options);
             l2.push_back(l2Error(meshes[0], field, [&](Vec2 x) {
                 return (1.0 - dot(x, x)) * (p / 4.0 + kGravity * dot(x, down) / 8.0);
             }));
@@ -206,8 +209,9 @@ TEST(Tilt, RimHoldsTheWeight)
             const double held = -integrateRim(meshes[0], [&](std::uint32_t v, Vec2 n) {
                 return std::cos(one.droplets[0].contact_angle[v]) * dot(n, down);
             });
+            const std::vector<double> slopes = rimSlopes(other.droplets[0], {});
             const double small_slopes = integrateRim(meshes[0], [&](std::uint32_t v, Vec2 n) {
-                const double slope = other.droplets[0].rim_slope[v];
+                const double slope = slopes[v];
                 return 0.5 * slope * slope * dot(n, down);
             });
             exact.push_back(std::abs(held / weight - 1.0));
@@ -232,7 +236,7 @@ TEST(Tilt, SmallDropletsOnDiscsObeyDeConinck)
             const SolveOptions options = tilted(model, kGravity, kVolume, tilt, 0.0);
             const Solution solution = solve(meshes, options);
             ASSERT_TRUE(solution.report.usable());
-            const ContactAngle angle = measure(meshes[0], solution.droplets[0], options).contact_angle;
+            const ContactAngle angle = measure(solution.droplets[0], options).contact_angle;
             const double held = 0.5 * kPi * (std::cos(angle.min) - std::cos(angle.max));
             // Error of the square of the slope, 0.05², and of slopes recovered at two vertices.
             EXPECT_NEAR(held / (kVolume * kGravity * std::sin(tilt)), 1.0, 0.03) << tilt;
@@ -254,7 +258,7 @@ TEST(Tilt, LiquidGoesDownhill)
                 EXPECT_GT(dot(middle, downhill(direction)), before + 1e-3);
                 EXPECT_NEAR(cross(middle, downhill(direction)), 0.0, 2e-4);
                 before = dot(middle, downhill(direction));
-                const ContactAngle angle = measure(meshes[0], solution.droplets[0], options).contact_angle;
+                const ContactAngle angle = measure(solution.droplets[0], options).contact_angle;
                 EXPECT_LT(length(angle.max_at - downhill(direction)), 0.35);
                 EXPECT_LT(length(angle.min_at + downhill(direction)), 0.35);
                 EXPECT_LT(angle.min, angle.mean);
@@ -284,13 +288,13 @@ TEST(Tilt, TurnsWithTheFootprint)
         ASSERT_TRUE(one.report.usable() && other.report.usable());
         EXPECT_NEAR(one.droplets[0].pressure, other.droplets[0].pressure, 1e-8);
         for (std::size_t v = 0; v < meshes[0].vertices.size(); ++v) {
-            EXPECT_NEAR(one.droplets[0].height[v], other.droplets[0].height[v], 1e-9);
+            EXPECT_NEAR(one.droplets[0].vertices[v].z, other.droplets[0].vertices[v].z, 1e-9);
         }
         for (std::size_t v = 0; v < meshes[0].rimVertexCount(); ++v) {
             EXPECT_NEAR(one.droplets[0].contact_angle[v], other.droplets[0].contact_angle[v], 1e-7);
         }
-        const ShapeFigures first = measure(meshes[0], one.droplets[0], options);
-        const ShapeFigures second = measure(turned[0], other.droplets[0], options_turned);
+        const ShapeFigures first = measure(one.droplets[0], options);
+        const ShapeFigures second = measure(other.droplets[0], options_turned);
         EXPECT_NEAR(first.gravity_energy, second.gravity_energy, 1e-9);
         EXPECT_NEAR(first.projected_width, second.projected_width, 1e-9);
     }
@@ -314,7 +318,7 @@ TEST(Tilt, PressureIsThatAtTheOrigin)
         const double head = dot(planeGravity(options).along, way);
         EXPECT_NEAR(there.droplets[0].pressure, here.droplets[0].pressure - head, 1e-8);
         for (std::size_t v = 0; v < meshes[0].vertices.size(); ++v) {
-            EXPECT_NEAR(there.droplets[0].height[v], here.droplets[0].height[v], 1e-8);
+            EXPECT_NEAR(there.droplets[0].vertices[v].z, here.droplets[0].vertices[v].z, 1e-8);
         }
     }
 }
@@ -335,8 +339,8 @@ TEST(Tilt, OneReservoirFillsTheLowerDroplet)
         const Solution solution = solve(meshes, options);
         ASSERT_TRUE(solution.report.usable());
         EXPECT_EQ(solution.droplets[0].pressure, solution.droplets[1].pressure);
-        const double upper = measure(meshes[0], solution.droplets[0], options).volume;
-        const double below = measure(meshes[1], solution.droplets[1], options).volume;
+        const double upper = measure(solution.droplets[0], options).volume;
+        const double below = measure(solution.droplets[1], options).volume;
         EXPECT_NEAR(upper + below, 1.0, 1e-8);
         EXPECT_LT(upper, below);
         for (std::size_t k = 0; k < 2; ++k) {
@@ -353,12 +357,12 @@ TEST(Tilt, HeightAndMeanAngleAreMet)
         options.fill = {FillBy::Height, 0.3, FillSharing::Each};
         const Solution by_height = solve(meshes, options);
         ASSERT_TRUE(by_height.report.usable());
-        EXPECT_NEAR(measure(meshes[0], by_height.droplets[0], options).height_max / 0.3, 1.0, 1e-8);
+        EXPECT_NEAR(measure(by_height.droplets[0], options).height_max / 0.3, 1.0, 1e-8);
         EXPECT_LT(equilibrium(meshes[0], by_height.droplets[0], options).free_force, 1e-8);
         options.fill = {FillBy::ContactAngle, 35 * kDegree, FillSharing::Each};
         const Solution by_angle = solve(meshes, options);
         ASSERT_TRUE(by_angle.report.usable());
-        EXPECT_NEAR(measure(meshes[0], by_angle.droplets[0], options).contact_angle.mean / (35 * kDegree), 1.0, 1e-8);
+        EXPECT_NEAR(measure(by_angle.droplets[0], options).contact_angle.mean / (35 * kDegree), 1.0, 1e-8);
         EXPECT_LT(equilibrium(meshes[0], by_angle.droplets[0], options).free_force, 1e-8);
     }
 }
@@ -383,7 +387,7 @@ TEST(Retention, IsFurmidgesBalance)
             const std::vector<PlanarMesh> meshes = discMeshes(0.05);
             const Solution solution = solve(meshes, options);
             ASSERT_TRUE(solution.report.usable());
-            const ShapeFigures figures = measure(meshes[0], solution.droplets[0], options);
+            const ShapeFigures figures = measure(solution.droplets[0], options);
             const Retention found = retention(figures, options, hysteresis);
             EXPECT_NEAR(found.driving_force, 0.3 * gravity * std::sin(tilt), 1e-10);
             // The disc is a polygon with edges of 0.05.
@@ -410,13 +414,13 @@ TEST(Retention, SquareSlidesBeyondItsTilt)
             options.tilt_direction = direction;
             const Solution solution = solve(meshes, options);
             ASSERT_TRUE(solution.report.usable());
-            const ShapeFigures figures = measure(meshes[0], solution.droplets[0], options);
+            const ShapeFigures figures = measure(solution.droplets[0], options);
             EXPECT_NEAR(figures.projected_width / width, 1.0, 1e-9);
             EXPECT_EQ(retention(figures, options, hysteresis).wouldSlide(), beyond) << direction;
         }
     }
     options.tilt = 0.0;
-    const ShapeFigures level = measure(meshes[0], solve(meshes, options).droplets[0], options);
+    const ShapeFigures level = measure(solve(meshes, options).droplets[0], options);
     EXPECT_EQ(level.projected_width, 0.0);
     EXPECT_EQ(retention(level, options, hysteresis).driving_force, 0.0);
     EXPECT_FALSE(retention(level, options, hysteresis).wouldSlide());

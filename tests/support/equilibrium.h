@@ -18,6 +18,7 @@
 #include "droplet/shape/figures.h"
 #include "droplet/shape/solve.h"
 #include "support/domains.h"
+#include "support/heights.h"
 
 namespace droplet::testing {
 
@@ -70,9 +71,9 @@ inline double integrate(const PlanarMesh& mesh, const std::vector<double>& value
 }
 
 /// √∫(u − exact)²
-inline double l2Error(const PlanarMesh& mesh, const HeightField& field, const std::function<double(Vec2)>& exact)
+inline double l2Error(const PlanarMesh& mesh, const CapillarySurface& field, const std::function<double(Vec2)>& exact)
 {
-    return std::sqrt(integrate(mesh, field.height, [&](Vec2 p, double u) {
+    return std::sqrt(integrate(mesh, heightsOf(field), [&](Vec2 p, double u) {
         const double error = u - exact(p);
         return error * error;
     }));
@@ -105,14 +106,14 @@ struct Equilibrium {
     double volume = 0.0;
 };
 
-inline Equilibrium equilibrium(const PlanarMesh& mesh, const HeightField& field, const SolveOptions& options)
+inline Equilibrium equilibrium(const PlanarMesh& mesh, const CapillarySurface& field, const SolveOptions& options)
 {
     const double sigma = options.liquid.surface_tension;
     const double weight_density = options.liquid.density * options.gravity / sigma;
     const double w = weight_density * std::cos(options.tilt);
     const Vec2 along = weight_density * std::sin(options.tilt) *
                        Vec2{std::cos(options.tilt_direction), std::sin(options.tilt_direction)};
-    const std::vector<double>& u = field.height;
+    const std::vector<double> u = heightsOf(field);
     std::vector<double> force(u.size(), 0.0);
     std::vector<double> size(u.size(), 0.0);
     Equilibrium found;
@@ -131,15 +132,15 @@ inline Equilibrium equilibrium(const PlanarMesh& mesh, const HeightField& field,
             const double push = field.pressure / sigma * area / 3.0;
             force[t[i]] += tension + weight - push;
             size[t[i]] += std::abs(tension) + std::abs(weight) + std::abs(push);
-            found.volume += area / 3.0 * field.thicknessAt(t[i]);
+            found.volume += area / 3.0 * thicknessAt(field, t[i], options.ground);
         }
     }
     const double largest = *std::max_element(size.begin(), size.end());
     found.held_force = std::numeric_limits<double>::infinity();
     found.min_thickness = std::numeric_limits<double>::infinity();
     for (std::uint32_t v = 0; v < u.size(); ++v) {
-        const double gap = std::abs(field.thicknessAt(v));
-        found.min_thickness = std::min(found.min_thickness, field.thicknessAt(v));
+        const double gap = std::abs(thicknessAt(field, v, options.ground));
+        found.min_thickness = std::min(found.min_thickness, thicknessAt(field, v, options.ground));
         if (mesh.onRim(v)) {
             found.rim_gap = std::max(found.rim_gap, gap);
         } else if (!field.dry.empty() && field.dry[v] != 0) {

@@ -14,27 +14,28 @@
 namespace droplet::testing {
 
 /// Whether every number of a height field is finite, no height negative, and the inner ones positive.
-inline void expectLiquid(const PlanarMesh& mesh, const HeightField& field)
+inline void expectLiquid(const PlanarMesh& mesh, const CapillarySurface& field)
 {
-    ASSERT_EQ(field.height.size(), mesh.vertices.size());
-    ASSERT_EQ(field.rim_slope.size(), mesh.rimVertexCount());
+    ASSERT_EQ(field.vertices.size(), mesh.vertices.size());
+    ASSERT_EQ(field.triangles, mesh.triangles);
+    ASSERT_NO_THROW(field.validate());
     EXPECT_TRUE(std::isfinite(field.pressure));
     EXPECT_GT(field.pressure, 0.0);
     std::size_t wrong = 0;
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-        const double u = field.height[v];
+        const double u = field.vertices[v].z;
         wrong += !std::isfinite(u) || (mesh.onRim(v) ? u != 0.0 : u <= 0.0) ? 1 : 0;
     }
     EXPECT_EQ(wrong, 0U) << "heights that are not zero on the rim and positive inside";
-    EXPECT_TRUE(std::all_of(field.rim_slope.begin(), field.rim_slope.end(), [](double s) { return std::isfinite(s); }));
+    EXPECT_TRUE(std::all_of(field.contact_angle.begin(), field.contact_angle.end(),
+                            [](double angle) { return std::isfinite(angle); }));
 }
 
 /// Whether a sheet has its volume, and is above the ground.
-inline void expectSheet(const ParametricSheet& sheet)
+inline void expectSheet(const CapillarySurface& sheet)
 {
-    EXPECT_NO_THROW(sheet.footprint.validate());
-    ASSERT_EQ(sheet.rim, sheet.footprint.rimVertexCount());
-    ASSERT_EQ(sheet.contact_angle.size(), sheet.rim);
+    ASSERT_NO_THROW(sheet.validate());
+    EXPECT_NO_THROW(sheet.footprint->validate());
     EXPECT_TRUE(std::isfinite(sheet.pressure));
     EXPECT_TRUE(std::all_of(sheet.vertices.begin(), sheet.vertices.end(), [](const Vec3& p) { return p.z >= 0.0; }));
 }
@@ -81,10 +82,11 @@ inline void expectSound(const Droplet& droplet, bool open = false)
         const double extent = droplet.domain.extent.x * droplet.domain.extent.y;
         const auto terms = static_cast<double>(mesh.triangles.size());
         EXPECT_NEAR(area(mesh), around, std::numeric_limits<double>::epsilon() * terms * extent);
-        if (!droplet.sheets.empty() && droplet.sheets[k]) {
-            expectSheet(*droplet.sheets[k]);
+        const CapillarySurface& surface = droplet.solution.droplets[k];
+        if (surface.isHeightField()) {
+            expectLiquid(mesh, surface);
         } else {
-            expectLiquid(mesh, droplet.solution.droplets[k]);
+            expectSheet(surface);
         }
     }
     ASSERT_NO_THROW(droplet.surface.validate());

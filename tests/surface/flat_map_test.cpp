@@ -23,25 +23,25 @@ using testing::domainOf;
 using testing::ellipseLoop;
 using testing::polygonLoop;
 
-ParametricSheet sheetOver(const Domain& domain, double edge, FillBy by, double amount)
+CapillarySurface sheetOver(const Domain& domain, double edge, FillBy by, double amount)
 {
     SolveOptions options = testing::unitOptions(Model::Exact, 0.0, 1.0);
     options.fill = {by, amount, FillSharing::Each};
-    return solveSheet(triangulate(domain, {.edge = edge}).front(), options).sheet;
+    return solveSheet(triangulate(domain, {.edge = edge}).front(), options).surface;
 }
 
-ParametricSheet bead(double degrees)
+CapillarySurface bead(double degrees)
 {
     return sheetOver(domainOf(ellipseLoop(1, 1)), 0.1, FillBy::ContactAngle, degrees * kDegree);
 }
 
 /// Whether the rim stays, no triangle turns over, and all of them cover the footprint: with a simple boundary, the map
 /// is then injective.
-void expectCoversOnce(const ParametricSheet& sheet, const std::vector<Vec2>& places)
+void expectCoversOnce(const CapillarySurface& sheet, const std::vector<Vec2>& places)
 {
     ASSERT_EQ(places.size(), sheet.vertices.size());
-    for (std::uint32_t v = 0; v < sheet.rim; ++v) {
-        EXPECT_EQ(places[v], sheet.footprint.vertices[v]);
+    for (std::uint32_t v = 0; v < sheet.rimVertexCount(); ++v) {
+        EXPECT_EQ(places[v], sheet.footprint->vertices[v]);
     }
     double total = 0.0;
     std::size_t turned = 0;
@@ -51,7 +51,7 @@ void expectCoversOnce(const ParametricSheet& sheet, const std::vector<Vec2>& pla
         total += 0.5 * twice;
     }
     EXPECT_EQ(turned, 0U);
-    EXPECT_NEAR(total, area(sheet.footprint), 1e-9 * total);
+    EXPECT_NEAR(total, area(*sheet.footprint), 1e-9 * total);
 }
 
 TEST(FlatMap, CoversTheFootprintOnce)
@@ -64,7 +64,7 @@ TEST(FlatMap, CoversTheFootprintOnce)
         domainOf(polygonLoop({{0, 0}, {1.3, 0}, {1.3, 1.5}, {0.8, 1.5}, {0.8, 0.5}, {0.5, 0.5}, {0.5, 1.5}, {0, 1.5}}));
     const Domain l = domainOf(polygonLoop({{0, 0}, {1.5, 0}, {1.5, 0.5}, {0.5, 0.5}, {0.5, 1.5}, {0, 1.5}}));
     const Domain square = domainOf(polygonLoop({{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
-    const std::vector<std::pair<std::string, ParametricSheet>> sheets{
+    const std::vector<std::pair<std::string, CapillarySurface>> sheets{
         {"bead of 140", bead(140.0)},
         {"bead of 160", bead(160.0)},
         {"square", sheetOver(square, 0.05, FillBy::ContactAngle, 140.0 * kDegree)},
@@ -83,7 +83,7 @@ TEST(FlatMap, CoversTheFootprintOnce)
 
 TEST(FlatMap, IsTheProjectionWhereNothingLeansOut)
 {
-    const ParametricSheet sheet = bead(70.0);
+    const CapillarySurface sheet = bead(70.0);
     const FlatMap map = flatMap(sheet);
     EXPECT_EQ(map.kind, TextureMap::Projection);
     EXPECT_EQ(map.places, projected(sheet).places);
@@ -93,7 +93,7 @@ TEST(FlatMap, IsTheProjectionWhereNothingLeansOut)
 /// Around the axis of a bead, the map only changes radii, by their way along the sheet.
 TEST(FlatMap, KeepsTheSymmetryOfABead)
 {
-    const ParametricSheet sheet = bead(140.0);
+    const CapillarySurface sheet = bead(140.0);
     const FlatMap map = flatMap(sheet);
     const double centre = -1.0 / std::tan(140.0 * kDegree);
     std::vector<std::pair<double, double>> radii;
@@ -115,14 +115,14 @@ TEST(FlatMap, KeepsTheSymmetryOfABead)
 
 TEST(FlatMap, LoftSaysWhichMapItTook)
 {
-    const ParametricSheet sheet = bead(140.0);
-    Surface surface = loft(sheet, {.extent = {4.0, 4.0}});
+    const CapillarySurface sheet = bead(140.0);
+    Surface surface = loft({sheet}, {.extent = {4.0, 4.0}});
     EXPECT_EQ(surface.texture_map, TextureMap::Flat);
     for (const Vec2 uv : surface.uvs) {
         EXPECT_LE(length(uv - Vec2{0.5, 0.5}), 0.2505);  // the rim's vertices are a little outside of the circle
     }
-    EXPECT_EQ(loft(sheet, {.extent = {4.0, 4.0}, .flatten = false}).texture_map, TextureMap::Folded);
-    Surface low = loft(bead(70.0), {.extent = {4.0, 4.0}});
+    EXPECT_EQ(loft({sheet}, {.extent = {4.0, 4.0}, .flatten = false}).texture_map, TextureMap::Folded);
+    Surface low = loft({bead(70.0)}, {.extent = {4.0, 4.0}});
     EXPECT_EQ(low.texture_map, TextureMap::Projection);
     append(low, surface);
     EXPECT_EQ(low.texture_map, TextureMap::Flat);

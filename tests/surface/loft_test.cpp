@@ -16,6 +16,7 @@
 #include "droplet/units.h"
 #include "support/domains.h"
 #include "support/grounded.h"
+#include "support/heights.h"
 #include "support/zoo.h"
 
 namespace droplet {
@@ -23,12 +24,13 @@ namespace {
 
 using testing::domainOf;
 using testing::ellipseLoop;
+using testing::heightsOf;
 using testing::reversed;
 
 /// Solved disc of radius 1 m with σ = ρ = 1, no gravity and volume 1: u = (2/π)(1 − r²).
 struct SolvedDisc {
     std::vector<PlanarMesh> meshes;
-    std::vector<HeightField> fields;
+    std::vector<CapillarySurface> fields;
 };
 
 SolvedDisc solvedDisc(double edge)
@@ -58,7 +60,7 @@ TEST(Loft, IsClosedAndHasItsVolume)
         SolveOptions options;
         options.fill = {FillBy::Volume, 0.5, FillSharing::Each};
         const Solution solution = solve(meshes, options);
-        const Surface closed = loft(meshes, solution.droplets, {.open = false, .extent = {2, 2}});
+        const Surface closed = loft(solution.droplets, {.open = false, .extent = {2, 2}});
         EXPECT_NO_THROW(closed.validate());
         const Topology t = topology(closed);
         EXPECT_TRUE(t.closed);
@@ -68,7 +70,7 @@ TEST(Loft, IsClosedAndHasItsVolume)
         EXPECT_NEAR(enclosedVolume(closed), 0.5, 1e-12);
         EXPECT_NEAR(closed.mean_height, 0.5 / area(meshes[0]), 1e-12);
 
-        const Topology open = topology(loft(meshes, solution.droplets, {.open = true, .extent = {2, 2}}));
+        const Topology open = topology(loft(solution.droplets, {.open = true, .extent = {2, 2}}));
         EXPECT_TRUE(open.manifold);
         EXPECT_FALSE(open.closed);
         EXPECT_EQ(open.boundary_loops, 1 + holes);
@@ -89,7 +91,7 @@ TEST(Loft, BaseOnFlatGroundClosesEveryFootprint)
             const Solution solution = solve(meshes, options);
             ASSERT_TRUE(solution.report.usable());
             const LoftOptions closed_options{.open = false, .extent = domain.extent};
-            const Surface closed = loft(meshes, solution.droplets, closed_options);
+            const Surface closed = loft(solution.droplets, closed_options);
             ASSERT_NO_THROW(closed.validate());
             const Topology t = topology(closed);
             EXPECT_TRUE(t.closed);
@@ -99,7 +101,7 @@ TEST(Loft, BaseOnFlatGroundClosesEveryFootprint)
             std::size_t triangles = 0;
             for (std::size_t k = 0; k < meshes.size(); ++k) {
                 euler += 4 - 2 * static_cast<long>(meshes[k].loopCount());
-                volume += measure(meshes[k], solution.droplets[k], options).volume;
+                volume += measure(solution.droplets[k], options).volume;
                 triangles += meshes[k].triangles.size() + cover(meshes[k]).triangles.size();
             }
             EXPECT_EQ(t.euler, euler);
@@ -107,7 +109,7 @@ TEST(Loft, BaseOnFlatGroundClosesEveryFootprint)
             EXPECT_EQ(closed.triangles.size(), triangles);
 
             // Without the base the liquid is the same.
-            const Surface open = loft(meshes, solution.droplets, {.open = true, .extent = domain.extent});
+            const Surface open = loft(solution.droplets, {.open = true, .extent = domain.extent});
             EXPECT_EQ(open.mean_height, closed.mean_height);
             std::size_t flat = 0;
             for (const Triangle& triangle : closed.triangles) {
@@ -124,7 +126,7 @@ TEST(Loft, BaseOnFlatGroundClosesEveryFootprint)
 TEST(Loft, TrianglesWindOutward)
 {
     const SolvedDisc disc = solvedDisc(0.1);
-    const Surface surface = loft(disc.meshes, disc.fields, {.open = false, .extent = {2, 2}});
+    const Surface surface = loft(disc.fields, {.open = false, .extent = {2, 2}});
     for (const Triangle& t : surface.triangles) {
         const Vec3 a = surface.positions[t[0]];
         const Vec3 normal = cross(surface.positions[t[1]] - a, surface.positions[t[2]] - a);
@@ -140,7 +142,7 @@ TEST(Loft, NormalsAreThoseOfTheParaboloid)
 {
     for (const double edge : {0.1, 0.05, 0.025, 0.0125}) {
         const SolvedDisc disc = solvedDisc(edge);
-        const Surface surface = loft(disc.meshes, disc.fields, {.open = true, .extent = {2, 2}});
+        const Surface surface = loft(disc.fields, {.open = true, .extent = {2, 2}});
         double inside = 0.0;
         double on_rim = 0.0;
         for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
@@ -158,7 +160,7 @@ TEST(Loft, NormalsAreThoseOfTheParaboloid)
 TEST(Loft, RimHasTwoNormals)
 {
     const SolvedDisc disc = solvedDisc(0.1);
-    const Surface surface = loft(disc.meshes, disc.fields, {.open = false, .extent = {2, 2}});
+    const Surface surface = loft(disc.fields, {.open = false, .extent = {2, 2}});
     std::size_t split = 0;
     for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
         if (surface.weld[v] != v) {
@@ -191,14 +193,14 @@ TEST(Loft, TheBaseFollowsTheGround)
     }
     const std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 1), {hole}), {.edge = 0.07});
     for (const BaseSurface& ground : grounds()) {
-        const HeightField field = testing::liquidOn(meshes[0], ground, [](Vec2 p) { return 0.4 + 0.2 * p.y; });
-        const Surface closed = loft(meshes, {field}, {.extent = {2, 2}, .ground = ground});
+        const CapillarySurface field = testing::liquidOn(meshes[0], ground, [](Vec2 p) { return 0.4 + 0.2 * p.y; });
+        const Surface closed = loft({field}, {.extent = {2, 2}, .ground = ground});
         ASSERT_NO_THROW(closed.validate());
         const Topology found = topology(closed);
         EXPECT_TRUE(found.closed);
         EXPECT_EQ(found.components, 1U);
         EXPECT_EQ(found.euler, 0);
-        const double volume = testing::volumeOf(meshes[0], field);
+        const double volume = testing::volumeOf(field, ground);
         EXPECT_NEAR(enclosedVolume(closed) / volume, 1.0, 1e-12);
         EXPECT_NEAR(closed.mean_height * area(meshes[0]) / volume, 1.0, 1e-12);
 
@@ -215,7 +217,7 @@ TEST(Loft, TheBaseFollowsTheGround)
             EXPECT_EQ(closed.weld[count + v], meshes[0].onRim(static_cast<std::uint32_t>(v)) ? v : count + v);
             EXPECT_EQ(closed.uvs[count + v], closed.uvs[v]);
         }
-        const Surface open = loft(meshes, {field}, {.open = true, .extent = {2, 2}, .ground = ground});
+        const Surface open = loft({field}, {.open = true, .extent = {2, 2}, .ground = ground});
         EXPECT_EQ(open.positions.size(), count);
         EXPECT_EQ(open.mean_height, closed.mean_height);
     }
@@ -231,14 +233,18 @@ TEST(Loft, NormalsOnCurvedGroundAreExactOnTheRim)
     double before = 10.0;
     for (const double edge : {0.1, 0.05, 0.025}) {
         const std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 1)), {.edge = edge});
-        HeightField field = testing::liquidOn(meshes[0], ground, thickness);
+        CapillarySurface field = testing::liquidOn(meshes[0], ground, thickness);
         const auto slope = [&](Vec2 p) { return ground.at(p).gradient - p; };
         const std::uint32_t rim = meshes[0].rimVertexCount();
         for (std::uint32_t v = 0; v < rim; ++v) {
             const Vec2 p = meshes[0].vertices[v];
-            field.rim_slope[v] = -dot(slope(p), (1.0 / length(p)) * p);
+            // Seen along the rim, slopes across it are shortened by that of the ground along it.
+            const Vec2 inward = (-1.0 / length(p)) * p;
+            const Vec2 g = ground.at(p).gradient;
+            const double stretch = std::hypot(1.0, dot(g, Vec2{-inward.y, inward.x}));
+            field.contact_angle[v] = std::atan(dot(slope(p), inward) / stretch) - std::atan(dot(g, inward) / stretch);
         }
-        const Surface surface = loft(meshes, {field}, {.open = true, .extent = {2, 2}, .ground = ground});
+        const Surface surface = loft({field}, {.open = true, .extent = {2, 2}, .ground = ground});
         double worst = 0.0;
         double worst_on_rim = 0.0;
         for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
@@ -257,12 +263,12 @@ TEST(Loft, ContactAnglesAreAtTheLiquidsRim)
 {
     const std::vector<PlanarMesh> meshes = triangulate(domainOf(ellipseLoop(1, 1)), {.edge = 0.2});
     for (const BaseSurface& ground : {BaseSurface(), BaseSurface::sphere(2.0)}) {
-        HeightField field = testing::liquidOn(meshes[0], ground, [](Vec2) { return 0.4; });
+        CapillarySurface field = testing::liquidOn(meshes[0], ground, [](Vec2) { return 0.4; });
         const std::uint32_t rim = meshes[0].rimVertexCount();
         for (std::uint32_t v = 0; v < rim; ++v) {
             field.contact_angle[v] = 0.1 + 0.01 * v;
         }
-        const Surface surface = loft(meshes, {field}, {.extent = {2, 2}, .ground = ground});
+        const Surface surface = loft({field}, {.extent = {2, 2}, .ground = ground});
         ASSERT_EQ(surface.contact_angle.size(), surface.positions.size());
         for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
             EXPECT_EQ(surface.contact_angle[v], v < rim ? static_cast<float>(0.1 + 0.01 * v) : 0.0F);
@@ -273,7 +279,7 @@ TEST(Loft, ContactAnglesAreAtTheLiquidsRim)
 TEST(Loft, TextureCoordinatesAreThoseOfTheImage)
 {
     const SolvedDisc disc = solvedDisc(0.2);
-    const Surface surface = loft(disc.meshes, disc.fields, {.open = false, .extent = {4, 8}});
+    const Surface surface = loft(disc.fields, {.open = false, .extent = {4, 8}});
     for (std::size_t v = 0; v < surface.positions.size(); ++v) {
         EXPECT_NEAR(surface.uvs[v].x, (surface.positions[v].x + 2) / 4, 1e-15);
         EXPECT_NEAR(surface.uvs[v].y, (4 - surface.positions[v].y) / 8, 1e-15);
@@ -283,26 +289,24 @@ TEST(Loft, TextureCoordinatesAreThoseOfTheImage)
 TEST(Loft, RefusesArgumentsThatDoNotFitTogether)
 {
     SolvedDisc disc = solvedDisc(0.2);
-    EXPECT_THROW((void)loft(disc.meshes, {}, {.open = false, .extent = {2, 2}}), Error);
-    EXPECT_THROW((void)loft(disc.meshes, disc.fields, {.open = false, .extent = {0, 2}}), Error);
-    const auto refuses = [&](const HeightField& field, const BaseSurface& ground) {
-        EXPECT_THROW((void)loft(disc.meshes, {field}, {.open = false, .extent = {2, 2}, .ground = ground}), Error);
+    EXPECT_THROW((void)loft({}, {.open = false, .extent = {2, 2}}), Error);
+    EXPECT_THROW((void)loft(disc.fields, {.open = false, .extent = {0, 2}}), Error);
+    const auto refuses = [&](const CapillarySurface& field, const BaseSurface& ground) {
+        EXPECT_THROW((void)loft({field}, {.open = false, .extent = {2, 2}, .ground = ground}), Error);
     };
-    refuses(disc.fields[0], BaseSurface::sphere(2.0));
     const BaseSurface bowl = BaseSurface::sphere(-2.0);
-    const HeightField good = testing::liquidOn(disc.meshes[0], bowl, [](Vec2) { return 0.1; });
-    EXPECT_NO_THROW((void)loft(disc.meshes, {good}, {.open = false, .extent = {2, 2}, .ground = bowl}));
-    refuses(good, {});
+    const CapillarySurface good = testing::liquidOn(disc.meshes[0], bowl, [](Vec2) { return 0.1; });
+    EXPECT_NO_THROW((void)loft({good}, {.open = false, .extent = {2, 2}, .ground = bowl}));
     const auto spoilt = [&](const auto& spoil) {
-        HeightField field = good;
+        CapillarySurface field = good;
         spoil(field);
         refuses(field, bowl);
     };
-    spoilt([](HeightField& field) { field.height.pop_back(); });
-    spoilt([](HeightField& field) { field.ground.pop_back(); });
-    spoilt([](HeightField& field) { field.dry.push_back(1); });
-    spoilt([](HeightField& field) { field.rim_slope.pop_back(); });
-    spoilt([](HeightField& field) { field.contact_angle.clear(); });
+    spoilt([](CapillarySurface& field) { field.vertices.pop_back(); });
+    spoilt([](CapillarySurface& field) { field.dry.push_back(1); });
+    spoilt([](CapillarySurface& field) { field.loop_starts.clear(); });
+    spoilt([](CapillarySurface& field) { field.footprint.emplace(); });
+    spoilt([](CapillarySurface& field) { field.contact_angle.clear(); });
 }
 
 // Parts of several droplets, of which one is a sheet, cover the surface; a part is the droplet alone.

@@ -20,6 +20,7 @@
 #include "droplet/surface/loft.h"
 #include "support/domains.h"
 #include "support/grounded.h"
+#include "support/heights.h"
 #include "support/zoo.h"
 
 namespace droplet {
@@ -27,6 +28,7 @@ namespace {
 
 using testing::domainOf;
 using testing::ellipseLoop;
+using testing::heightsOf;
 using testing::liquidOn;
 using testing::polygonLoop;
 using testing::reversed;
@@ -35,73 +37,73 @@ using testing::volumeOf;
 using IsDry = std::function<bool(std::uint32_t, Vec2)>;
 
 /// Field over a mesh with the given dry vertices.
-HeightField fieldWith(const PlanarMesh& mesh, const BaseSurface& ground, const IsDry& is_dry)
+CapillarySurface fieldWith(const PlanarMesh& mesh, const BaseSurface& ground, const IsDry& is_dry)
 {
-    HeightField field = liquidOn(mesh, ground, [](Vec2 p) { return 0.3 + 0.1 * p.x; });
+    CapillarySurface field = liquidOn(mesh, ground, [](Vec2 p) { return 0.3 + 0.1 * p.x; });
     field.dry.assign(mesh.vertices.size(), 0);
     for (std::uint32_t v = mesh.rimVertexCount(); v < mesh.vertices.size(); ++v) {
         if (is_dry(v, mesh.vertices[v])) {
             field.dry[v] = 1;
-            field.height[v] = field.groundAt(v);
+            field.vertices[v].z = ground.at(mesh.vertices[v]).height;
         }
     }
     return field;
 }
 
-bool isGrounded(const PlanarMesh& mesh, const HeightField& field, const Triangle& t)
+bool isGrounded(const PlanarMesh& mesh, const CapillarySurface& field, const Triangle& t)
 {
     return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return mesh.onRim(v) || field.dry[v] != 0; });
 }
 
-/// Checks the invariants of parts, and of the surface made of them.
-void expectSound(const PlanarMesh& mesh, const HeightField& field, const BaseSurface& ground)
+std::vector<CapillarySurface> partsOf(const CapillarySurface& field, const BaseSurface& ground)
 {
-    const std::vector<WetPart> parts = wetParts(mesh, field, ground);
+    return wetParts(field, ground).value_or(std::vector<CapillarySurface>{field});
+}
+
+/// Checks the invariants of parts, and of the surface made of them.
+void expectSound(const PlanarMesh& mesh, const CapillarySurface& field, const BaseSurface& ground)
+{
+    const std::vector<CapillarySurface> parts = partsOf(field, ground);
     double wet_area = 0.0;
     for (const Triangle& t : mesh.triangles) {
         wet_area += isGrounded(mesh, field, t) ? 0.0 : 0.5 * doubleArea(mesh, t);
     }
-    const double volume = volumeOf(mesh, field);
+    const double volume = volumeOf(field, ground);
     if (wet_area == 0.0) {
         EXPECT_TRUE(parts.empty());
-        EXPECT_THROW((void)loft({mesh}, {field}, {.extent = {1, 1}, .ground = ground}), Error);
+        EXPECT_THROW((void)loft({field}, {.extent = {1, 1}, .ground = ground}), Error);
         return;
     }
     double part_area = 0.0;
     double part_volume = 0.0;
     long euler = 0;
     std::size_t loops = 0;
-    for (const WetPart& part : parts) {
-        ASSERT_NO_THROW(part.mesh.validate());
-        const std::uint32_t rim = part.mesh.rimVertexCount();
-        ASSERT_EQ(part.field.height.size(), part.mesh.vertices.size());
-        ASSERT_EQ(part.field.dry.size(), part.mesh.vertices.size());
-        ASSERT_EQ(part.field.ground.size(), ground.flat() ? 0U : part.mesh.vertices.size());
-        ASSERT_EQ(part.field.rim_slope.size(), rim);
-        ASSERT_EQ(part.field.contact_angle.size(), rim);
-        EXPECT_EQ(part.field.pressure, field.pressure);
-        for (std::uint32_t v = 0; v < part.mesh.vertices.size(); ++v) {
-            const bool held = part.mesh.onRim(v) || part.field.dry[v] != 0;
-            ASSERT_EQ(part.field.thicknessAt(v) == 0.0, held);
-            ASSERT_NEAR(part.field.groundAt(v), ground.at(part.mesh.vertices[v]).height, 1e-15);
+    for (const CapillarySurface& part : parts) {
+        ASSERT_NO_THROW(part.validate());
+        const PlanarMesh below = footprintOf(part);
+        ASSERT_NO_THROW(below.validate());
+        EXPECT_EQ(part.pressure, field.pressure);
+        for (std::uint32_t v = 0; v < part.vertices.size(); ++v) {
+            const bool held = part.onRim(v) || part.dry[v] != 0;
+            ASSERT_EQ(testing::thicknessAt(part, v, ground) == 0.0, held);
         }
         // The outer loop comes first; only this one runs counter-clockwise.
-        for (std::size_t k = 0; k < part.mesh.loopCount(); ++k) {
+        for (std::size_t k = 0; k < below.loopCount(); ++k) {
             double enclosed = 0.0;
-            for (std::uint32_t v = part.mesh.loop_starts[k]; v < part.mesh.loop_starts[k + 1]; ++v) {
-                enclosed += cross(part.mesh.vertices[v], part.mesh.vertices[nextOnRim(part.mesh, k, v)]);
+            for (std::uint32_t v = below.loop_starts[k]; v < below.loop_starts[k + 1]; ++v) {
+                enclosed += cross(below.vertices[v], below.vertices[nextOnRim(below, k, v)]);
             }
             EXPECT_EQ(enclosed > 0.0, k == 0);
         }
-        part_area += area(part.mesh);
-        part_volume += volumeOf(part.mesh, part.field);
-        euler += 4 - 2 * static_cast<long>(part.mesh.loopCount());
-        loops += part.mesh.loopCount();
+        part_area += area(below);
+        part_volume += volumeOf(part, ground);
+        euler += 4 - 2 * static_cast<long>(below.loopCount());
+        loops += below.loopCount();
     }
     EXPECT_NEAR(part_area / wet_area, 1.0, 1e-12);
     EXPECT_NEAR(part_volume / volume, 1.0, 1e-12);
 
-    const Surface closed = loft({mesh}, {field}, {.extent = {1, 1}, .ground = ground});
+    const Surface closed = loft({field}, {.extent = {1, 1}, .ground = ground});
     ASSERT_NO_THROW(closed.validate());
     const Topology found = topology(closed);
     EXPECT_TRUE(found.closed);
@@ -110,7 +112,7 @@ void expectSound(const PlanarMesh& mesh, const HeightField& field, const BaseSur
     EXPECT_NEAR(enclosedVolume(closed) / volume, 1.0, 1e-9);
     EXPECT_NEAR(closed.mean_height * wet_area / volume, 1.0, 1e-12);
 
-    const Topology open = topology(loft({mesh}, {field}, {.open = true, .extent = {1, 1}, .ground = ground}));
+    const Topology open = topology(loft({field}, {.open = true, .extent = {1, 1}, .ground = ground}));
     EXPECT_TRUE(open.manifold);
     EXPECT_EQ(open.components, parts.size());
     EXPECT_EQ(open.boundary_loops, loops);
@@ -159,7 +161,7 @@ TEST(WetParts, AreSoundForAnyDrySet)
                 middles.push_back(mesh.vertices[random() % mesh.vertices.size()]);
             }
             const double radius = share * size * 0.5;
-            const HeightField field = fieldWith(mesh, trial % 4 < 2 ? kFlat : bowl, [&](std::uint32_t, Vec2 p) {
+            const CapillarySurface field = fieldWith(mesh, trial % 4 < 2 ? kFlat : bowl, [&](std::uint32_t, Vec2 p) {
                 if (by_patch) {
                     return std::any_of(middles.begin(), middles.end(),
                                        [&](Vec2 middle) { return length(p - middle) < radius; });
@@ -167,12 +169,12 @@ TEST(WetParts, AreSoundForAnyDrySet)
                 return random() % 1000 < static_cast<unsigned>(1000 * share);
             });
             expectSound(mesh, field, trial % 4 < 2 ? kFlat : bowl);
-            const std::vector<WetPart> parts = wetParts(mesh, field, trial % 4 < 2 ? kFlat : bowl);
+            const std::vector<CapillarySurface> parts = partsOf(field, trial % 4 < 2 ? kFlat : bowl);
             several += parts.size() > 1 ? 1 : 0;
-            for (const WetPart& part : parts) {
-                holes += part.mesh.loopCount() > 1 ? 1 : 0;
+            for (const CapillarySurface& part : parts) {
+                holes += part.loop_starts.size() > 2 ? 1 : 0;
                 std::set<std::pair<double, double>> places;
-                for (const Vec2 p : part.mesh.vertices) {
+                for (const Vec3& p : part.vertices) {
                     pinched += places.emplace(p.x, p.y).second ? 0 : 1;
                 }
             }
@@ -181,8 +183,8 @@ TEST(WetParts, AreSoundForAnyDrySet)
             for (const Triangle& t : mesh.triangles) {
                 kept += isGrounded(mesh, field, t) ? 0 : 1;
             }
-            for (const WetPart& part : parts) {
-                made += part.mesh.triangles.size();
+            for (const CapillarySurface& part : parts) {
+                made += part.triangles.size();
             }
             splits += made - kept;
         }
@@ -197,12 +199,12 @@ TEST(WetParts, AreSoundForAnyDrySet)
 TEST(WetParts, AreTheDropletIfNothingIsDry)
 {
     const PlanarMesh mesh = discMesh(0.2);
-    const HeightField field = fieldWith(mesh, kBowl, [](std::uint32_t, Vec2) { return false; });
-    const std::vector<WetPart> parts = wetParts(mesh, field, kBowl);
+    const CapillarySurface field = fieldWith(mesh, kBowl, [](std::uint32_t, Vec2) { return false; });
+    const std::vector<CapillarySurface> parts = partsOf(field, kBowl);
     ASSERT_EQ(parts.size(), 1U);
-    EXPECT_EQ(parts[0].mesh.vertices.size(), mesh.vertices.size());
-    EXPECT_EQ(parts[0].mesh.triangles.size(), mesh.triangles.size());
-    EXPECT_EQ(parts[0].mesh.loop_starts, mesh.loop_starts);
+    EXPECT_EQ(parts[0].vertices.size(), mesh.vertices.size());
+    EXPECT_EQ(parts[0].triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(parts[0].loop_starts, mesh.loop_starts);
     expectSound(mesh, field, kBowl);
 }
 
@@ -211,17 +213,17 @@ TEST(WetParts, OneDryVertexStaysAnInnerVertex)
     const PlanarMesh mesh = discMesh(0.2);
     std::size_t inside = 0;
     for (std::uint32_t only = mesh.rimVertexCount(); only < mesh.vertices.size(); ++only) {
-        const HeightField field = fieldWith(mesh, kFlat, [&](std::uint32_t v, Vec2) { return v == only; });
+        const CapillarySurface field = fieldWith(mesh, kFlat, [&](std::uint32_t v, Vec2) { return v == only; });
         expectSound(mesh, field, kFlat);
-        const std::vector<WetPart> parts = wetParts(mesh, field, kFlat);
+        const std::vector<CapillarySurface> parts = partsOf(field, kFlat);
         ASSERT_EQ(parts.size(), 1U);
         const bool beside_rim = std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
             return std::find(t.begin(), t.end(), only) != t.end() && isGrounded(mesh, field, t);
         });
         if (!beside_rim) {
             ++inside;
-            EXPECT_EQ(parts[0].mesh.triangles.size(), mesh.triangles.size());
-            EXPECT_EQ(std::count(parts[0].field.dry.begin(), parts[0].field.dry.end(), 1), 1);
+            EXPECT_EQ(parts[0].triangles.size(), mesh.triangles.size());
+            EXPECT_EQ(std::count(parts[0].dry.begin(), parts[0].dry.end(), 1), 1);
         }
     }
     EXPECT_GT(inside, 20U);
@@ -231,12 +233,12 @@ TEST(WetParts, OneWetVertexKeepsItsTriangles)
 {
     const PlanarMesh mesh = discMesh(0.2);
     for (std::uint32_t only = mesh.rimVertexCount(); only < mesh.vertices.size(); only += 7) {
-        const HeightField field = fieldWith(mesh, kBowl, [&](std::uint32_t v, Vec2) { return v != only; });
+        const CapillarySurface field = fieldWith(mesh, kBowl, [&](std::uint32_t v, Vec2) { return v != only; });
         expectSound(mesh, field, kBowl);
-        const std::vector<WetPart> parts = wetParts(mesh, field, kBowl);
+        const std::vector<CapillarySurface> parts = partsOf(field, kBowl);
         ASSERT_EQ(parts.size(), 1U);
-        EXPECT_EQ(parts[0].mesh.vertices.size(), parts[0].mesh.rimVertexCount() + 1U);
-        EXPECT_EQ(parts[0].mesh.triangles.size(), parts[0].mesh.rimVertexCount());
+        EXPECT_EQ(parts[0].vertices.size(), parts[0].rimVertexCount() + 1U);
+        EXPECT_EQ(parts[0].triangles.size(), parts[0].rimVertexCount());
     }
     expectSound(mesh, fieldWith(mesh, kFlat, [](std::uint32_t, Vec2) { return true; }), kFlat);
 }
@@ -245,19 +247,19 @@ TEST(WetParts, ADryBarLeavesTwoDroplets)
 {
     const PlanarMesh mesh =
         triangulate(domainOf(polygonLoop({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})), {.edge = 0.1}).front();
-    const HeightField field = fieldWith(mesh, kFlat, [](std::uint32_t, Vec2 p) { return std::abs(p.x) < 0.25; });
+    const CapillarySurface field = fieldWith(mesh, kFlat, [](std::uint32_t, Vec2 p) { return std::abs(p.x) < 0.25; });
     expectSound(mesh, field, kFlat);
-    EXPECT_EQ(wetParts(mesh, field, kFlat).size(), 2U);
+    EXPECT_EQ(partsOf(field, kFlat).size(), 2U);
 }
 
 TEST(WetParts, ADryPatchInsideIsAHoleOfTheSameArea)
 {
     const PlanarMesh mesh = discMesh(0.05);
-    const HeightField field = fieldWith(mesh, kFlat, [](std::uint32_t, Vec2 p) { return length(p) < 0.4; });
-    const std::vector<WetPart> parts = wetParts(mesh, field, kFlat);
+    const CapillarySurface field = fieldWith(mesh, kFlat, [](std::uint32_t, Vec2 p) { return length(p) < 0.4; });
+    const std::vector<CapillarySurface> parts = partsOf(field, kFlat);
     ASSERT_EQ(parts.size(), 1U);
-    EXPECT_EQ(parts[0].mesh.loopCount(), 2U);
-    EXPECT_EQ(parts[0].mesh.triangles.size(),
+    EXPECT_EQ(parts[0].loop_starts.size(), 3U);
+    EXPECT_EQ(parts[0].triangles.size(),
               mesh.triangles.size() - static_cast<std::size_t>(std::count_if(
                                           mesh.triangles.begin(), mesh.triangles.end(),
                                           [&](const Triangle& t) { return isGrounded(mesh, field, t); })));
@@ -292,13 +294,15 @@ TEST(WetParts, PatchesThatTouchDiagonallyPinch)
     ASSERT_NO_THROW(mesh.validate());
     const BaseSurface bowl = BaseSurface::sphere(-9.0);
     const std::set<std::uint32_t> dry{16, 17, 20, 21, 24};
-    const HeightField field = fieldWith(mesh, bowl, [&](std::uint32_t v, Vec2) { return dry.contains(v); });
+    const CapillarySurface field = fieldWith(mesh, bowl, [&](std::uint32_t v, Vec2) { return dry.contains(v); });
     expectSound(mesh, field, bowl);
-    const std::vector<WetPart> parts = wetParts(mesh, field, bowl);
+    const std::vector<CapillarySurface> parts = partsOf(field, bowl);
     ASSERT_EQ(parts.size(), 1U);
     // Both holes are one loop that passes the middle twice.
-    EXPECT_EQ(parts[0].mesh.loop_starts, (std::vector<std::uint32_t>{0, 8, 14}));
-    EXPECT_EQ(std::count(parts[0].mesh.vertices.begin(), parts[0].mesh.vertices.end(), Vec2{}), 2);
+    EXPECT_EQ(parts[0].loop_starts, (std::vector<std::uint32_t>{0, 8, 14}));
+    EXPECT_EQ(std::count_if(parts[0].vertices.begin(), parts[0].vertices.end(),
+                            [](const Vec3& p) { return p.x == 0.0 && p.y == 0.0; }),
+              2);
 }
 
 // The surface and the base must not share an inner edge from a dry patch to the rim.
@@ -307,15 +311,16 @@ TEST(WetParts, EdgesAcrossTheLiquidAreSplit)
     const PlanarMesh mesh = discMesh(0.1);
     std::size_t middles = 0;
     for (double radius = 0.4; radius < 0.95; radius += 0.01) {
-        const HeightField field = fieldWith(mesh, kBowl, [&](std::uint32_t, Vec2 p) { return length(p) < radius; });
+        const CapillarySurface field =
+            fieldWith(mesh, kBowl, [&](std::uint32_t, Vec2 p) { return length(p) < radius; });
         expectSound(mesh, field, kBowl);
-        for (const WetPart& part : wetParts(mesh, field, kBowl)) {
-            for (std::uint32_t v = part.mesh.rimVertexCount(); v < part.mesh.vertices.size(); ++v) {
-                const Vec2 p = part.mesh.vertices[v];
+        for (const CapillarySurface& part : partsOf(field, kBowl)) {
+            for (std::uint32_t v = part.rimVertexCount(); v < part.vertices.size(); ++v) {
+                const Vec2 p{part.vertices[v].x, part.vertices[v].y};
                 if (std::find(mesh.vertices.begin(), mesh.vertices.end(), p) == mesh.vertices.end()) {
                     ++middles;
-                    EXPECT_EQ(part.field.dry[v], 1);
-                    EXPECT_EQ(part.field.height[v], kBowl.at(p).height);
+                    EXPECT_EQ(part.dry[v], 1);
+                    EXPECT_EQ(part.vertices[v].z, kBowl.at(p).height);
                 }
             }
         }
@@ -326,25 +331,23 @@ TEST(WetParts, EdgesAcrossTheLiquidAreSplit)
 TEST(WetParts, LieOnTheGroundAlongANewRim)
 {
     const PlanarMesh mesh = discMesh(0.1);
-    HeightField field = fieldWith(mesh, kBowl, [](std::uint32_t, Vec2 p) { return length(p - Vec2{0.5, 0}) < 0.4; });
+    CapillarySurface field = fieldWith(mesh, kBowl, [](std::uint32_t, Vec2 p) {
+        return length(p - Vec2{0.5, 0}) < 0.4;
+    });
     std::fill(field.contact_angle.begin(), field.contact_angle.end(), 0.7);
-    std::fill(field.rim_slope.begin(), field.rim_slope.end(), 0.9);
-    const std::vector<WetPart> parts = wetParts(mesh, field, kBowl);
+    const std::vector<CapillarySurface> parts = partsOf(field, kBowl);
     ASSERT_EQ(parts.size(), 1U);
-    const PlanarMesh& part = parts[0].mesh;
+    const PlanarMesh part = footprintOf(parts[0]);
     std::size_t is_new = 0;
     for (std::uint32_t v = 0; v < part.rimVertexCount(); ++v) {
         const auto rim_end = mesh.vertices.begin() + mesh.rimVertexCount();
         const bool is_old = std::find(mesh.vertices.begin(), rim_end, part.vertices[v]) != rim_end;
         is_new += is_old ? 0 : 1;
-        EXPECT_EQ(parts[0].field.contact_angle[v], is_old ? 0.7 : 0.0);
-        if (is_old) {
-            EXPECT_EQ(parts[0].field.rim_slope[v], 0.9);
-        }
+        EXPECT_EQ(parts[0].contact_angle[v], is_old ? 0.7 : 0.0);
     }
     EXPECT_GT(is_new, 10U);
     // So normals there are the reversed normals of the base.
-    const Surface surface = loft({mesh}, {field}, {.extent = {1, 1}, .ground = kBowl});
+    const Surface surface = loft({field}, {.extent = {1, 1}, .ground = kBowl});
     std::size_t compared = 0;
     for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
         const std::uint32_t first = surface.weld[v];
@@ -357,29 +360,21 @@ TEST(WetParts, LieOnTheGroundAlongANewRim)
 }
 
 /// The same liquid as a sheet.
-ParametricSheet sheetOf(const PlanarMesh& mesh, const HeightField& field)
+CapillarySurface sheetOf(const PlanarMesh& mesh, CapillarySurface field)
 {
-    ParametricSheet sheet{.footprint = mesh,
-                          .vertices = {},
-                          .triangles = mesh.triangles,
-                          .rim = mesh.rimVertexCount(),
-                          .contact_angle = field.contact_angle,
-                          .pressure = field.pressure};
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        sheet.vertices.push_back({mesh.vertices[v].x, mesh.vertices[v].y, field.height[v]});
-    }
-    return sheet;
+    field.footprint = mesh;
+    return field;
 }
 
 TEST(WetParts, OfADrySheetAreNone)
 {
     const PlanarMesh mesh = discMesh(0.2);
-    const ParametricSheet wet = sheetOf(mesh, fieldWith(mesh, kFlat, [](std::uint32_t, Vec2) { return false; }));
-    EXPECT_FALSE(wetParts(wet));
-    const ParametricSheet dry = sheetOf(mesh, fieldWith(mesh, kFlat, [](std::uint32_t, Vec2) { return true; }));
-    ASSERT_TRUE(wetParts(dry));
-    EXPECT_TRUE(wetParts(dry)->empty());
-    EXPECT_TRUE(loft(dry, {.extent = {1, 1}}).parts.empty());
+    const CapillarySurface wet = sheetOf(mesh, fieldWith(mesh, kFlat, [](std::uint32_t, Vec2) { return false; }));
+    EXPECT_FALSE(wetParts(wet, kFlat));
+    const CapillarySurface dry = sheetOf(mesh, fieldWith(mesh, kFlat, [](std::uint32_t, Vec2) { return true; }));
+    ASSERT_TRUE(wetParts(dry, kFlat));
+    EXPECT_TRUE(wetParts(dry, kFlat)->empty());
+    EXPECT_THROW((void)loft({dry}, {.extent = {1, 1}}), Error);
 }
 
 // Dry sets of all kinds, as above. What would make a rim pass a place twice stays.
@@ -406,34 +401,34 @@ TEST(WetParts, OfSheetsAreSoundForAnyDrySet)
             for (int k = 0; k < 6; ++k) {
                 middles.push_back(mesh.vertices[random() % mesh.vertices.size()]);
             }
-            const HeightField field = fieldWith(mesh, kFlat, [&](std::uint32_t, Vec2 p) {
+            const CapillarySurface field = fieldWith(mesh, kFlat, [&](std::uint32_t, Vec2 p) {
                 if (trial % 2 == 0) {
                     return std::any_of(middles.begin(), middles.end(),
                                        [&](Vec2 middle) { return length(p - middle) < 0.5 * share * size; });
                 }
                 return random() % 1000 < static_cast<unsigned>(1000 * share);
             });
-            const double volume = volumeOf(mesh, field);
+            const double volume = volumeOf(field, kFlat);
             if (volume == 0.0) {
                 continue;
             }
-            const ParametricSheet sheet = sheetOf(mesh, field);
-            const std::vector<ParametricSheet> parts = wetParts(sheet).value_or(std::vector<ParametricSheet>{});
+            const CapillarySurface sheet = sheetOf(mesh, field);
+            const std::vector<CapillarySurface> parts =
+                wetParts(sheet, kFlat).value_or(std::vector<CapillarySurface>{});
             several += parts.size() > 1 ? 1 : 0;
             long euler = 0;
-            for (const ParametricSheet& part : parts) {
-                ASSERT_EQ(part.rim, part.footprint.rimVertexCount());
-                ASSERT_EQ(part.contact_angle.size(), part.rim);
-                euler += 4 - 2 * static_cast<long>(part.footprint.loopCount());
-                holes += part.footprint.loopCount() > 1 ? 1 : 0;
+            for (const CapillarySurface& part : parts) {
+                ASSERT_NO_THROW(part.validate());
+                euler += 4 - 2 * static_cast<long>(part.footprint->loopCount());
+                holes += part.footprint->loopCount() > 1 ? 1 : 0;
                 std::set<std::pair<double, double>> places;
-                for (std::uint32_t v = 0; v < part.rim; ++v) {
+                for (std::uint32_t v = 0; v < part.rimVertexCount(); ++v) {
                     EXPECT_EQ(part.vertices[v].z, 0.0);
                     EXPECT_TRUE(places.emplace(part.vertices[v].x, part.vertices[v].y).second);
                 }
             }
             const LoftOptions options{.extent = {1, 1}};
-            const Surface surface = loft(sheet, options);
+            const Surface surface = loft({sheet}, options);
             ASSERT_NO_THROW(surface.validate());
             const Topology found = topology(surface);
             EXPECT_TRUE(found.closed);
@@ -445,7 +440,7 @@ TEST(WetParts, OfSheetsAreSoundForAnyDrySet)
             EXPECT_EQ(surface.parts.size(), 1U);
             LoftOptions whole = options;
             whole.keeps_dry = true;
-            removed += loft(sheet, whole).triangles.size() > surface.triangles.size() ? 1 : 0;
+            removed += loft({sheet}, whole).triangles.size() > surface.triangles.size() ? 1 : 0;
         }
     }
     // All awkward cases occurred.

@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "support/heights.h"
 #include "support/masks.h"
 #include "torture/corpus.h"
 
@@ -71,8 +72,8 @@ TEST(Trial, DetectsFlaws)
         return flawsOf(droplet, mask, {});
     };
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_NE(flaws([](Droplet& d) { d.solution.droplets[0].height.back() = kNan; }), "");
-    EXPECT_NE(flaws([](Droplet& d) { d.solution.droplets[0].height.back() *= -1.0; }), "");
+    EXPECT_NE(flaws([](Droplet& d) { d.solution.droplets[0].vertices.back().z = kNan; }), "");
+    EXPECT_NE(flaws([](Droplet& d) { d.solution.droplets[0].vertices.back().z *= -1.0; }), "");
     EXPECT_NE(flaws([](Droplet& d) { d.total.gravity_energy = kNan; }), "");
     EXPECT_NE(flaws([](Droplet& d) { d.figures[0].contact_angle.mean *= 1.001; }), "");
     EXPECT_NE(flaws([](Droplet& d) { d.total.volume *= 1.001; }), "");

@@ -3,11 +3,9 @@
 
 #include <cstdint>
 #include <iosfwd>
-#include <optional>
 #include <vector>
 
-#include "droplet/mesh/planar_mesh.h"
-#include "droplet/shape/sheet.h"
+#include "droplet/shape/capillary_surface.h"
 #include "droplet/shape/solve.h"
 
 namespace droplet {
@@ -25,15 +23,12 @@ namespace droplet {
 ///
 /// Guarantees: text in any locale, numbers with all their digits; the same bytes for the same droplets. The stream is
 /// left failed if it did not take everything.
-/// @param out      text stream
-/// @param meshes   valid, at least one
-/// @param fields   heights on the meshes, of either model, in the same order
-/// @param sheets   one per droplet, where it hangs over its rim, instead of its mesh and heights; or empty
-/// @param options  options of the solution; of the fill only `sharing` is used: volumes are those of the heights
-/// @return         bytes handed to the stream
-/// @throws Error   InvalidArgument for invalid options, or if meshes and fields do not match
-std::uint64_t writeEvolver(std::ostream& out, const std::vector<PlanarMesh>& meshes,
-                           const std::vector<HeightField>& fields,
-                           const std::vector<std::optional<ParametricSheet>>& sheets, const SolveOptions& options);
+/// @param out       text stream
+/// @param surfaces  at least one, of any model
+/// @param options   options of the solution; of the fill only `sharing` is used: volumes are those of the surfaces
+/// @return          bytes handed to the stream
+/// @throws Error    InvalidArgument: options or surfaces
+std::uint64_t writeEvolver(std::ostream& out, const std::vector<CapillarySurface>& surfaces,
+                           const SolveOptions& options);
 
 }  // namespace droplet

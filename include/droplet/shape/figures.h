@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "droplet/mesh/planar_mesh.h"
+#include "droplet/shape/capillary_surface.h"
 #include "droplet/shape/solve.h"
 
 namespace droplet {
@@ -68,11 +68,10 @@ struct Retention {
 /// @throws Error      InvalidArgument
 Retention retention(const ShapeFigures& figures, const SolveOptions& options, const Hysteresis& hysteresis);
 
-/// Measures one droplet.
-/// @param mesh     mesh of the field
-/// @param field    heights
+/// Measures one droplet. Areas of the linear model and of steep triangles are 0 unless it is a height field.
+/// @param surface  of the droplet
 /// @param options  options it was solved with
-ShapeFigures measure(const PlanarMesh& mesh, const HeightField& field, const SolveOptions& options);
+ShapeFigures measure(const CapillarySurface& surface, const SolveOptions& options);
 
 /// Combines the figures of several droplets: sums, extremes (also of the Bond number), and means by rim length.
 ShapeFigures combine(const std::vector<ShapeFigures>& droplets);

@@ -40,7 +40,7 @@ void requireRefillable(const SolveOptions& options);
 /// @param options  options of solve; linear model, without no_penetration
 /// @throws Error   InvalidArgument: options, or fields that do not fit the meshes; NoSuchDroplet: there is no liquid to
 ///                 multiply, or the solver failed
-std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields,
+std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const std::vector<CapillarySurface>& fields,
                                    const SolveOptions& options);
 
 }  // namespace droplet

@@ -8,25 +8,11 @@
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
-#include "droplet/shape/figures.h"
+#include "droplet/shape/capillary_surface.h"
 #include "droplet/shape/solve.h"
 #include "droplet/vector.h"
 
 namespace droplet {
-
-/// Surface of a droplet, or of several at one pressure, that may hang over its rim: triangles in space.
-///
-/// Invariants: a manifold whose boundary is the rim of its footprint; the rim's vertices come first, in the order of
-/// the footprint's; triangles are counter-clockwise from outside.
-struct ParametricSheet {
-    PlanarMesh footprint;               ///< that of the droplet, with rounded inner corners; of several, one after
-                                        ///< another, each beginning with its outer loop
-    std::vector<Vec3> vertices;         ///< places [m]
-    std::vector<Triangle> triangles;    ///< indices of three vertices
-    std::uint32_t rim = 0;              ///< number of rim vertices, on the ground
-    std::vector<double> contact_angle;  ///< angle between liquid and ground at every rim vertex, 0 … π [rad]
-    double pressure = 0.0;              ///< λ, the pressure at the plane's origin [Pa]
-};
 
 /// Why a sheet ends before its target.
 enum class SheetEnd {
@@ -41,7 +27,7 @@ enum class SheetEnd {
 
 /// How hard solveSheet() tries.
 enum class SheetEffort {
-    Trial,   ///< 4 % of the work; a sheet that misses the target may have any triangles
+    Trial,   ///< 30 % of the work; a sheet that misses the target may have any triangles
     Slight,  ///< 4 %; the end of what the footprint holds is not confirmed
     Modest,  ///< 30 %; likewise
     Full,    ///< at the end, finer triangles confirm it
@@ -49,7 +35,7 @@ enum class SheetEffort {
 
 /// Result of solveSheet().
 struct SheetResult {
-    ParametricSheet sheet;             ///< the target, or the last equilibrium before the end
+    CapillarySurface surface;          ///< with a footprint: the target, or the last equilibrium before the end
     SheetEnd end = SheetEnd::Reached;  ///< whether it is the target
     std::optional<Vec3> contact;       ///< with SheetEnd::Contact: where the surface touches itself [m]
     double volume = 0.0;               ///< of the sheet [m³]
@@ -87,7 +73,7 @@ SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options,
 /// @param options     as of one footprint; a volume is that of all together
 /// @param effort      as of one footprint
 /// @param reached     called with the share of the amount that is reached, on the calling thread; may be empty
-/// @return            the sheet holds all of them; separate() gives each its own
+/// @return            the surface covers all of them; separate() gives each its own
 SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOptions& options,
                        SheetEffort effort = SheetEffort::Full, const std::function<void(double)>& reached = {});
 
@@ -95,20 +81,12 @@ SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOpt
 /// @param footprints  at least one
 PlanarMesh join(const std::vector<PlanarMesh>& footprints);
 
-/// Sheets at one pressure as one that holds several footprints.
-/// @param sheets  at least one
-ParametricSheet join(const std::vector<ParametricSheet>& sheets);
-
-/// Sheets of the single footprints of one that holds several, in their order; the inverse of join().
-/// @param sheet  of several footprints, or of one
-std::vector<ParametricSheet> separate(const ParametricSheet& sheet);
-
 /// Fills or drains a sheet on the same triangles. They can follow only so far: beyond, the end is SheetEnd::Unstable.
 /// @param sheet    result of solveSheet
 /// @param volume   wanted [m³], > 0
 /// @param options  options it was solved with
 /// @throws Error   InvalidArgument: options, or a volume that is not positive
-SheetResult refill(const ParametricSheet& sheet, double volume, const SolveOptions& options);
+SheetResult refill(const CapillarySurface& sheet, double volume, const SolveOptions& options);
 
 /// Moves a sheet along with its rim, and fills or drains it to the amount of a fill, on the same triangles.
 ///
@@ -125,15 +103,7 @@ SheetResult refill(const ParametricSheet& sheet, double volume, const SolveOptio
 /// @param options    liquid, gravity, tilt and fill, as for solveSheet
 /// @return           the end is Reached, or the triangles cannot follow: then solve the sheet anew
 /// @throws Error     InvalidArgument: options, or sheets and a footprint that do not belong together
-SheetResult follow(const ParametricSheet& first, const ParametricSheet& last, const PlanarMesh& footprint,
+SheetResult follow(const CapillarySurface& first, const CapillarySurface& last, const PlanarMesh& footprint,
                    const SolveOptions& options);
-
-/// Smallest angle of all triangles of a sheet [rad].
-double minAngle(const ParametricSheet& sheet);
-
-/// Measures a sheet, as measure() does a height field. Areas of the linear model and of steep triangles are 0.
-/// @param sheet    result of solveSheet
-/// @param options  options it was solved with
-ShapeFigures measure(const ParametricSheet& sheet, const SolveOptions& options);
 
 }  // namespace droplet

@@ -11,24 +11,10 @@
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/progress.h"
 #include "droplet/shape/base_surface.h"
+#include "droplet/shape/capillary_surface.h"
 #include "droplet/shape/fill.h"
 
 namespace droplet {
-
-/// Surface of the liquid over one footprint; linear on every triangle.
-struct HeightField {
-    std::vector<double> height;         ///< u at every vertex of the mesh, out of the plane [m]; h on the rim
-    std::vector<double> ground;         ///< h at every vertex [m]; empty if the ground is flat
-    std::vector<std::uint8_t> dry;      ///< 1 at inner vertices that the liquid left dry; empty if there are none
-    std::vector<double> rim_slope;      ///< slope ∂u/∂n along the inward normal at every rim vertex
-    std::vector<double> contact_angle;  ///< angle between liquid and ground at every rim vertex [rad]
-    double pressure = 0.0;              ///< λ, the pressure at the plane's origin [Pa]
-
-    /// Height h of the ground at a vertex [m].
-    [[nodiscard]] double groundAt(std::uint32_t vertex) const { return ground.empty() ? 0.0 : ground[vertex]; }
-    /// Thickness u − h of the liquid at a vertex [m].
-    [[nodiscard]] double thicknessAt(std::uint32_t vertex) const { return height[vertex] - groundAt(vertex); }
-};
 
 /// Area of the liquid's surface in the energy that is minimised.
 enum class Model {
@@ -73,14 +59,14 @@ struct SolveReport {
     Model model = Model::Linear;        ///< model that was solved, never Auto
     double work = 0.0;                  ///< of all droplets, exact model, as SolveOptions::max_work
 
-    /// Whether there are heights.
+    /// Whether there are surfaces.
     [[nodiscard]] bool usable() const { return termination == Termination::Converged; }
 };
 
-/// Heights of all droplets, and the report.
+/// Surfaces of all droplets, and the report.
 struct Solution {
-    std::vector<HeightField> droplets;  ///< in the order of the meshes
-    SolveReport report;                 ///< figures of the solve
+    std::vector<CapillarySurface> droplets;  ///< in the order of the meshes
+    SolveReport report;                      ///< figures of the solve
 };
 
 /// Liquid, forces, ground and fill of a solve.
@@ -141,7 +127,7 @@ double puddleHeight(const SolveOptions& options, double angle, double area);
 /// @param meshes    valid, at least one
 /// @param options   liquid, gravity, ground, model, fill, solver
 /// @param progress  called at Stage::Assemble and Stage::Solve; may be empty
-/// @return          heights and report; without heights if there is no solution or the solver failed
+/// @return          height fields and report; without them if there is no solution or the solver failed
 /// @throws Error    InvalidArgument: options, an empty list of meshes, or a footprint beyond the end of the ground
 Solution solve(const std::vector<PlanarMesh>& meshes, const SolveOptions& options = {}, const Progress& progress = {});
 

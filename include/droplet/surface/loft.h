@@ -6,25 +6,24 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/shape/base_surface.h"
+#include "droplet/shape/capillary_surface.h"
 #include "droplet/shape/refill.h"
-#include "droplet/shape/sheet.h"
-#include "droplet/shape/solve.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
 
-/// Change of the heights with the amount of liquid.
+/// Change of height fields with the amount of liquid.
 struct LoftRefill {
     FillRange range;              ///< allowed fills
-    std::vector<FillGain> gains;  ///< change per fill, one per mesh
+    std::vector<FillGain> gains;  ///< change per fill, one per surface
 };
 
 /// Options of loft().
 struct LoftOptions {
     bool open = false;        ///< leave out the base
     Vec2 extent;              ///< size of the image, centred at the origin, for texture coordinates [m]; both > 0
-    BaseSurface ground = {};  ///< ground of the fields
-    std::vector<PlanarMesh> bases = {};     ///< cover() of every mesh, if known already; may be empty
+    BaseSurface ground = {};  ///< ground of the surfaces
+    std::vector<PlanarMesh> bases = {};     ///< cover() of every rim, if known already; may be empty
     std::optional<LoftRefill> refill = {};  ///< for a surface that can be filled and drained
     bool flatten = true;                    ///< spread sheets that lean out over their footprint in texture
                                             ///< coordinates; otherwise these are the place above or below
@@ -35,32 +34,23 @@ struct LoftOptions {
     void validate() const;
 };
 
-/// Turns height fields into a surface in space: raises every mesh to its heights and closes it with a base.
+/// Closes the surfaces of droplets with bases on the ground, and gives them normals and texture coordinates.
 ///
-/// The base meets the liquid at the rim. On flat ground it has few triangles; on other ground it has the triangles of
-/// the liquid, at the height of the ground. Neither covers what the liquid left dry. Normals inside come from the
-/// recovered gradient. On the rim they come from the slope that balances the rim's force (Carey's boundary flux) across
-/// the rim, and from the ground along it, so a cap's rim shades like the cap. The base has the normals of the ground.
-/// @param meshes   one per droplet
-/// @param fields   one per mesh
-/// @param options  open or closed, extent of the image, ground
-/// @throws Error   InvalidArgument: counts differ; a field or gain does not fit its mesh or the ground; all is dry; or
-///                 anything is dry and there are gains
-Surface loft(const std::vector<PlanarMesh>& meshes, const std::vector<HeightField>& fields, const LoftOptions& options);
-
-/// Closes a sheet that hangs over its rim with a base on the ground. Normals on the rim come from the contact angle.
+/// A base meets the liquid at the rim. On flat ground it has few triangles; on other ground it has those of the
+/// footprint, at the height of the ground. Neither covers ground that the liquid left dry, but for surfaces that may
+/// hang over their rims on ground that is not flat: there the liquid lies on it without thickness.
 ///
-/// Flat ground that the liquid left dry is left out, as with height fields. On other ground, and with keeps_dry, the
-/// liquid lies on it without thickness.
+/// Normals inside are area-weighted means. On the rim they come from the contact angle, so a cap's rim shades like the
+/// cap. A base has the normals of the ground.
 ///
-/// Texture coordinates are those of the place below in the picture. If the sheet leans out, it is spread over its
+/// Texture coordinates are those of the place below in the picture. If a surface leans out, it is spread over its
 /// footprint instead, so that every point of the picture occurs once: the rim stays in its place, and triangles keep
 /// the shape that they have seen from above as far as possible (Garanzha et al. 2021). Surface::texture_map says which.
-/// @param sheet    with its footprint
-/// @param options  open or closed, extent of the image, the ground, a base if it is flat and known; no refill
-/// @return         surface without a mean height; the volume of its part is 0. Empty if all is dry
-/// @throws Error   InvalidArgument: options, or the rims differ
-Surface loft(const ParametricSheet& sheet, const LoftOptions& options);
+/// @param surfaces  one per droplet
+/// @param options   open or closed, extent of the image, ground
+/// @throws Error    InvalidArgument: options or surfaces; a base or gain does not fit its surface; all is dry; or there
+///                  are gains, and anything is dry or no height field
+Surface loft(const std::vector<CapillarySurface>& surfaces, const LoftOptions& options);
 
 /// Adds a surface to another one. Parts keep their numbers of droplets; they are unknown if those of either surface
 /// are.

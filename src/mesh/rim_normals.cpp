@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "surface/rim_normals.h"
+#include "mesh/rim_normals.h"
 
 #include <cstddef>
 #include <cstdint>
