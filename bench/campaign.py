@@ -11,6 +11,7 @@ import statistics
 import subprocess
 import sys
 
+import evolver
 import freefem
 import process
 
@@ -242,6 +243,8 @@ def run(root, build, native, quick):
     log("stages and peers")
     results["stages"] = stages(build, masks, quick)
 
+    log("Surface Evolver")
+    results["evolver"] = evolver.run(root, build / program, folder / "evolver")
     log("the wind tunnel")
     results["tunnel"] = tables(build / "bench" / "bench_tunnel")
     log("the windshield")
