@@ -46,7 +46,7 @@ public:
     [[nodiscard]] virtual double prepareWork() const { return 0.0; }
 };
 
-/// Solver by factorisation: SimplicialLLT if A itself is positive definite, otherwise SimplicialLDLT.
+/// Solver by factorisation: choleskyFactor() if A itself is positive definite, otherwise multifrontalFactor().
 std::unique_ptr<ConstrainedSolver> directSolver(const PlanarMesh& mesh);
 
 /// Solver by conjugate gradients among functions without volume, with a multigrid preconditioner.

@@ -4,138 +4,49 @@
 // is positive definite on functions without volume: N. Gould, "On practical conditions for the existence and uniqueness
 // of solutions to the general equality quadratic programming problem" (1985).
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
-#include <numeric>
-#include <type_traits>
-#include <variant>
 #include <vector>
 
 #include "shape/constrained.h"
+#include "shape/mesh_pattern.h"
+#include "shape/symmetric_factor.h"
 
 namespace droplet {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
-using Llt = Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower>;
-using Ldlt = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower>;
-
-/// Pairs of a triangle's corners with an entry in the lower triangle of the symmetric matrix.
-constexpr std::array<std::array<std::size_t, 2>, 6> kPairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
 /// Largest number of refinements, and the residual at which no further one is needed.
 constexpr int kMaxRefinements = 3;
 constexpr double kGoodResidual = 1e-11;
 
-/// Marks a pair without an entry, because one of its vertices is on the rim.
-constexpr std::uint32_t kNoEntry = std::numeric_limits<std::uint32_t>::max();
-
-/// Sparsity pattern of the lower triangle of a mesh's matrices, and the entries of every mesh triangle.
-class Pattern {
-public:
-    explicit Pattern(const PlanarMesh& mesh) : rim_(mesh.rimVertexCount()), matrix_(unknowns(mesh), unknowns(mesh))
-    {
-        const std::size_t count = mesh.vertices.size() - rim_;
-        // Every edge occurs once or twice, in the column of its lower vertex.
-        std::vector<std::uint32_t> starts(count + 1, 0);
-        const auto for_each_edge = [&](const auto& visit) {
-            for (const Triangle& t : mesh.triangles) {
-                for (std::size_t a = 0; a < 3; ++a) {
-                    const auto [low, high] = std::minmax(t[a], t[(a + 1) % 3]);
-                    if (!mesh.onRim(low)) {
-                        visit(low - rim_, high - rim_);
-                    }
-                }
-            }
-        };
-        for_each_edge([&](std::uint32_t low, std::uint32_t) { ++starts[low + 1]; });
-        for (std::size_t i = 0; i < count; ++i) {
-            starts[i + 1] += starts[i];
+/// Lower triangle of an operator. Rows of held vertices are those of the identity.
+SparseMatrix matrixOf(const PlanarMesh& mesh, const Operator& op, const MeshPattern& pattern)
+{
+    const auto is_held = [&](std::uint32_t v) {
+        return !op.held.empty() && !mesh.onRim(v) && op.held[v - mesh.rimVertexCount()] != 0;
+    };
+    SparseMatrix matrix = pattern.assemble([&](std::size_t i) {
+        const Triangle& t = mesh.triangles[i];
+        const auto whole = elementMatrix(mesh, i, op);
+        MeshPattern::Element element{};
+        for (std::size_t k = 0; k < element.size(); ++k) {
+            const auto [a, b] = MeshPattern::kPairs[k];
+            element[k] = is_held(t[a]) || is_held(t[b]) ? 0.0 : whole[a][b];
         }
-        std::vector<std::uint32_t> ends(starts.begin(), starts.end() - 1);
-        std::vector<std::uint32_t> rows(starts.back());
-        for_each_edge([&](std::uint32_t low, std::uint32_t high) { rows[ends[low]++] = high; });
-        std::vector<int> lengths(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto begin = rows.begin() + starts[i];
-            std::sort(begin, rows.begin() + ends[i]);
-            lengths[i] = 1 + static_cast<int>(std::unique(begin, rows.begin() + ends[i]) - begin);
-        }
-        const int total = std::accumulate(lengths.begin(), lengths.end(), 0);
-        matrix_.resizeNonZeros(total);
-        int* const outer = matrix_.outerIndexPtr();
-        int* at = matrix_.innerIndexPtr();
-        for (std::size_t i = 0; i < count; ++i) {
-            outer[i] = static_cast<int>(at - matrix_.innerIndexPtr());
-            *at++ = static_cast<int>(i);
-            at = std::copy_n(rows.begin() + starts[i], lengths[i] - 1, at);
-        }
-        outer[count] = total;
-        locate(mesh);
-    }
-
-    [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
-
-    /// Fills in the operator. Rows of held vertices are those of the identity.
-    void fill(const PlanarMesh& mesh, const Operator& op)
-    {
-        double* const values = matrix_.valuePtr();
-        std::fill_n(values, matrix_.nonZeros(), 0.0);
-        const auto held = [&](std::uint32_t v) { return !op.held.empty() && !mesh.onRim(v) && op.held[v - rim_] != 0; };
-        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-            const Triangle& t = mesh.triangles[i];
-            const auto matrix = elementMatrix(mesh, i, op);
-            for (std::size_t k = 0; k < kPairs.size(); ++k) {
-                const auto [a, b] = kPairs[k];
-                if (entries_[i][k] != kNoEntry && !held(t[a]) && !held(t[b])) {
-                    values[entries_[i][k]] += matrix[a][b];
-                }
-            }
-        }
-        for (std::size_t i = 0; i < op.held.size(); ++i) {
-            if (op.held[i] != 0) {
-                values[matrix_.outerIndexPtr()[i]] = 1.0;
-            }
+        return element;
+    });
+    for (std::size_t i = 0; i < op.held.size(); ++i) {
+        if (op.held[i] != 0) {
+            matrix.valuePtr()[matrix.outerIndexPtr()[i]] = 1.0;
         }
     }
-
-private:
-    static Eigen::Index unknowns(const PlanarMesh& mesh)
-    {
-        return static_cast<Eigen::Index>(mesh.vertices.size() - mesh.rimVertexCount());
-    }
-
-    /// Finds the entries of every triangle.
-    void locate(const PlanarMesh& mesh)
-    {
-        const int* const outer = matrix_.outerIndexPtr();
-        const int* const inner = matrix_.innerIndexPtr();
-        entries_.resize(mesh.triangles.size());
-        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-            for (std::size_t k = 0; k < kPairs.size(); ++k) {
-                const Triangle& t = mesh.triangles[i];
-                const auto [low, high] = std::minmax(t[kPairs[k][0]], t[kPairs[k][1]]);
-                entries_[i][k] = kNoEntry;
-                if (!mesh.onRim(low)) {
-                    const int* const begin = inner + outer[low - rim_];
-                    const int* const at =
-                        std::find(begin, inner + outer[low - rim_ + 1], static_cast<int>(high - rim_));
-                    entries_[i][k] = static_cast<std::uint32_t>(at - inner);
-                }
-            }
-        }
-    }
-
-    std::uint32_t rim_;
-    SparseMatrix matrix_;
-    std::vector<std::array<std::uint32_t, kPairs.size()>> entries_;
-};
+    return matrix;
+}
 
 std::vector<std::uint8_t> heldOf(const PlanarMesh& mesh, const Operator& op)
 {
@@ -160,25 +71,29 @@ Eigen::VectorXd loadOf(const PlanarMesh& mesh, const std::vector<std::uint8_t>& 
 
 class DirectSolver final : public ConstrainedSolver {
 public:
-    explicit DirectSolver(const PlanarMesh& mesh) : mesh_(&mesh), pattern_(mesh) {}
+    explicit DirectSolver(const PlanarMesh& mesh)
+        : mesh_(&mesh), pattern_(mesh.triangles, mesh.vertices.size(), mesh.rimVertexCount())
+    {
+    }
 
     void prepare(const Operator& op) override
     {
         held_ = heldOf(*mesh_, op);
         load_ = loadOf(*mesh_, held_);
         mass_weight_ = op.mass_weight;
-        pattern_.fill(*mesh_, op);
-        if (op.mass_weight < 0.0) {
-            factorize<Ldlt>();
-        } else {
-            factorize<Llt>();
+        matrix_ = matrixOf(*mesh_, op, pattern_);
+        // Without a pull away from the ground A is positive definite.
+        if (!factor_ || is_definite_ != (op.mass_weight >= 0.0)) {
+            is_definite_ = op.mass_weight >= 0.0;
+            factor_ = is_definite_ ? choleskyFactor(matrix_) : multifrontalFactor(matrix_, placesInside());
         }
+        usable_ = factor_->factorize(matrix_);
         if (usable_) {
-            unit_ = divided(load_);
+            unit_ = factor_->solve(load_);
             unit_volume_ = load_.dot(unit_);
             // A may be negative in one direction, a function with volume. By the inertia of the bordered matrix, A is
             // then positive on functions without volume if and only if mᵀA⁻¹m < 0.
-            const Eigen::Index negative = negativePivots();
+            const std::size_t negative = factor_->negatives();
             usable_ = (negative == 0 && unit_volume_ > 0.0) || (negative == 1 && unit_volume_ < 0.0);
         }
     }
@@ -198,7 +113,7 @@ public:
         // Refinement corrects round-off on a fine mesh, and cancellation if A itself is nearly singular. The first step
         // solves for the right side, if there is one.
         const auto refine = [&](const Eigen::VectorXd& residual) {
-            x += divided(residual);
+            x += factor_->solve(residual);
             const double more = (problem.volume - load_.dot(x)) / unit_volume_;
             x += more * unit_;
             lambda += more;
@@ -208,7 +123,7 @@ public:
         }
         for (int step = 0;; ++step) {
             const Eigen::VectorXd pull = lambda * load_;
-            const Eigen::VectorXd residual = right + pull - pattern_.matrix().selfadjointView<Eigen::Lower>() * x;
+            const Eigen::VectorXd residual = right + pull - matrix_.selfadjointView<Eigen::Lower>() * x;
             const double weight = std::abs(mass_weight_) * load_.cwiseProduct(x).norm();
             const double scale = std::max({right.norm(), pull.norm(), weight});
             solution.residual = scale > 0.0 ? residual.norm() / scale : 0.0;
@@ -224,10 +139,7 @@ public:
         return solution;
     }
 
-    [[nodiscard]] const char* method() const override
-    {
-        return std::holds_alternative<Ldlt>(factor_) ? "simplicial-ldlt" : "simplicial-llt";
-    }
+    [[nodiscard]] const char* method() const override { return factor_ ? factor_->method() : ""; }
 
     [[nodiscard]] double prepareWork() const override
     {
@@ -237,40 +149,20 @@ public:
     }
 
 private:
-    /// Orders the unknowns on the first use of a kind of factorisation.
-    template <typename Factor>
-    void factorize()
+    [[nodiscard]] std::vector<Vec3> placesInside() const
     {
-        if (!std::holds_alternative<Factor>(factor_)) {
-            factor_.emplace<Factor>().analyzePattern(pattern_.matrix());
+        std::vector<Vec3> places;
+        for (std::size_t v = mesh_->rimVertexCount(); v < mesh_->vertices.size(); ++v) {
+            places.push_back({mesh_->vertices[v].x, mesh_->vertices[v].y, 0.0});
         }
-        Factor& factor = std::get<Factor>(factor_);
-        factor.factorize(pattern_.matrix());
-        usable_ = factor.info() == Eigen::Success;
-    }
-
-    [[nodiscard]] Eigen::VectorXd divided(const Eigen::VectorXd& right) const
-    {
-        return std::visit(
-            [&](const auto& factor) -> Eigen::VectorXd {
-                if constexpr (std::is_same_v<std::decay_t<decltype(factor)>, std::monostate>) {
-                    return right;
-                } else {
-                    return factor.solve(right);
-                }
-            },
-            factor_);
-    }
-
-    [[nodiscard]] Eigen::Index negativePivots() const
-    {
-        const Ldlt* const ldlt = std::get_if<Ldlt>(&factor_);
-        return ldlt == nullptr ? 0 : (ldlt->vectorD().array() < 0.0).count();
+        return places;
     }
 
     const PlanarMesh* mesh_;
-    Pattern pattern_;
-    std::variant<std::monostate, Llt, Ldlt> factor_;
+    MeshPattern pattern_;
+    SparseMatrix matrix_;
+    std::unique_ptr<SymmetricFactor> factor_;
+    bool is_definite_ = false;  ///< whether the factor is one for positive definite matrices
     std::vector<std::uint8_t> held_;
     Eigen::VectorXd load_;
     Eigen::VectorXd unit_;  ///< A⁻¹m

@@ -426,16 +426,10 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
     if (before.failed) {
         shape.report = *before.failed;
     }
-    const auto solve_quickly = [&] {
-        SolveOptions quick = quickly(options);
-        quick.max_work = std::min(field_work, std::max(most - shape.work, 0.0));
-        Shape quick_shape = solveFields(meshes, quick);
-        quick_shape.sheet = std::move(shape.sheet);
-        quick_shape.work += shape.work;
-        shape = std::move(quick_shape);
-    };
     if (shape.fields.empty() && !mustHang(options) && !is_steep && !before.failed) {
-        solve_quickly();
+        SolveOptions quick = quickly(options);
+        quick.max_work = std::min(field_work, most);
+        shape = solveFields(meshes, quick);
     }
     if (!is_steep &&
         (shape.fields.empty() ? shape.report.termination == Termination::Unstable : !areSteep(shape.fields))) {
@@ -452,9 +446,6 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
     rest.max_work = std::max(most - shape.work, 0.0);
     shape.sheet = solveSheet(meshes, rest, has_stand_in ? SheetEffort::Trial : effort, reached);
     shape.work += shape.sheet->work;
-    if (shape.sheet->end != SheetEnd::Reached && is_steep) {
-        solve_quickly();
-    }
     if (shape.sheet->end == SheetEnd::Reached) {
         shape.fields.clear();
     } else if (shape.fields.empty() && !mustHang(options)) {
@@ -526,6 +517,7 @@ std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& mesh
     }
     const std::vector<CapillarySurface>& surfaces = shapes.solution.droplets;
     std::vector<Box> boxes;
+    boxes.reserve(surfaces.size());
     for (const CapillarySurface& surface : surfaces) {
         boxes.emplace_back(surface.vertices);
     }

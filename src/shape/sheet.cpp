@@ -49,11 +49,13 @@ constexpr double kLeastWork = 3e8;
 constexpr double kMostWork = 4e10;
 /// Work of rounding a rim, over the square of its vertices. Noise is the worst case: 174 000 took two minutes.
 constexpr double kRoundingWork = 2.0;
-/// Share of it for slight efforts, and for trials and modest ones. Of the masks of data/, none is made with 0.1 that is
-/// not with 0.03. Of 255 silhouettes of 8000 triangles at 40°, 161 were sheets with 0.04, 201 with 0.1 and 205 with
-/// 0.3, in nearly the same time; the others kept a height field, with up to 45 % more liquid.
+/// Share of it for slight and modest efforts: of the masks of data/, none is made with 0.1 that is not with 0.03.
 constexpr double kSlightWork = 0.04;
 constexpr double kModestWork = 0.3;
+/// Work up to which a trial is a modest effort, one second; a slight one beyond. Of 255 silhouettes of 8000 triangles
+/// at 40°, 161 were sheets with slight efforts, and 205 with this; the others kept an upright height field, with up to
+/// 45 % more liquid.
+constexpr double kTrialWork = 5e8;
 
 /// Clearance of ground that a sheet leaves dry, over the root of the footprint's area: round-off.
 constexpr double kTouching = 1e-12;
@@ -146,9 +148,22 @@ double edgeOf(const PlanarMesh& footprint)
 double workOf(double triangles, SheetEffort effort, std::optional<double> most)
 {
     const double work = std::min(kWork * std::pow(triangles, 1.5), kMostWork);
-    const double share = effort == SheetEffort::Slight ? kSlightWork : kModestWork;
-    const double own =
-        effort == SheetEffort::Full ? std::max(kLeastFullWork, work) : share * std::max(kLeastWork, work);
+    const double slight = kSlightWork * std::max(kLeastWork, work);
+    double own = 0.0;
+    switch (effort) {
+        case SheetEffort::Slight:
+            own = slight;
+            break;
+        case SheetEffort::Trial:
+            own = std::max(slight, std::min(kModestWork * work, kTrialWork));
+            break;
+        case SheetEffort::Modest:
+            own = kModestWork * std::max(kLeastWork, work);
+            break;
+        case SheetEffort::Full:
+            own = std::max(kLeastFullWork, work);
+            break;
+    }
     return most ? std::min(own, kSheetUnits * *most) : own;
 }
 

@@ -8,18 +8,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 
 #include "blocks.h"
 
 namespace droplet {
 namespace {
-
-/// Pairs of corners: each with itself, then each with the next one.
-constexpr std::array<std::array<std::size_t, 2>, 6> kPairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
-
-/// Triangles of a block: some 0.1 ms of work.
-constexpr std::size_t kFacets = 2048;
 
 /// A triangle and its area vector N.
 struct Facet {
@@ -70,8 +63,8 @@ Forces forcesOn(const Facet& f, Vec3 weight)
     return forces;
 }
 
-/// Second derivatives for kPairs, along directions d.
-std::array<double, 6> hessianOf(const Facet& f, const std::array<Vec3, 3>& d, Vec3 weight, double pressure)
+/// Second derivatives along directions d.
+MeshPattern::Element hessianOf(const Facet& f, const std::array<Vec3, 3>& d, Vec3 weight, double pressure)
 {
     const double area = length(f.normal);
     const Vec3 n = (1.0 / area) * f.normal;
@@ -85,7 +78,7 @@ std::array<double, 6> hessianOf(const Facet& f, const std::array<Vec3, 3>& d, Ve
         ng[a] = dot(n, g[a]);
         lift[a] = dot(d[a], f.normal);
     }
-    std::array<double, 6> result{};
+    MeshPattern::Element result{};
     for (std::size_t a = 0; a < 3; ++a) {
         const std::size_t b = (a + 1) % 3;
         const std::size_t c = (a + 2) % 3;
@@ -115,7 +108,7 @@ SheetIntegrals integrate(const CapillarySurface& sheet, Vec3 weight)
                  }
                  return sum;
              },
-             kFacets)) {
+             MeshPattern::kTriangles)) {
         total.area += part.area;
         total.gravity += part.gravity;
         total.volume += part.volume;
@@ -157,87 +150,7 @@ SheetGradients rimGradientsOf(const CapillarySurface& sheet, Vec3 weight)
     return gradientsOfFirst(sheet.rimVertexCount(), sheet, weight);
 }
 
-SheetPattern::Gathering SheetPattern::gather(const std::vector<std::int32_t>& sum_of, std::size_t sums)
-{
-    Gathering result;
-    result.starts.assign(sums + 1, 0);
-    for (const std::int32_t sum : sum_of) {
-        if (sum >= 0) {
-            ++result.starts[static_cast<std::size_t>(sum) + 1];
-        }
-    }
-    std::partial_sum(result.starts.begin(), result.starts.end(), result.starts.begin());
-    result.parts.resize(static_cast<std::size_t>(result.starts.back()));
-    std::vector<std::int32_t> next(result.starts.begin(), result.starts.end() - 1);
-    for (std::size_t part = 0; part < sum_of.size(); ++part) {
-        if (sum_of[part] >= 0) {
-            const auto sum = static_cast<std::size_t>(sum_of[part]);
-            result.parts[static_cast<std::size_t>(next[sum]++)] = static_cast<std::int32_t>(part);
-        }
-    }
-    return result;
-}
-
-SheetPattern::SheetPattern(const CapillarySurface& sheet)
-{
-    const std::size_t unknowns = sheet.vertices.size() - sheet.rimVertexCount();
-    const auto row_of = [&](std::uint32_t v) {
-        return static_cast<std::int32_t>(v) - static_cast<std::int32_t>(sheet.rimVertexCount());
-    };
-    std::vector<std::int32_t> corner_of;
-    corner_of.reserve(3 * sheet.triangles.size());
-    for (const Triangle& t : sheet.triangles) {
-        for (const std::uint32_t v : t) {
-            corner_of.push_back(static_cast<std::int32_t>(v));
-        }
-    }
-    corners_ = gather(corner_of, sheet.vertices.size());
-
-    // Rows of a column: its vertex, and those of its triangles with larger numbers.
-    std::vector<int> outer{0};
-    std::vector<int> inner;
-    inner.reserve(4 * unknowns);
-    outer.reserve(unknowns + 1);
-    for (std::size_t v = sheet.rimVertexCount(); v < sheet.vertices.size(); ++v) {
-        const auto first = static_cast<std::ptrdiff_t>(inner.size());
-        inner.push_back(row_of(static_cast<std::uint32_t>(v)));
-        for (auto k = corners_.starts[v]; k < corners_.starts[v + 1]; ++k) {
-            for (const std::uint32_t w :
-                 sheet.triangles[static_cast<std::size_t>(corners_.parts[static_cast<std::size_t>(k)] / 3)]) {
-                if (w > v) {
-                    inner.push_back(row_of(w));
-                }
-            }
-        }
-        std::sort(inner.begin() + first, inner.end());
-        inner.erase(std::unique(inner.begin() + first, inner.end()), inner.end());
-        outer.push_back(static_cast<int>(inner.size()));
-    }
-    const std::vector<double> values(inner.size(), 0.0);
-    const auto size = static_cast<Eigen::Index>(unknowns);
-    empty_ = Eigen::Map<const Eigen::SparseMatrix<double>>(size, size, static_cast<Eigen::Index>(inner.size()),
-                                                           outer.data(), inner.data(), values.data());
-
-    std::vector<std::int32_t> entry_of;
-    entry_of.reserve(6 * sheet.triangles.size());
-    for (const Triangle& t : sheet.triangles) {
-        for (const auto& [a, b] : kPairs) {
-            const std::int32_t i = row_of(t[a]);
-            const std::int32_t j = row_of(t[b]);
-            std::int32_t entry = -1;
-            if (i >= 0 && j >= 0) {
-                const auto column = static_cast<std::size_t>(std::min(i, j));
-                entry = static_cast<std::int32_t>(
-                    std::lower_bound(inner.begin() + outer[column], inner.begin() + outer[column + 1], std::max(i, j)) -
-                    inner.begin());
-            }
-            entry_of.push_back(entry);
-        }
-    }
-    entries_ = gather(entry_of, inner.size());
-}
-
-SheetGradients SheetPattern::gradients(const CapillarySurface& sheet, Vec3 weight) const
+SheetGradients gradientsOf(const CapillarySurface& sheet, Vec3 weight, const MeshPattern& pattern)
 {
     std::vector<Forces> forces(sheet.triangles.size());
     forBlocks(
@@ -247,54 +160,25 @@ SheetGradients SheetPattern::gradients(const CapillarySurface& sheet, Vec3 weigh
                 forces[k] = forcesOn(Facet(sheet, sheet.triangles[k]), weight);
             }
         },
-        kFacets);
+        MeshPattern::kTriangles);
     const std::size_t count = sheet.vertices.size();
     SheetGradients result{std::vector<Vec3>(count), std::vector<Vec3>(count), std::vector<double>(count, 0.0)};
-    forBlocks(
-        count,
-        [&](std::size_t begin, std::size_t end) {
-            for (std::size_t v = begin; v < end; ++v) {
-                for (auto k = corners_.starts[v]; k < corners_.starts[v + 1]; ++k) {
-                    const auto part = static_cast<std::size_t>(corners_.parts[static_cast<std::size_t>(k)]);
-                    const Forces& f = forces[part / 3];
-                    result.energy[v] = result.energy[v] + f.energy[part % 3];
-                    result.volume[v] = result.volume[v] + f.volume;
-                    result.area[v] += f.area;
-                }
-            }
-        },
-        kFacets);
+    pattern.forEachCorner([&](std::size_t v, std::size_t triangle, std::size_t corner) {
+        const Forces& f = forces[triangle];
+        result.energy[v] = result.energy[v] + f.energy[corner];
+        result.volume[v] = result.volume[v] + f.volume;
+        result.area[v] += f.area;
+    });
     return result;
 }
 
-Eigen::SparseMatrix<double> SheetPattern::hessian(const CapillarySurface& sheet, const std::vector<Vec3>& directions,
-                                                  Vec3 weight, double pressure) const
+Eigen::SparseMatrix<double> hessianOf(const CapillarySurface& sheet, const std::vector<Vec3>& directions, Vec3 weight,
+                                      double pressure, const MeshPattern& pattern)
 {
-    std::vector<std::array<double, 6>> parts(sheet.triangles.size());
-    forBlocks(
-        parts.size(),
-        [&](std::size_t begin, std::size_t end) {
-            for (std::size_t k = begin; k < end; ++k) {
-                const Triangle& t = sheet.triangles[k];
-                parts[k] = hessianOf(Facet(sheet, t), {directions[t[0]], directions[t[1]], directions[t[2]]}, weight,
-                                     pressure);
-            }
-        },
-        kFacets);
-    Eigen::SparseMatrix<double> matrix = empty_;
-    double* values = matrix.valuePtr();
-    forBlocks(
-        static_cast<std::size_t>(matrix.nonZeros()),
-        [&](std::size_t begin, std::size_t end) {
-            for (std::size_t entry = begin; entry < end; ++entry) {
-                for (auto k = entries_.starts[entry]; k < entries_.starts[entry + 1]; ++k) {
-                    const auto part = static_cast<std::size_t>(entries_.parts[static_cast<std::size_t>(k)]);
-                    values[entry] += parts[part / 6][part % 6];
-                }
-            }
-        },
-        kFacets);
-    return matrix;
+    return pattern.assemble([&](std::size_t k) {
+        const Triangle& t = sheet.triangles[k];
+        return hessianOf(Facet(sheet, t), {directions[t[0]], directions[t[1]], directions[t[2]]}, weight, pressure);
+    });
 }
 
 }  // namespace droplet

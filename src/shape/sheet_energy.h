@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shape/area_vector.h"
+#include "shape/mesh_pattern.h"
 
 namespace droplet {
 
@@ -36,36 +37,15 @@ SheetGradients gradientsOf(const CapillarySurface& sheet, Vec3 weight);
 /// The same at the rim's vertices alone.
 SheetGradients rimGradientsOf(const CapillarySurface& sheet, Vec3 weight);
 
-/// Entries of a sheet's matrices: one unknown for every vertex inside, its way along a direction of its own.
-class SheetPattern {
-public:
-    explicit SheetPattern(const CapillarySurface& sheet);
+/// Gradients at all vertices, in parallel.
+/// @param pattern  of the sheet's triangles
+SheetGradients gradientsOf(const CapillarySurface& sheet, Vec3 weight, const MeshPattern& pattern);
 
-    /// ∂²(area + gravity − λ volume) by the unknowns, lower triangle.
-    /// @param directions  of all vertices, unit length; those of the rim do not count
-    /// @param pressure    λ over the surface tension [1/m]
-    [[nodiscard]] Eigen::SparseMatrix<double> hessian(const CapillarySurface& sheet,
-                                                      const std::vector<Vec3>& directions, Vec3 weight,
-                                                      double pressure) const;
-
-    /// Lower triangle with the entries that may differ from 0, all 0.
-    [[nodiscard]] const Eigen::SparseMatrix<double>& empty() const { return empty_; }
-
-    /// The same as gradientsOf(), in parallel.
-    [[nodiscard]] SheetGradients gradients(const CapillarySurface& sheet, Vec3 weight) const;
-
-private:
-    /// Lists of what adds up to every one of many sums.
-    struct Gathering {
-        std::vector<std::int32_t> starts;
-        std::vector<std::int32_t> parts;  ///< in ascending order
-    };
-    /// @param sum_of  of every part, −1 for none
-    static Gathering gather(const std::vector<std::int32_t>& sum_of, std::size_t sums);
-
-    Eigen::SparseMatrix<double> empty_;
-    Gathering entries_;  ///< for values of the matrix: six times a triangle and a pair of its corners
-    Gathering corners_;  ///< for vertices: three times a triangle and its corner
-};
+/// ∂²(area + gravity − λ volume) by the ways of the vertices inside along directions of their own, lower triangle.
+/// @param directions  of all vertices, unit length; those of the rim do not count
+/// @param pressure    λ over the surface tension [1/m]
+/// @param pattern     of the sheet's triangles
+Eigen::SparseMatrix<double> hessianOf(const CapillarySurface& sheet, const std::vector<Vec3>& directions, Vec3 weight,
+                                      double pressure, const MeshPattern& pattern);
 
 }  // namespace droplet

@@ -79,18 +79,18 @@ SheetSolver::SheetSolver(const CapillarySurface& sheet, Vec3 weight, SheetBase b
     : rim_(sheet.rimVertexCount()),
       weight_(weight),
       base_(std::move(base)),
-      pattern_(sheet),
+      pattern_(sheet.triangles, sheet.vertices.size(), sheet.rimVertexCount()),
       held_(sheet.vertices.size() - sheet.rimVertexCount(), 0),
       held_motion_(sheet.vertices.size() - sheet.rimVertexCount(), 0.0),
       damping_(sheet.vertices.size() - sheet.rimVertexCount(), 0.0)
 {
     linear_.matrix = pattern_.empty();
-    factor_ = SheetFactor(linear_.matrix, {sheet.vertices.begin() + rim_, sheet.vertices.end()});
+    factor_ = multifrontalFactor(linear_.matrix, {sheet.vertices.begin() + rim_, sheet.vertices.end()});
 }
 
 void SheetSolver::linearise(const CapillarySurface& sheet)
 {
-    const SheetGradients gradients = pattern_.gradients(sheet, weight_);
+    const SheetGradients gradients = gradientsOf(sheet, weight_, pattern_);
     const std::size_t count = sheet.vertices.size() - rim_;
     const auto size = static_cast<Eigen::Index>(count);
     linear_.gradient.resize(size);
@@ -122,7 +122,7 @@ void SheetSolver::linearise(const CapillarySurface& sheet)
 
 void SheetSolver::assemble(const CapillarySurface& sheet, double pressure)
 {
-    linear_.full = pattern_.hessian(sheet, linear_.directions, weight_, pressure);
+    linear_.full = hessianOf(sheet, linear_.directions, weight_, pressure, pattern_);
 }
 
 bool SheetSolver::factor(double shift)
@@ -144,7 +144,7 @@ bool SheetSolver::factor(double shift)
             }
         }
     }
-    return factor_.factorize(matrix) && respond();
+    return factor_->factorize(matrix) && respond();
 }
 
 bool SheetSolver::respond()
@@ -155,13 +155,13 @@ bool SheetSolver::respond()
             border[static_cast<Eigen::Index>(i)] = 0.0;
         }
     }
-    response_ = factor_.solve(border);
+    response_ = factor_->solve(border);
     return response_.allFinite();
 }
 
 int SheetSolver::negatives() const
 {
-    return static_cast<int>(factor_.negatives()) + (linear_.volume.dot(response_) > 0.0 ? 1 : 0);
+    return static_cast<int>(factor_->negatives()) + (linear_.volume.dot(response_) > 0.0 ? 1 : 0);
 }
 
 SheetSolver::Step SheetSolver::solveBordered(const Vector& forces, double volume_change) const
@@ -194,7 +194,7 @@ SheetSolver::Step SheetSolver::solveBordered(const Vector& forces, double volume
     Vector rest = right;
     double rest_volume = volume_change;
     for (int round = 0; round <= kRefinements; ++round) {
-        const Vector part = factor_.solve(rest);
+        const Vector part = factor_->solve(rest);
         const double change = (rest_volume - free_volume.dot(part)) / across;
         step.motion += part + change * response_;
         step.pressure += change;

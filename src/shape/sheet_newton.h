@@ -5,12 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "shape/sheet_base.h"
 #include "shape/sheet_energy.h"
-#include "shape/sheet_factor.h"
+#include "shape/symmetric_factor.h"
 
 namespace droplet {
 
@@ -98,8 +99,8 @@ private:
     std::uint32_t rim_;
     Vec3 weight_;
     SheetBase base_;
-    SheetPattern pattern_;
-    SheetFactor factor_;
+    MeshPattern pattern_;
+    std::unique_ptr<SymmetricFactor> factor_;
     Linear linear_;
     Eigen::VectorXd response_;                 ///< w = L⁻¹b
     std::vector<std::uint8_t> held_;           ///< unknowns that the ground holds

@@ -22,13 +22,14 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "shape/area_vector.h"
-#include "shape/sheet_factor.h"
+#include "shape/symmetric_factor.h"
 
 namespace droplet {
 namespace {
@@ -164,7 +165,7 @@ struct Density {
 };
 
 /// Solves for both coordinates.
-Places solveBoth(const SheetFactor& factor, const Places& right)
+Places solveBoth(const SymmetricFactor& factor, const Places& right)
 {
     Places result(right.rows(), 2);
     result.col(0) = factor.solve(right.col(0));
@@ -201,7 +202,7 @@ private:
     /// Sets some vertices to the harmonic map between the wanted shapes and the picture.
     /// @param triangles  those that have one of them
     /// @return           the factors of its matrix; none if it cannot be factorised
-    std::optional<SheetFactor> startHarmonic(const Indices& triangles, const std::vector<std::uint8_t>& is_free);
+    std::unique_ptr<SymmetricFactor> startHarmonic(const Indices& triangles, const std::vector<std::uint8_t>& is_free);
     /// Moves along a step while the energy falls. @return the new energy; empty if it does not fall
     std::optional<double> moveAlong(const Places& step, const Indices& triangles, double epsilon, double energy,
                                     double slope);
@@ -223,8 +224,8 @@ private:
     std::vector<Wanted> wanted_;
     Places at_;
     Indices all_;
-    std::optional<SheetFactor> harmonic_;  ///< of the map of all vertices
-    std::size_t work_ = 0;                 ///< triangles in Newton's steps so far
+    std::unique_ptr<SymmetricFactor> harmonic_;  ///< of the map of all vertices
+    std::size_t work_ = 0;                       ///< triangles in Newton's steps so far
 };
 
 double Flattening::energy(const Places& at, const Indices& triangles, double epsilon) const
@@ -282,7 +283,8 @@ double Flattening::stepLimit(const Places& step, const Indices& triangles) const
     return limit;
 }
 
-std::optional<SheetFactor> Flattening::startHarmonic(const Indices& triangles, const std::vector<std::uint8_t>& is_free)
+std::unique_ptr<SymmetricFactor> Flattening::startHarmonic(const Indices& triangles,
+                                                           const std::vector<std::uint8_t>& is_free)
 {
     std::vector<int> unknown(is_free.size(), -1);
     std::vector<Vec3> places;
@@ -313,11 +315,11 @@ std::optional<SheetFactor> Flattening::startHarmonic(const Indices& triangles, c
     }
     Sparse matrix(count, count);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    SheetFactor factor(matrix, places);
-    if (!factor.factorize(matrix)) {
-        return std::nullopt;
+    std::unique_ptr<SymmetricFactor> factor = multifrontalFactor(matrix, places);
+    if (!factor->factorize(matrix)) {
+        return nullptr;
     }
-    const Places found = solveBoth(factor, load);
+    const Places found = solveBoth(*factor, load);
     for (std::size_t v = 0; v < unknown.size(); ++v) {
         if (unknown[v] >= 0) {
             at_.row(static_cast<Eigen::Index>(v)) = found.row(unknown[v]);
@@ -403,7 +405,7 @@ void Flattening::relax(const Indices& triangles, const std::vector<std::uint8_t>
             places.insert(places.end(), 2, places_[v]);
         }
     }
-    SheetFactor factor;
+    std::unique_ptr<SymmetricFactor> factor;
     double now = energy(at_, triangles, epsilon);
     for (int n = 0; n < steps; ++n) {
         work_ += triangles.size();
@@ -414,9 +416,9 @@ void Flattening::relax(const Indices& triangles, const std::vector<std::uint8_t>
         Sparse matrix(count, count);
         matrix.setFromTriplets(entries.begin(), entries.end());
         if (n == 0) {
-            factor = SheetFactor(matrix, places);
+            factor = multifrontalFactor(matrix, places);
         }
-        if (!factor.factorize(matrix)) {
+        if (!factor->factorize(matrix)) {
             return;
         }
         const Places slopes = gradient(at_, triangles, epsilon);
@@ -426,7 +428,7 @@ void Flattening::relax(const Indices& triangles, const std::vector<std::uint8_t>
                 forces.segment<2>(unknown[v]) = -slopes.row(static_cast<Eigen::Index>(v)).transpose();
             }
         }
-        const Eigen::VectorXd motion = factor.solve(forces);
+        const Eigen::VectorXd motion = factor->solve(forces);
         Places step = Places::Zero(at_.rows(), 2);
         for (std::size_t v = 0; v < unknown.size(); ++v) {
             if (unknown[v] >= 0) {

@@ -89,7 +89,11 @@ TEST_P(DataMaskTest, BecomesASoundDroplet)
         EXPECT_NEAR(figures.contact_angle.mean, 40.0 * kDegree, has_less ? 25.0 * kDegree : 1e-6);
     }
     EXPECT_NEAR(static_cast<double>(triangles(droplet)), 40'000.0, 4'000.0);
-    EXPECT_THAT(droplet.warnings, ::testing::Not(::testing::Contains(::testing::HasSubstr("asked for"))));
+    // Where a sheet lies over stairs of pixels, as in the maze, each of their inner corners is rounded by short edges.
+    EXPECT_THAT(
+        droplet.warnings,
+        ::testing::Not(::testing::Contains(::testing::AllOf(
+            ::testing::HasSubstr("asked for"), ::testing::Not(::testing::HasSubstr("the footprint's detail takes"))))));
 }
 
 TEST_P(DataMaskTest, HasThePromisedAngles)

@@ -26,10 +26,10 @@ struct CapillarySurface {
     std::vector<std::uint32_t> loop_starts = {};  ///< as of PlanarMesh; of several footprints, one after another, each
                                                   ///< beginning with its outer loop
     std::vector<std::uint8_t> dry = {};           ///< 1 at inner vertices that lie on the ground; empty: there are none
-    std::vector<double> contact_angle =
-        {};                 ///< angle between liquid and ground at every rim vertex [rad]; up to
-                            ///< π, and below 0 where a height field sinks into the ground, or nearly does
-    double pressure = 0.0;  ///< λ, the pressure at the plane's origin [Pa]
+    /// Angle between liquid and ground at every rim vertex [rad]; up to π, and below 0 where a height field sinks into
+    /// the ground, or hardly rises from it.
+    std::vector<double> contact_angle = {};
+    double pressure = 0.0;                        ///< λ, the pressure at the plane's origin [Pa]
     std::shared_ptr<const Lattice> lattice = {};  ///< of a height field's mesh
     /// Footprint that the liquid may hang over, with rounded inner corners; none: the surface is a height field.
     std::optional<PlanarMesh> footprint = {};

@@ -27,7 +27,7 @@ enum class SheetEnd {
 
 /// How hard solveSheet() tries.
 enum class SheetEffort {
-    Trial,   ///< 30 % of the work; a sheet that misses the target may have any triangles
+    Trial,   ///< 30 % of the work or a second, at least 4 %; a sheet that misses the target may have any triangles
     Slight,  ///< 4 %; the end of what the footprint holds is not confirmed
     Modest,  ///< 30 %; likewise
     Full,    ///< at the end, finer triangles confirm it

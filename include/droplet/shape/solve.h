@@ -42,9 +42,8 @@ enum class Termination {
 
 /// Figures of a solve.
 struct SolveReport {
-    std::string method;  ///< "simplicial-llt", "simplicial-ldlt", "multigrid-pcg", or, where no height field was found,
-                         ///< "multifrontal-ldlt"; if droplets differ, that of
-                         ///< the one with most unknowns
+    std::string method;            ///< "simplicial-llt", "multigrid-pcg", or, of hanging droplets and sheets,
+                                   ///< "multifrontal-ldlt"; if droplets differ, that of the one with most unknowns
     std::size_t unknowns = 0;      ///< number of inner vertices of all droplets
     std::size_t iterations = 0;    ///< largest number for a linear system; 1 for a factorisation
     std::size_t newton_steps = 0;  ///< largest number for a droplet; 1 for the linear model

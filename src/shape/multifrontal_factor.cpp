@@ -2,16 +2,19 @@
 // A. George, "Nested dissection of a regular finite element mesh", SIAM J. Numer. Anal. 10 (1973): halves of the mesh
 // are eliminated before what separates them. J. Liu, "The multifrontal method for sparse matrix solution", SIAM Review
 // 34 (1992). Departure: no pivoting, because the inertia of the matrix itself is wanted.
-#include "shape/sheet_factor.h"
-
 #include <tbb/parallel_invoke.h>
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "blocks.h"
+#include "shape/symmetric_factor.h"
 
 namespace droplet {
 namespace {
@@ -39,9 +42,74 @@ Eigen::Index index(std::size_t i)
     return static_cast<Eigen::Index>(i);
 }
 
-}  // namespace
+class MultifrontalFactor final : public SymmetricFactor {
+public:
+    MultifrontalFactor(const Eigen::SparseMatrix<double>& lower, const std::vector<Vec3>& places);
 
-SheetFactor::SheetFactor(const Eigen::SparseMatrix<double>& lower, const std::vector<Vec3>& places)
+    bool factorize(const Eigen::SparseMatrix<double>& lower) override;
+    [[nodiscard]] std::size_t negatives() const override;
+    [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right) const override;
+    [[nodiscard]] const char* method() const override { return "multifrontal-ldlt"; }
+
+private:
+    /// Dense part: columns that are eliminated together, and the rows below that they touch.
+    struct Front {
+        std::int32_t begin = 0;  ///< first own column in the order of elimination
+        std::int32_t end = 0;
+        std::int32_t left = -1;  ///< parts that are eliminated before
+        std::int32_t right = -1;
+        std::size_t first_row = 0;    ///< its rows below in rows_
+        std::size_t row_count = 0;    ///< number of them
+        std::size_t first_panel = 0;  ///< its columns of L in panels_
+        std::size_t first_entry = 0;  ///< its entries of the matrix in entries_
+        std::size_t last_entry = 0;
+        std::size_t size = 0;  ///< unknowns of it and of all parts before
+
+        [[nodiscard]] std::size_t columns() const { return static_cast<std::size_t>(end - begin); }
+        [[nodiscard]] std::size_t height() const { return columns() + row_count; }
+    };
+    struct Entry {
+        std::int32_t from = 0;  ///< in the values of the matrix
+        std::int32_t to = 0;    ///< in the panel
+    };
+    /// Unknowns that one is coupled to.
+    struct Neighbours {
+        std::vector<std::int32_t> starts;
+        std::vector<Entry> entries;  ///< from: in the values of the matrix; to: the other unknown
+    };
+
+    static Neighbours neighboursOf(const Eigen::SparseMatrix<double>& lower);
+    /// Unknown and its place.
+    struct Node {
+        Vec3 place;
+        std::int32_t unknown = 0;
+    };
+    /// Orders the nodes of a range, and adds the fronts of its parts.
+    /// @return  that of the last one, −1 without nodes
+    std::int32_t dissect(std::int32_t begin, std::int32_t end, const Neighbours& near, std::vector<Node>& nodes,
+                         std::vector<Front>& fronts);
+    void findRows(const Neighbours& near);
+    void findEntries(const Neighbours& near);
+    /// Calls work(front) for a front and all before it, those before first, in parallel where it pays.
+    template <typename Work>
+    void climb(std::int32_t front, const Work& work) const;
+    template <typename Work>
+    void descend(std::int32_t front, const Work& work) const;
+    bool eliminate(const Front& front, const double* values, std::vector<std::vector<double>>& updates);
+    void add(const Front& child, std::vector<double>& update, const Front& front, double* panel,
+             std::vector<double>& sum) const;
+
+    std::vector<std::int32_t> order_;     ///< unknowns in the order of elimination
+    std::vector<std::int32_t> position_;  ///< of every unknown in it
+    std::vector<Front> fronts_;           ///< parts come before what they are parts of
+    std::vector<std::int32_t> rows_;
+    std::vector<std::int32_t> above_;  ///< of every row in rows_: its row in the front that this one is a part of
+    std::vector<Entry> entries_;
+    std::unique_ptr<double[]> panels_;  ///< columns of L, with D on its diagonal
+    std::size_t panel_size_ = 0;
+};
+
+MultifrontalFactor::MultifrontalFactor(const Eigen::SparseMatrix<double>& lower, const std::vector<Vec3>& places)
 {
     const auto size = static_cast<std::int32_t>(lower.cols());
     const Neighbours near = neighboursOf(lower);
@@ -60,7 +128,7 @@ SheetFactor::SheetFactor(const Eigen::SparseMatrix<double>& lower, const std::ve
     findEntries(near);
 }
 
-SheetFactor::Neighbours SheetFactor::neighboursOf(const Eigen::SparseMatrix<double>& lower)
+MultifrontalFactor::Neighbours MultifrontalFactor::neighboursOf(const Eigen::SparseMatrix<double>& lower)
 {
     const auto size = static_cast<std::size_t>(lower.cols());
     const int* outer = lower.outerIndexPtr();
@@ -91,8 +159,8 @@ SheetFactor::Neighbours SheetFactor::neighboursOf(const Eigen::SparseMatrix<doub
     return near;
 }
 
-std::int32_t SheetFactor::dissect(std::int32_t begin, std::int32_t end, const Neighbours& near,
-                                  std::vector<Node>& nodes, std::vector<Front>& fronts)
+std::int32_t MultifrontalFactor::dissect(std::int32_t begin, std::int32_t end, const Neighbours& near,
+                                         std::vector<Node>& nodes, std::vector<Front>& fronts)
 {
     if (begin == end) {
         return -1;
@@ -171,7 +239,7 @@ std::int32_t SheetFactor::dissect(std::int32_t begin, std::int32_t end, const Ne
     return static_cast<std::int32_t>(fronts.size()) - 1;
 }
 
-void SheetFactor::findRows(const Neighbours& near)
+void MultifrontalFactor::findRows(const Neighbours& near)
 {
     std::vector<std::int32_t> seen(order_.size(), -1);
     std::size_t panel = 0;
@@ -228,7 +296,7 @@ void SheetFactor::findRows(const Neighbours& near)
     }
 }
 
-void SheetFactor::findEntries(const Neighbours& near)
+void MultifrontalFactor::findEntries(const Neighbours& near)
 {
     // Of every column, the entries on the diagonal and below.
     const auto for_entries = [&](const Front& front, const auto& use) {
@@ -281,7 +349,7 @@ void SheetFactor::findEntries(const Neighbours& near)
 }
 
 template <typename Work>
-void SheetFactor::climb(std::int32_t at, const Work& work) const
+void MultifrontalFactor::climb(std::int32_t at, const Work& work) const
 {
     if (at < 0) {
         return;
@@ -298,7 +366,7 @@ void SheetFactor::climb(std::int32_t at, const Work& work) const
 }
 
 template <typename Work>
-void SheetFactor::descend(std::int32_t at, const Work& work) const
+void MultifrontalFactor::descend(std::int32_t at, const Work& work) const
 {
     if (at < 0) {
         return;
@@ -313,8 +381,8 @@ void SheetFactor::descend(std::int32_t at, const Work& work) const
     }
 }
 
-void SheetFactor::add(const Front& child, std::vector<double>& update, const Front& front, double* panel,
-                      std::vector<double>& sum) const
+void MultifrontalFactor::add(const Front& child, std::vector<double>& update, const Front& front, double* panel,
+                             std::vector<double>& sum) const
 {
     const std::size_t own = front.columns();
     const std::int32_t* above = above_.data() + child.first_row;
@@ -336,7 +404,7 @@ void SheetFactor::add(const Front& child, std::vector<double>& update, const Fro
     std::vector<double>().swap(update);
 }
 
-bool SheetFactor::eliminate(const Front& front, const double* values, std::vector<std::vector<double>>& updates)
+bool MultifrontalFactor::eliminate(const Front& front, const double* values, std::vector<std::vector<double>>& updates)
 {
     const std::size_t own = front.columns();
     const std::size_t height = front.height();
@@ -390,7 +458,7 @@ bool SheetFactor::eliminate(const Front& front, const double* values, std::vecto
     return true;
 }
 
-bool SheetFactor::factorize(const Eigen::SparseMatrix<double>& lower)
+bool MultifrontalFactor::factorize(const Eigen::SparseMatrix<double>& lower)
 {
     std::vector<std::vector<double>> updates(fronts_.size());
     std::atomic<bool> is_regular = true;
@@ -402,7 +470,7 @@ bool SheetFactor::factorize(const Eigen::SparseMatrix<double>& lower)
     return is_regular;
 }
 
-std::size_t SheetFactor::negatives() const
+std::size_t MultifrontalFactor::negatives() const
 {
     std::size_t count = 0;
     for (const Front& front : fronts_) {
@@ -413,7 +481,7 @@ std::size_t SheetFactor::negatives() const
     return count;
 }
 
-Eigen::VectorXd SheetFactor::solve(const Eigen::VectorXd& right) const
+Eigen::VectorXd MultifrontalFactor::solve(const Eigen::VectorXd& right) const
 {
     Eigen::VectorXd x(right.size());
     std::vector<double> passed(rows_.size());  // what a front passes on to rows below
@@ -475,6 +543,14 @@ Eigen::VectorXd SheetFactor::solve(const Eigen::VectorXd& right) const
         result[order_[k]] = x[index(k)];
     }
     return result;
+}
+
+}  // namespace
+
+std::unique_ptr<SymmetricFactor> multifrontalFactor(const Eigen::SparseMatrix<double>& lower,
+                                                    const std::vector<Vec3>& places)
+{
+    return std::make_unique<MultifrontalFactor>(lower, places);
 }
 
 }  // namespace droplet

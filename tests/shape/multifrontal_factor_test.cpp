@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shape/sheet_factor.h"
-
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -14,6 +12,7 @@
 
 #include "shape/sheet_energy.h"
 #include "shape/sheet_path.h"
+#include "shape/symmetric_factor.h"
 #include "support/domains.h"
 #include "support/equilibrium.h"
 
@@ -38,11 +37,12 @@ Problem capProblem(double edge, double pressure)
     for (const Vec3& force : gradientsOf(cap.mesh, {}).volume) {
         directions.push_back((1.0 / length(force)) * force);
     }
-    return {SheetPattern(cap.mesh).hessian(cap.mesh, directions, {}, pressure * cap.pressure),
+    return {hessianOf(cap.mesh, directions, {}, pressure * cap.pressure,
+                      {cap.mesh.triangles, cap.mesh.vertices.size(), cap.mesh.rimVertexCount()}),
             {cap.mesh.vertices.begin() + cap.mesh.rimVertexCount(), cap.mesh.vertices.end()}};
 }
 
-TEST(SheetFactor, CountsNegativeEigenvaluesAndSolves)
+TEST(MultifrontalFactor, CountsNegativeEigenvaluesAndSolves)
 {
     for (const double pressure : {0.5, 1.0, 2.5}) {
         SCOPED_TRACE(pressure);
@@ -57,48 +57,48 @@ TEST(SheetFactor, CountsNegativeEigenvaluesAndSolves)
         } else {
             EXPECT_GT(negative, 3U);
         }
-        SheetFactor factor(problem.matrix, problem.places);
-        ASSERT_TRUE(factor.factorize(problem.matrix));
-        EXPECT_EQ(factor.negatives(), negative);
+        const auto factor = multifrontalFactor(problem.matrix, problem.places);
+        ASSERT_TRUE(factor->factorize(problem.matrix));
+        EXPECT_EQ(factor->negatives(), negative);
         const Eigen::VectorXd exact = Eigen::VectorXd::LinSpaced(full.cols(), -1.0, 2.0).array().sin();
-        EXPECT_LT((factor.solve(full * exact) - exact).norm(), 1e-9 * exact.norm());
+        EXPECT_LT((factor->solve(full * exact) - exact).norm(), 1e-9 * exact.norm());
     }
 }
 
 /// On some thousand unknowns, with fronts of many columns and parts in threads of their own.
-TEST(SheetFactor, EqualsSimplicialFactorisation)
+TEST(MultifrontalFactor, EqualsSimplicialFactorisation)
 {
     const Problem problem = capProblem(0.08, 2.5);
     Eigen::SimplicialLDLT<Matrix> simplicial(problem.matrix);
     ASSERT_EQ(simplicial.info(), Eigen::Success);
-    SheetFactor factor(problem.matrix, problem.places);
-    ASSERT_TRUE(factor.factorize(problem.matrix));
+    const auto factor = multifrontalFactor(problem.matrix, problem.places);
+    ASSERT_TRUE(factor->factorize(problem.matrix));
     const auto negative = static_cast<std::size_t>((simplicial.vectorD().array() < 0.0).count());
     EXPECT_GT(negative, 3U);
-    EXPECT_EQ(factor.negatives(), negative);
+    EXPECT_EQ(factor->negatives(), negative);
     const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(problem.matrix.cols(), -1.0, 2.0).array().cos();
     const Eigen::VectorXd expected = simplicial.solve(right);
-    EXPECT_LT((factor.solve(right) - expected).norm(), 1e-8 * expected.norm());
+    EXPECT_LT((factor->solve(right) - expected).norm(), 1e-8 * expected.norm());
     EXPECT_GT(problem.matrix.cols(), 2000);
 }
 
-TEST(SheetFactor, GivesTheSameBytesAtAnyNumberOfThreads)
+TEST(MultifrontalFactor, GivesTheSameBytesAtAnyNumberOfThreads)
 {
     const Problem problem = capProblem(0.08, 1.0);
     const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(problem.matrix.cols(), -1.0, 2.0);
     std::vector<Eigen::VectorXd> results;
     for (const std::size_t threads : {1U, 2U, 5U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        SheetFactor factor(problem.matrix, problem.places);
-        ASSERT_TRUE(factor.factorize(problem.matrix));
-        results.push_back(factor.solve(right));
+        const auto factor = multifrontalFactor(problem.matrix, problem.places);
+        ASSERT_TRUE(factor->factorize(problem.matrix));
+        results.push_back(factor->solve(right));
     }
     EXPECT_TRUE(results[1] == results[0]);
     EXPECT_TRUE(results[2] == results[0]);
 }
 
 /// Two chains far apart, each coupled to a hub: nothing separates them but what is eliminated after both.
-TEST(SheetFactor, TakesPartsInSeveralPieces)
+TEST(MultifrontalFactor, TakesPartsInSeveralPieces)
 {
     constexpr int kShort = 20;
     constexpr int kLong = 40;
@@ -122,42 +122,42 @@ TEST(SheetFactor, TakesPartsInSeveralPieces)
     entries.emplace_back(kHub, kHub, 1.5);
     Matrix matrix(kHub + 1, kHub + 1);
     matrix.setFromTriplets(entries.begin(), entries.end());
-    SheetFactor factor(matrix, places);
-    ASSERT_TRUE(factor.factorize(matrix));
+    const auto factor = multifrontalFactor(matrix, places);
+    ASSERT_TRUE(factor->factorize(matrix));
     const Matrix full = matrix.selfadjointView<Eigen::Lower>();
     const Eigen::VectorXd exact = Eigen::VectorXd::LinSpaced(full.cols(), -1.0, 2.0).array().sin();
-    EXPECT_LT((factor.solve(full * exact) - exact).norm(), 1e-12 * exact.norm());
+    EXPECT_LT((factor->solve(full * exact) - exact).norm(), 1e-12 * exact.norm());
     const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(full).eigenvalues();
-    EXPECT_EQ(factor.negatives(), static_cast<std::size_t>((values.array() < 0.0).count()));
+    EXPECT_EQ(factor->negatives(), static_cast<std::size_t>((values.array() < 0.0).count()));
 }
 
 /// A matrix may follow one that failed.
-TEST(SheetFactor, RefusesPivotsOfNoUse)
+TEST(MultifrontalFactor, RefusesPivotsOfNoUse)
 {
     const Problem problem = capProblem(0.3, 1.0);
-    SheetFactor factor(problem.matrix, problem.places);
+    const auto factor = multifrontalFactor(problem.matrix, problem.places);
     for (const double wrong : {0.0, std::numeric_limits<double>::quiet_NaN()}) {
         Matrix matrix = wrong * problem.matrix;
-        EXPECT_FALSE(factor.factorize(matrix));
+        EXPECT_FALSE(factor->factorize(matrix));
     }
-    ASSERT_TRUE(factor.factorize(problem.matrix));
-    EXPECT_EQ(factor.negatives(), 1U);
+    ASSERT_TRUE(factor->factorize(problem.matrix));
+    EXPECT_EQ(factor->negatives(), 1U);
 }
 
-TEST(SheetFactor, TakesNoUnknownsAndOne)
+TEST(MultifrontalFactor, TakesNoUnknownsAndOne)
 {
-    SheetFactor none(Matrix(0, 0), {});
-    EXPECT_TRUE(none.factorize(Matrix(0, 0)));
-    EXPECT_EQ(none.negatives(), 0U);
-    EXPECT_EQ(none.solve(Eigen::VectorXd(0)).size(), 0);
+    const auto none = multifrontalFactor(Matrix(0, 0), {});
+    EXPECT_TRUE(none->factorize(Matrix(0, 0)));
+    EXPECT_EQ(none->negatives(), 0U);
+    EXPECT_EQ(none->solve(Eigen::VectorXd(0)).size(), 0);
 
     Matrix single(1, 1);
     single.insert(0, 0) = -4.0;
     single.makeCompressed();
-    SheetFactor one(single, {{1.0, 2.0, 3.0}});
-    ASSERT_TRUE(one.factorize(single));
-    EXPECT_EQ(one.negatives(), 1U);
-    EXPECT_DOUBLE_EQ(one.solve(Eigen::VectorXd::Constant(1, 2.0))[0], -0.5);
+    const auto one = multifrontalFactor(single, {{1.0, 2.0, 3.0}});
+    ASSERT_TRUE(one->factorize(single));
+    EXPECT_EQ(one->negatives(), 1U);
+    EXPECT_DOUBLE_EQ(one->solve(Eigen::VectorXd::Constant(1, 2.0))[0], -0.5);
 }
 
 }  // namespace
