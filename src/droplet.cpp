@@ -343,7 +343,7 @@ RefillState changeOf(const Surface& from, const Surface& to, double fill)
 }
 
 /// Solves droplets again at the fills of a range, outward from 1.
-/// @param shapes  of the droplets at fill 1
+/// @param shapes  of the droplets at fill 1, but for their solution
 /// @throws Error  NoSuchDroplet where droplets of the range do not exist, if it may not shrink
 Refill refillOf(const Droplet& droplet, const LiquidShapes& shapes, const SolveOptions& solve, const FillRange& range,
                 LoftOptions lofting)
@@ -353,6 +353,7 @@ Refill refillOf(const Droplet& droplet, const LiquidShapes& shapes, const SolveO
     Refill result{1.0, 1.0, {}};
     for (const double end : {range.min, range.max}) {
         LiquidShapes last = shapes;
+        last.solution = droplet.solution;
         double& reached = end < 1.0 ? result.min : result.max;
         for (const double next : fillsTo(end)) {
             std::optional<LiquidShapes> found;
@@ -507,9 +508,8 @@ std::vector<double> volumesOf(const std::vector<PlanarMesh>& meshes, const Dropl
 void finish(Droplet& droplet, const DropletOptions& options, const Progress& progress, FilmState film)
 {
     SolveOptions solved = solveOptions(options);
-    const LiquidShapes shapes =
-        solveShapes(droplet.meshes, solved, options.allow_less, progress, std::move(film.followed));
-    droplet.solution = shapes.solution;
+    LiquidShapes shapes = solveShapes(droplet.meshes, solved, options.allow_less, progress, std::move(film.followed));
+    droplet.solution = std::move(shapes.solution);
     solved.model = droplet.solution.report.model;
     if (progress) {
         progress(Stage::Loft, 0.0);

@@ -62,7 +62,8 @@ struct Sums {
     double area = 0.0;    ///< without dry ground
     double linear = 0.0;  ///< the same in the linear model
     double steep = 0.0;
-    double steepest = 0.0;  ///< angle to the plane [rad]
+    double slope = 0.0;    ///< square of the largest one of triangles that face up
+    double leaning = 0.0;  ///< largest angle to the plane of the others [rad]
 
     void add(const Sums& more)
     {
@@ -71,7 +72,8 @@ struct Sums {
         area += more.area;
         linear += more.linear;
         steep += more.steep;
-        steepest = std::max(steepest, more.steepest);
+        slope = std::max(slope, more.slope);
+        leaning = std::max(leaning, more.leaning);
     }
 };
 
@@ -87,12 +89,16 @@ Sums sumsOver(const CapillarySurface& surface, std::size_t begin, std::size_t en
             continue;
         }
         sums.area += length(normal);
-        const double across = std::hypot(normal.x, normal.y);
-        sums.steepest = std::max(sums.steepest, std::atan2(across, normal.z));
+        const double across = normal.x * normal.x + normal.y * normal.y;
+        if (normal.z <= 0.0) {
+            sums.leaning = std::max(sums.leaning, std::atan2(std::sqrt(across), normal.z));
+            continue;
+        }
+        const double slope = across / (normal.z * normal.z);
+        sums.slope = std::max(sums.slope, slope);
         if (surface.isHeightField()) {
-            const double slope = across / normal.z;
-            sums.linear += normal.z * (1.0 + 0.5 * slope * slope);
-            sums.steep += slope * slope > kSteep ? normal.z : 0.0;
+            sums.linear += normal.z * (1.0 + 0.5 * slope);
+            sums.steep += slope > kSteep ? normal.z : 0.0;
         }
     }
     return sums;
@@ -184,7 +190,7 @@ ShapeFigures measure(const CapillarySurface& surface, const SolveOptions& option
     figures.linear_area = total.linear;
     figures.surface_energy = sigma * total.area;
     figures.gravity_energy = sigma * (liquid.gravity - base.integrals.gravity);
-    figures.slope_max = total.steepest;
+    figures.slope_max = std::max(total.leaning, std::atan(std::sqrt(total.slope)));
     figures.steep_area = total.steep;
     addRimFigures(surface, options, figures);
     return figures;

@@ -24,6 +24,7 @@
 #include "shape/own_options.h"
 #include "shape/sheet_base.h"
 #include "shape/sheet_contact.h"
+#include "shape/sheet_energy.h"
 #include "shape/work.h"
 #include "union_find.h"
 
@@ -157,8 +158,9 @@ bool areSteep(const std::vector<CapillarySurface>& fields)
 /// Whether no height field is so deep below the ground, as on a wall, that it has no liquid.
 bool haveLiquid(const std::vector<CapillarySurface>& fields, const SolveOptions& options)
 {
-    return std::all_of(fields.begin(), fields.end(),
-                       [&](const CapillarySurface& field) { return measure(field, options).volume > 0.0; });
+    return std::all_of(fields.begin(), fields.end(), [&](const CapillarySurface& field) {
+        return integrate(field, {}).volume > baseOf(field, options.ground, {}).integrals.volume;
+    });
 }
 
 /// Beginning of a message about one droplet of several.
