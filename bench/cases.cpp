@@ -30,7 +30,7 @@ const Surface& Case::surface(std::size_t triangles)
 {
     choose(triangles);
     if (!surface_) {
-        surface_ = loft(meshes(triangles), solution(triangles).droplets, {.extent = domain_.extent});
+        surface_ = loft(solution(triangles).droplets, {.extent = domain_.extent});
     }
     return *surface_;
 }

@@ -140,10 +140,7 @@ void registerSurface(const std::shared_ptr<Case>& footprint, std::size_t size)
     const auto prepare = [footprint, size] { footprint->surface(size); };
     measure(
         "Loft" + at, repetitions(size), [footprint, size] { footprint->solution(size); },
-        [footprint, size] {
-            return loft(footprint->meshes(size), footprint->solution(size).droplets,
-                        {.extent = footprint->domain().extent});
-        },
+        [footprint, size] { return loft(footprint->solution(size).droplets, {.extent = footprint->domain().extent}); },
         [triangles](const Surface&, Counters& counters) { triangles(counters); });
     measure(
         "Topology" + at, repetitions(size), prepare, [footprint, size] { return topology(footprint->surface(size)); },
