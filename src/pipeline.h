@@ -6,6 +6,7 @@
 
 #include "droplet/droplet.h"
 #include "droplet/shape/sheet.h"
+#include "shape/liquid_shapes.h"
 #include "shape/own_options.h"
 
 namespace droplet {

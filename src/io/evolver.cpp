@@ -17,6 +17,7 @@
 #include "droplet/version.h"
 #include "io/byte_stream.h"
 #include "shape/area_vector.h"
+#include "shape/liquid_shapes.h"
 #include "shape/sheet_base.h"
 
 namespace droplet {
@@ -450,12 +451,11 @@ std::uint64_t writeEvolver(std::ostream& out, const std::vector<CapillarySurface
     check(surfaces);
     const Physics physics = physicsOf(surfaces, options);
     std::vector<Drop> drops;
-    bool has_sheets = false;
+    drops.reserve(surfaces.size());
     for (const CapillarySurface& surface : surfaces) {
         drops.push_back(makeDrop(surface, options.ground, physics));
-        has_sheets = has_sheets || !surface.isHeightField();
     }
-    return Datafile(out, drops, physics, options, has_sheets).write();
+    return Datafile(out, drops, physics, options, haveSheets(surfaces)).write();
 }
 
 }  // namespace droplet

@@ -39,7 +39,7 @@ std::optional<FollowedSheets> followSheets(const SheetOrigins& origins, const Dr
                                            const SolveOptions& options)
 {
     const std::vector<CapillarySurface>& surfaces = before.solution.droplets;
-    if (!hasSheets(before) || !options.ground.flat()) {
+    if (!haveSheets(surfaces) || !options.ground.flat()) {
         return std::nullopt;
     }
     const std::size_t count = meshes.size();
@@ -89,12 +89,6 @@ std::optional<FollowedSheets> followSheets(const SheetOrigins& origins, const Dr
     return all_reached ? std::optional(std::move(followed)) : std::nullopt;
 }
 
-bool hasSheets(const Droplet& droplet)
-{
-    const std::vector<CapillarySurface>& surfaces = droplet.solution.droplets;
-    return std::any_of(surfaces.begin(), surfaces.end(), [](const auto& surface) { return !surface.isHeightField(); });
-}
-
 const CapillarySurface* sheetOf(const Droplet& droplet, std::size_t k)
 {
     const CapillarySurface& surface = droplet.solution.droplets[k];
@@ -110,7 +104,7 @@ bool isSameSheet(const Droplet& before, const Droplet& after, std::size_t k)
 
 SheetOrigins originsOf(const Droplet& droplet, const SheetOrigins& origins, const std::vector<PlanarMesh>& bases)
 {
-    if (!hasSheets(droplet)) {
+    if (!haveSheets(droplet.solution.droplets)) {
         return {};
     }
     SheetOrigins result(droplet.solution.droplets.size());

@@ -38,9 +38,6 @@ std::optional<FollowedSheets> followSheets(const SheetOrigins& origins, const Dr
                                            const std::vector<PlanarMesh>& meshes, std::vector<PlanarMesh> bases,
                                            const SolveOptions& options);
 
-/// Whether any droplet of a frame is a sheet.
-bool hasSheets(const Droplet& droplet);
-
 /// Sheet of a droplet; null if it is none.
 const CapillarySurface* sheetOf(const Droplet& droplet, std::size_t k);
 

@@ -559,7 +559,7 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     std::optional<FrameLineage> lineage;
     std::optional<FollowedSheets> sheets;
     if (options.keep_vertices && one_to_one && !anyDry(before.droplet)) {
-        if (hasSheets(before.droplet)) {
+        if (haveSheets(before.droplet.solution.droplets)) {
             lineage = followAll(before, domain, true, frame.droplet.meshes);
             if (lineage) {
                 sheets = followSheets(before.lineage->sheets, before.droplet, frame.droplet.meshes, lineage->bases,

@@ -24,7 +24,6 @@
 #include "shape/own_options.h"
 #include "shape/sheet_base.h"
 #include "shape/sheet_contact.h"
-#include "shape/sheet_energy.h"
 #include "shape/work.h"
 #include "union_find.h"
 
@@ -158,9 +157,8 @@ bool areSteep(const std::vector<CapillarySurface>& fields)
 /// Whether no height field is so deep below the ground, as on a wall, that it has no liquid.
 bool haveLiquid(const std::vector<CapillarySurface>& fields, const SolveOptions& options)
 {
-    return std::all_of(fields.begin(), fields.end(), [&](const CapillarySurface& field) {
-        return integrate(field, {}).volume > baseOf(field, options.ground, {}).integrals.volume;
-    });
+    return std::all_of(fields.begin(), fields.end(),
+                       [&](const CapillarySurface& field) { return liquidVolume(field, options.ground) > 0.0; });
 }
 
 /// Beginning of a message about one droplet of several.
@@ -514,7 +512,7 @@ struct Box {
 /// that none touches itself, its own solver has seen.
 std::optional<SheetContact> neighbourContact(const std::vector<PlanarMesh>& meshes, const LiquidShapes& shapes)
 {
-    if (meshes.size() == 1 || !shapes.hasSheets()) {
+    if (meshes.size() == 1 || !haveSheets(shapes.solution.droplets)) {
         return std::nullopt;
     }
     const std::vector<CapillarySurface>& surfaces = shapes.solution.droplets;
@@ -884,7 +882,7 @@ bool areApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options
     SolveOptions own = scaled(options, share);
     own.max_work = work.left();
     const LiquidShapes shapes = solveAll(meshes, own, true, {});
-    work.done += shapes.work + (shapes.hasSheets() ? contactWork(shapes) : 0.0);
+    work.done += shapes.work + (haveSheets(shapes.solution.droplets) ? contactWork(shapes) : 0.0);
     return shapes.withLess() == 0 && !neighbourContact(meshes, shapes);
 }
 
@@ -943,9 +941,9 @@ std::string refusal(const std::vector<PlanarMesh>& meshes, const SolveOptions& o
 
 }  // namespace
 
-bool LiquidShapes::hasSheets() const
+bool haveSheets(const std::vector<CapillarySurface>& surfaces)
 {
-    return std::any_of(solution.droplets.begin(), solution.droplets.end(),
+    return std::any_of(surfaces.begin(), surfaces.end(),
                        [](const CapillarySurface& surface) { return !surface.isHeightField(); });
 }
 
@@ -996,7 +994,7 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
                          const Progress& progress, std::vector<std::optional<SheetResult>> followed)
 {
     LiquidShapes shapes = solveAll(meshes, options, allow_less, progress, std::move(followed));
-    if (!shapes.hasSheets() || options.fill.sharing == FillSharing::Total) {
+    if (!haveSheets(shapes.solution.droplets) || options.fill.sharing == FillSharing::Total) {
         return shapes;
     }
     const double most = runWork(meshes, options, allow_less);

@@ -16,6 +16,9 @@ namespace droplet {
 /// Rims that stand so upright that a height field is not the true shape any more [rad].
 inline constexpr double kUpright = 89.0 * kDegree;
 
+/// Whether any droplet may hang over its rim.
+bool haveSheets(const std::vector<CapillarySurface>& surfaces);
+
 /// Shapes of all droplets.
 struct LiquidShapes {
     Solution solution = {};
@@ -27,8 +30,6 @@ struct LiquidShapes {
     bool is_stand_in = false;  ///< whether the linear model stands in for an exact shape that was not found
     double work = 0.0;         ///< done, as SolveOptions::max_work
 
-    /// Whether any droplet may hang over its rim.
-    [[nodiscard]] bool hasSheets() const;
     /// Number of droplets that have less liquid than was wanted.
     [[nodiscard]] std::size_t withLess() const;
 };

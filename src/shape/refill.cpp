@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "droplet/error.h"
-#include "droplet/shape/figures.h"
 #include "number_text.h"
 #include "shape/recovered_normals.h"
+#include "shape/sheet_base.h"
 
 namespace droplet {
 namespace {
@@ -88,7 +88,7 @@ std::vector<FillGain> gainsPerFill(const std::vector<PlanarMesh>& meshes, const 
     std::vector<double> volumes;
     double total = 0.0;
     for (std::size_t k = 0; k < meshes.size(); ++k) {
-        volumes.push_back(measure(fields[k], options).volume);
+        volumes.push_back(liquidVolume(fields[k], options.ground));
         total += volumes.back();
         if (!shared && !(volumes.back() > 0.0)) {
             throw Error(ErrorCode::NoSuchDroplet,

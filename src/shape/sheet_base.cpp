@@ -68,4 +68,9 @@ SheetBase baseOf(const CapillarySurface& surface, const BaseSurface& ground, Vec
     return ground.flat() ? SheetBase{} : baseOf(footprintOf(surface), ground, weight);
 }
 
+double liquidVolume(const CapillarySurface& surface, const BaseSurface& ground)
+{
+    return integrate(surface, {}).volume - baseOf(surface, ground, {}).integrals.volume;
+}
+
 }  // namespace droplet

@@ -44,4 +44,7 @@ SheetBase baseOf(const PlanarMesh& footprint, const BaseSurface& ground, Vec3 we
 /// Base under a surface.
 SheetBase baseOf(const CapillarySurface& surface, const BaseSurface& ground, Vec3 weight);
 
+/// Volume of the liquid between a surface and the ground [m³].
+double liquidVolume(const CapillarySurface& surface, const BaseSurface& ground);
+
 }  // namespace droplet

@@ -128,28 +128,17 @@ void fillBase(const Piece& piece, const LoftOptions& options, Surface& surface)
     });
 }
 
-/// Finds the volume of the liquid and the area that it wets.
-void measure(Piece& piece, const BaseSurface& ground)
+/// Area of the footprint without dry ground [m²].
+double wetArea(const CapillarySurface& liquid)
 {
-    struct Sums {
-        double volume = 0.0;
-        double area = 0.0;
-    };
-    const CapillarySurface& liquid = *piece.liquid;
-    for (const Sums& block : mapBlocks<Sums>(liquid.triangles.size(), [&](std::size_t begin, std::size_t end) {
-             Sums sum;
-             for (std::size_t i = begin; i < end; ++i) {
-                 const Triangle& t = liquid.triangles[i];
-                 const double below = areaVector(liquid.vertices, t).z;
-                 sum.area += isDry(liquid, t) ? 0.0 : below;
-                 sum.volume += below * (liquid.vertices[t[0]].z + liquid.vertices[t[1]].z + liquid.vertices[t[2]].z);
-             }
-             return sum;
-         })) {
-        piece.volume += block.volume / 3.0;
-        piece.area += block.area;
-    }
-    piece.volume -= baseOf(liquid, ground, {}).integrals.volume;
+    return sumOverBlocks(liquid.triangles.size(), [&](std::size_t begin, std::size_t end) {
+        double sum = 0.0;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Triangle& t = liquid.triangles[i];
+            sum += isDry(liquid, t) ? 0.0 : areaVector(liquid.vertices, t).z;
+        }
+        return sum;
+    });
 }
 
 void check(const std::vector<CapillarySurface>& surfaces, const LoftOptions& options)
@@ -305,7 +294,8 @@ Surface loft(const std::vector<CapillarySurface>& surfaces, const LoftOptions& o
         if (options.refill) {  // without dry ground, pieces are the droplets
             fillRefill(*piece.liquid, options.refill->gains[k], piece.begin.vertices, surface);
         }
-        measure(piece, options.ground);
+        piece.volume = liquidVolume(*piece.liquid, options.ground);
+        piece.area = wetArea(*piece.liquid);
     });
     double volume = 0.0;
     double area = 0.0;

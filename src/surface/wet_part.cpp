@@ -10,6 +10,7 @@
 
 #include "droplet/mesh/triangulate.h"
 #include "shape/area_vector.h"
+#include "surface/flat_map.h"
 
 namespace droplet {
 namespace {
@@ -351,10 +352,7 @@ std::optional<std::vector<CapillarySurface>> wetParts(const CapillarySurface& su
     if (!hasDry(is_dry)) {
         return std::nullopt;
     }
-    std::vector<Vec2> seen_from_above;
-    for (const Vec3& p : surface.vertices) {
-        seen_from_above.push_back({p.x, p.y});
-    }
+    const std::vector<Vec2> seen_from_above = projected(surface).places;
     std::vector<CapillarySurface> parts;
     for (Part& part : partsOf(wetTriangles(surface.triangles, is_dry), seen_from_above)) {
         parts.push_back(surfaceOf(std::move(part), surface, ground));
