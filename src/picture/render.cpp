@@ -698,19 +698,14 @@ TexturedMesh groundMesh(const BaseSurface& ground, Vec2 extent)
             const Vec2 p{kBeyond * extent.x * (static_cast<double>(i) / kCells - 0.5),
                          kBeyond * extent.y * (static_cast<double>(j) / kCells - 0.5)};
             vertices.emplace_back();
-            GroundPoint point;
-            try {
-                point = ground.at(p);
-            } catch (const Error&) {
-                continue;  // no ground here
-            }
-            if (length(point.gradient) > kSteepest) {
+            const std::optional<GroundPoint> point = ground.find(p);
+            if (!point || length(point->gradient) > kSteepest) {
                 continue;
             }
-            const double slope = std::sqrt(1.0 + dot(point.gradient, point.gradient));
+            const double slope = std::sqrt(1.0 + dot(point->gradient, point->gradient));
             vertices.back() = static_cast<std::uint32_t>(mesh.positions.size());
-            mesh.positions.push_back({p.x, p.y, point.height});
-            mesh.normals.push_back({-point.gradient.x / slope, -point.gradient.y / slope, 1.0 / slope});
+            mesh.positions.push_back({p.x, p.y, point->height});
+            mesh.normals.push_back({-point->gradient.x / slope, -point->gradient.y / slope, 1.0 / slope});
             mesh.uvs.push_back({0.5 + p.x / extent.x, 0.5 - p.y / extent.y});
         }
     }

@@ -24,29 +24,12 @@ std::string millimetres(double length)
     return numberText(length / kMillimetre) + " mm";
 }
 
-/// Shape of a ground with one radius.
-enum class Body { Sphere, Cylinder };
-
-const char* nameOf(Body body)
-{
-    return body == Body::Sphere ? "sphere" : "cylinder";
-}
-
-void checkRadius(double radius, Body body)
+void checkRadius(double radius, const char* body)
 {
     if (!(std::isfinite(radius) && radius != 0.0)) {
-        throw Error(ErrorCode::InvalidArgument, "radius " + millimetres(radius) + " of the ground's " + nameOf(body) +
-                                                    " must be finite and not zero");
+        throw Error(ErrorCode::InvalidArgument,
+                    "radius " + millimetres(radius) + " of the ground's " + body + " must be finite and not zero");
     }
-}
-
-[[noreturn]] void throwBeyond(double radius, double distance, Body body)
-{
-    throw Error(
-        ErrorCode::InvalidArgument,
-        fmt::format("radius {} of the ground's {} must exceed {}, the largest distance of the footprint from its {}",
-                    millimetres(std::abs(radius)), nameOf(body), millimetres(distance),
-                    body == Body::Sphere ? "top" : "line"));
 }
 
 /// Circle that touches the plane, at a distance from that point.
@@ -55,16 +38,16 @@ struct Arc {
     double slope = 0.0;  ///< derivative by the distance
 };
 
-Arc arcAt(double radius, double distance, Body body)
+std::optional<Arc> arcAt(double radius, double distance)
 {
     const double size = std::abs(radius);
     if (!(distance < size)) {
-        throwBeyond(radius, distance, body);
+        return std::nullopt;
     }
     const double root = std::sqrt((size - distance) * (size + distance));
     const double sign = radius > 0.0 ? -1.0 : 1.0;
     // R − √(R² − r²), without cancellation.
-    return {sign * distance * distance / (size + root), sign / root};
+    return Arc{sign * distance * distance / (size + root), sign / root};
 }
 
 /// Weights of cubic convolution, and their derivatives, at t between the second and third of four neighbours.
@@ -139,15 +122,29 @@ private:
 
 BaseSurface::BaseSurface(Sample sample) : sample_(std::move(sample)) {}
 
-BaseSurface::BaseSurface(Sample sample, Distance distance) : sample_(std::move(sample)), distance_(std::move(distance))
+BaseSurface::BaseSurface(Sample sample, Bounds bounds) : sample_(std::move(sample)), bounds_(std::move(bounds)) {}
+
+GroundPoint BaseSurface::at(Vec2 p) const
 {
+    if (const std::optional<GroundPoint> ground = find(p)) {
+        return *ground;
+    }
+    if (!bounds_) {
+        throw Error(ErrorCode::InvalidArgument, "there is no ground at x " + millimetres(p.x) + ", y " +
+                                                    millimetres(p.y) + ", under the footprint");
+    }
+    throw Error(
+        ErrorCode::InvalidArgument,
+        fmt::format("radius {} of the ground's {} must exceed {}, the largest distance of the footprint from its {}",
+                    millimetres(bounds_->radius), bounds_->body, millimetres(bounds_->distance(p)), bounds_->middle));
 }
 
 void BaseSurface::requireAt(std::span<const Vec2> points) const
 {
-    if (distance_ && !points.empty()) {
-        std::ignore = at(*std::max_element(points.begin(), points.end(),
-                                           [this](Vec2 a, Vec2 b) { return distance_(a) < distance_(b); }));
+    if (bounds_ && !points.empty()) {
+        std::ignore = at(*std::max_element(points.begin(), points.end(), [this](Vec2 a, Vec2 b) {
+            return bounds_->distance(a) < bounds_->distance(b);
+        }));
         return;
     }
     for (const Vec2 p : points) {
@@ -157,28 +154,28 @@ void BaseSurface::requireAt(std::span<const Vec2> points) const
 
 BaseSurface BaseSurface::sphere(double radius)
 {
-    checkRadius(radius, Body::Sphere);
-    return {[radius](Vec2 p) {
-                const Arc arc = arcAt(radius, length(p), Body::Sphere);
-                return GroundPoint{arc.height, arc.slope * p};
-            },
-            [](Vec2 p) { return length(p); }};
+    checkRadius(radius, "sphere");
+    const auto sample = [radius](Vec2 p) -> std::optional<GroundPoint> {
+        const std::optional<Arc> arc = arcAt(radius, length(p));
+        return arc ? std::optional(GroundPoint{arc->height, arc->slope * p}) : std::nullopt;
+    };
+    return {sample, {[](Vec2 p) { return length(p); }, std::abs(radius), "sphere", "top"}};
 }
 
 BaseSurface BaseSurface::cylinder(double radius, double axis)
 {
-    checkRadius(radius, Body::Cylinder);
+    checkRadius(radius, "cylinder");
     if (!std::isfinite(axis)) {
         throw Error(ErrorCode::InvalidArgument,
                     "axis " + numberText(axis / kDegree) + " degrees of the ground's cylinder must be finite");
     }
     const Vec2 across{-std::sin(axis), std::cos(axis)};
-    return {[radius, across](Vec2 p) {
-                const double away = dot(across, p);
-                const Arc arc = arcAt(radius, std::abs(away), Body::Cylinder);
-                return GroundPoint{arc.height, arc.slope * away * across};
-            },
-            [across](Vec2 p) { return std::abs(dot(across, p)); }};
+    const auto sample = [radius, across](Vec2 p) -> std::optional<GroundPoint> {
+        const double away = dot(across, p);
+        const std::optional<Arc> arc = arcAt(radius, std::abs(away));
+        return arc ? std::optional(GroundPoint{arc->height, arc->slope * away * across}) : std::nullopt;
+    };
+    return {sample, {[across](Vec2 p) { return std::abs(dot(across, p)); }, std::abs(radius), "cylinder", "line"}};
 }
 
 BaseSurface BaseSurface::heightMap(HeightMap map, Vec2 extent, std::optional<double> depth)

@@ -4,17 +4,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "droplet/error.h"
-
 namespace droplet {
 
 GroundPoint SheetBase::under(Vec3 place) const
 {
-    try {
-        return ground.at({place.x, place.y});
-    } catch (const Error&) {
-        return {-std::numeric_limits<double>::infinity(), {}};
-    }
+    constexpr GroundPoint kBottomless{-std::numeric_limits<double>::infinity(), {}};
+    return ground.find({place.x, place.y}).value_or(kBottomless);
 }
 
 void SheetBase::lift(std::vector<Vec3>& places, std::size_t first) const

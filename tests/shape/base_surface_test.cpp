@@ -136,6 +136,18 @@ TEST(BaseSurface, EndsAtTheRadiusOfTheSphereOrCylinder)
     EXPECT_NO_THROW((void)cylinder.at({5.0, 0.0329}));
     EXPECT_THAT(messageOf([&] { (void)cylinder.at({0.0, -0.034}); }), HasSubstr("34 mm"));
     EXPECT_THAT(messageOf([&] { (void)cylinder.at({0.0, kNan}); }), HasSubstr("nan"));
+    EXPECT_EQ(sphere.find({0.0, 0.0399}).value().height, sphere.at({0.0, 0.0399}).height);
+    EXPECT_FALSE(sphere.find({0.0, 0.04}));
+    EXPECT_FALSE(cylinder.find({0.0, kNan}));
+}
+
+TEST(BaseSurface, MayHaveNoGroundAtSomePoints)
+{
+    const BaseSurface cliff([](Vec2 p) { return p.x < 0.0 ? std::optional(GroundPoint{1e-3, {}}) : std::nullopt; });
+    EXPECT_EQ(cliff.find({-1e-3, 0.0}).value().height, 1e-3);
+    EXPECT_FALSE(cliff.find({1e-3, 0.0}));
+    const std::vector<Vec2> points = {{-1e-3, 0.0}, {2e-3, 3e-3}};
+    EXPECT_THAT(messageOf([&] { cliff.requireAt(points); }), HasSubstr("x 2 mm, y 3 mm"));
 }
 
 TEST(BaseSurface, RefusesInvalidGrounds)

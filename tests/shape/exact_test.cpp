@@ -575,8 +575,8 @@ TEST(Exact, OneReservoirHasOnePressure)
 struct Minimal {
     std::string name;
     Domain domain;
-    BaseSurface::Sample surface;
-    BaseSurface::Sample bump;  ///< 0 along the rim
+    std::function<GroundPoint(Vec2)> surface;
+    std::function<GroundPoint(Vec2)> bump;  ///< 0 along the rim
     double area = 0.0;
     double bump_volume = 0.0;
 };

@@ -19,9 +19,8 @@ struct GroundPoint {
 /// Ground under a droplet: a height field over the footprint's plane. The default is the plane itself.
 class BaseSurface {
 public:
-    /// Function that gives the ground at a point; the same on every thread.
-    /// Throws Error InvalidArgument where there is no ground.
-    using Sample = std::function<GroundPoint(Vec2)>;
+    /// Function that gives the ground at a point, or nothing where there is none; the same on every thread.
+    using Sample = std::function<std::optional<GroundPoint>(Vec2)>;
 
     /// Flat ground: the plane itself.
     BaseSurface() = default;
@@ -54,9 +53,12 @@ public:
 
     /// Whether the ground is the plane itself.
     [[nodiscard]] bool flat() const { return !sample_; }
-    /// Ground at a point of the plane.
+    /// Ground at a point of the plane [m].
+    /// @return  none where there is no ground
+    [[nodiscard]] std::optional<GroundPoint> find(Vec2 p) const { return sample_ ? sample_(p) : GroundPoint{}; }
+    /// Ground at a point of the plane [m] that has some.
     /// @throws Error InvalidArgument where there is no ground
-    [[nodiscard]] GroundPoint at(Vec2 p) const { return sample_ ? sample_(p) : GroundPoint{}; }
+    [[nodiscard]] GroundPoint at(Vec2 p) const;
 
     /// Checks that there is ground at all points; for a sphere or a cylinder there is then ground between them, too.
     /// @param points  points of the plane [m]
@@ -64,13 +66,18 @@ public:
     void requireAt(std::span<const Vec2> points) const;
 
 private:
-    /// Distance of a point from where the ground touches the plane [m].
-    using Distance = std::function<double(Vec2)>;
+    /// Where round ground ends.
+    struct Bounds {
+        std::function<double(Vec2)> distance;  ///< of a point from where the ground touches the plane [m]
+        double radius = 0.0;                   ///< ground is nearer than that [m] > 0
+        const char* body = "";                 ///< name of what has the radius
+        const char* middle = "";               ///< name of where it touches the plane
+    };
 
-    BaseSurface(Sample sample, Distance distance);
+    BaseSurface(Sample sample, Bounds bounds);
 
     Sample sample_;
-    Distance distance_;  ///< empty if the ground has no radius
+    std::optional<Bounds> bounds_;
 };
 
 }  // namespace droplet
