@@ -172,14 +172,15 @@ private:
     {
         const auto write = [&](const std::string& file, const droplet::Surface& surface) {
             std::uint64_t bytes = 0;
-            writeTogether(
-                surfaceFiles(
-                    surface,
-                    {file,
-                     options_.format,
-                     {.material = options_.settings.material, .closed = closed, .unit = options_.settings.unit}},
-                    bytes),
-                options_.run.files);
+            writeTogether(surfaceFiles(surface,
+                                       {file,
+                                        options_.format,
+                                        {.material = options_.settings.material,
+                                         .closed = closed,
+                                         .unit = options_.settings.unit,
+                                         .compression = options_.compression}},
+                                       bytes),
+                          options_.run.files);
             report_.bytes += bytes;
         };
         if (report_.dry() == report_.frames.size()) {
@@ -349,7 +350,9 @@ private:
             files.push_back({options_.preview->path, [&](std::ostream& out) { writePreviewVideo(out); }});
         }
         if (!options_.files) {
-            files.push_back({options_.output, [&](std::ostream& out) { report_.bytes = animation_->write(out); }});
+            files.push_back({options_.output, [&](std::ostream& out) {
+                                 report_.bytes = animation_->write(out, {options_.format, options_.compression});
+                             }});
         }
         if (options_.contact_sheet) {
             files.push_back({*options_.contact_sheet, [&](std::ostream& out) { droplet::writePng(sheet(), out); }});
@@ -367,7 +370,7 @@ private:
         finish();
     }
 
-    void writeHtml(std::ostream& out) const
+    void writeHtml(std::ostream& out)
     {
         droplet::PageContent page;
         page.title = std::filesystem::path(isStream(*options_.html) || options_.files ? options_.inputs.front()

@@ -43,14 +43,16 @@ void readOutput(const CommandLine& line, AnimateOptions& options)
         return;
     }
     if (extension.empty()) {
-        refuse(named + " has no extension that gives the format; an animation must be a .glb");
+        refuse(named + " has no extension that gives the format; an animation is a .glb, .gltf, .usda or .usdz");
     }
     options.format = forOption(named, [&] { return droplet::formatNamed(extension); });
-    if (!options.files && options.format != droplet::Format::Glb) {
+    if (!options.files && !droplet::isAnimated(options.format)) {
         refuse(named +
-               " must be a .glb with the animation, or have a placeholder for the frame's number, as in out/%04d" +
+               " must be a .glb, .gltf, .usda or .usdz with the animation, or have a placeholder for the frame's "
+               "number, as in out/%04d" +
                extension);
     }
+    options.compression = readCompression(line, options.format);
     warnOfFormat(line, options.format, false, options.settings);
     if (line.value("--fps") && options.files && (!options.preview || options.preview_files)) {
         options.settings.warnings.push_back("--fps has no effect: every frame has a file of its own");
@@ -132,6 +134,7 @@ void declareAnimation(CommandLine& line)
     declareLiquid(line);
     declareGround(line);
     declareSurface(line);
+    declareCompression(line, "Surface");
     declareHtml(line);
     line.add("Run", "--json", "FILE", "Write a report; - is standard output");
     declareRun(line);
@@ -168,8 +171,8 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     CommandLine line(commandText());
     line.addArguments("FILES",
                       "INPUT... is the frames: a pattern such as frames/%04d.png, several pictures, a folder, a "
-                      "video, which needs ffmpeg, or -, PNG, PGM or PPM pictures on standard input. OUTPUT is a .glb "
-                      "that plays, or a pattern for one file per frame "
+                      "video, which needs ffmpeg, or -, PNG, PGM or PPM pictures on standard input. OUTPUT is a .glb, "
+                      ".gltf, .usda or .usdz that plays, or a pattern for one file per frame "
                       "such as out/%04d.glb, .gltf, .obj, .ply, .stl, .usda or .usdz");
     declareAnimation(line);
     line.parse(argc, argv);

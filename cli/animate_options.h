@@ -21,6 +21,7 @@ struct AnimateOptions {
     std::string output;                 ///< path or kStandardStream
     std::optional<NumberedPath> files;  ///< set if every frame gets a file
     droplet::Format format = droplet::Format::Glb;
+    droplet::Compression compression = droplet::Compression::None;
     droplet::VolumeMode volume_mode = droplet::VolumeMode::Total;
     std::optional<double> frames_per_second;
     std::optional<std::string> json;            ///< path or kStandardStream

@@ -22,6 +22,29 @@ void declareFrameProgress(CommandLine& line, const char* group)
              "auto shows a bar on a terminal; json writes a line of JSON for each frame instead of the summary [auto]");
 }
 
+void declareCompression(CommandLine& line, const char* group)
+{
+    line.add(group, "--compress", "none|quantize|meshopt",
+             "Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three quarters of the size; "
+             "meshopt, those encoded (EXT_meshopt_compression), a third of the size [none]");
+}
+
+droplet::Compression readCompression(const CommandLine& line, droplet::Format format)
+{
+    using droplet::Compression;
+    const auto given = line.value("--compress");
+    if (!given) {
+        return Compression::None;
+    }
+    const auto compression = choice<Compression>(
+        *given, {{"none", Compression::None}, {"quantize", Compression::Quantize}, {"meshopt", Compression::Meshopt}});
+    if (compression != Compression::None && format != droplet::Format::Glb) {
+        refuse(std::string("--compress and the format ") + droplet::name(format) +
+               " exclude each other: only glb can be compressed");
+    }
+    return compression;
+}
+
 std::optional<std::string> requestedText(const CommandLine& line)
 {
     if (line.flag("--help")) {

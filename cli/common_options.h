@@ -6,6 +6,7 @@
 #include <string>
 
 #include "command_line.h"
+#include "droplet/scene/format.h"
 
 namespace cli {
 
@@ -15,6 +16,14 @@ void declareCommon(CommandLine& line, const char* group, const std::string& exam
 
 /// Declares --progress of a command that makes frames; readProgress() reads it.
 void declareFrameProgress(CommandLine& line, const char* group);
+
+/// Declares --compress; readCompression() reads it.
+void declareCompression(CommandLine& line, const char* group);
+
+/// Compression of a file; Compression::None if --compress is not given.
+/// @param format          of the file
+/// @throws droplet::Error InvalidArgument, naming the option and what is allowed
+droplet::Compression readCompression(const CommandLine& line, droplet::Format format);
 
 /// Text that --help or --version prints, if one of them is given.
 std::optional<std::string> requestedText(const CommandLine& line);

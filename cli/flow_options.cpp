@@ -69,10 +69,11 @@ const CommandText& commandText()
 void declare(CommandLine& line)
 {
     line.addArgument("OBJECT", "Mesh to run over: .glb, .gltf, .obj, .ply or .stl; OBJ and STL in millimetres");
-    line.addArgument("OUTPUT",
-                     "Animated .glb of object and droplets; meshes of the droplets in every frame, such as "
-                     "out/%04d.obj, .glb, .ply or .stl; pictures, out/%04d.png; a .png of the last frame; or a video, "
-                     ".mp4, .mkv, .mov or .webm, which needs ffmpeg");
+    line.addArgument(
+        "OUTPUT",
+        "Animation of object and droplets, .glb, .gltf, .usda or .usdz; meshes of the droplets in every frame, such as "
+        "out/%04d.obj, .glb, .ply, .stl or .usda; pictures, out/%04d.png; a .png of the last frame; or a video, "
+        ".mp4, .mkv, .mov or .webm, which needs ffmpeg");
     constexpr const char* kObject = "Object";
     line.add(kObject, "--preset", presetNames().c_str(),
              "Named scene with its own object and droplets, instead of OBJECT; other options change it");
@@ -141,8 +142,9 @@ void declare(CommandLine& line)
              "Write a rendered picture of the last frame beside meshes, as PNG; - is standard output");
     declareView(line);
     declareTurntable(line);
+    declareCompression(line, kOut);
     line.add(kOut, "--streaks", "FILE",
-             "Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animated .glb has them too");
+             "Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animation has them too");
     line.add(kOut, "--maps", "PATH",
              "Textures of the water in the object's uv, such as maps/%05d.png or .exr: four files per frame, -normal, "
              "-thickness, -age and -wet, which tells where the age counts");
@@ -456,12 +458,15 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     const Given output{options.output, "OUTPUT"};
     options.files = NumberedPath::of(options.output, "OUTPUT");
     const std::string extension = std::filesystem::path(options.output).extension().string();
-    const bool is_mesh = std::set<std::string>{".glb", ".gltf", ".obj", ".ply", ".stl"}.contains(extension);
+    const bool is_mesh =
+        std::set<std::string>{".glb", ".gltf", ".obj", ".ply", ".stl", ".usda", ".usdz"}.contains(extension);
+    const std::optional<droplet::Format> format =
+        is_mesh ? std::optional(droplet::formatNamed(extension)) : std::nullopt;
     if (options.files && is_mesh) {
         options.kind = FlowOutput::Meshes;
     } else if (options.files && extension == ".png") {
         options.kind = FlowOutput::Pictures;
-    } else if (!options.files && extension == ".glb") {
+    } else if (format && droplet::isAnimated(*format)) {
         options.kind = FlowOutput::Animation;
     } else if (!options.files && extension == ".png") {
         options.kind = FlowOutput::Picture;
@@ -469,8 +474,13 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
         options.kind = FlowOutput::Video;
     } else {
         refuse(output,
-               "a .glb; a .png; a .mp4, .mkv, .mov or .webm; or a file for every frame such as out/%04d.png, .glb, "
-               ".gltf, .obj, .ply or .stl");
+               "a .glb, .gltf, .usda or .usdz; a .png; a .mp4, .mkv, .mov or .webm; or a file for every frame such as "
+               "out/%04d.png, .glb, .gltf, .obj, .ply, .stl, .usda or .usdz");
+    }
+    if (format) {
+        options.file = {*format, readCompression(line, *format)};
+    } else if (line.value("--compress")) {
+        refuse("--compress needs a .glb as OUTPUT, not '" + options.output + "'");
     }
     const bool is_picture = options.kind != FlowOutput::Animation && options.kind != FlowOutput::Meshes;
     readFlowPreview(line, options, is_picture);

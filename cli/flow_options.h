@@ -38,6 +38,7 @@ struct FlowOptions {
     std::string output;                 ///< path
     FlowOutput kind = FlowOutput::Animation;
     std::optional<NumberedPath> files;  ///< set if every frame gets a file
+    droplet::AnimatedFile file;         ///< form of the animation, or of every mesh
     std::optional<droplet::FlowPreset> preset;
     droplet::FlowObjectOptions reading;
     bool keeps_animation = true;         ///< the object moves as its file says

@@ -210,7 +210,7 @@ droplet::FlowReport FlowRun::execute()
         run();
     }
     if (animation_) {
-        files.push_back({options_.output, [&](std::ostream& out) { animation_->write(out); }});
+        files.push_back({options_.output, [&](std::ostream& out) { animation_->write(out, options_.file); }});
     }
     if (options_.kind == FlowOutput::Picture) {
         files.push_back({options_.output, [&](std::ostream& out) { droplet::writePng(picture_, out); }});
@@ -433,8 +433,9 @@ void FlowRun::writeMesh(const std::vector<droplet::FlowSample>& samples, std::si
 {
     droplet::Surface surface =
         droplet::withBases(droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time)), bodies_);
-    SurfaceTarget target{options_.files->at(number), formatOf(options_.output), {}};
+    SurfaceTarget target{options_.files->at(number), options_.file.format, {}};
     target.options.material = material_;
+    target.options.compression = options_.file.compression;
     turnToFile(surface, target.format, options_.reading);
     std::uint64_t bytes = 0;
     writeTogether(surfaceFiles(surface, target, bytes), options_.output_options);

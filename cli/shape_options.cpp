@@ -157,28 +157,6 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
     options.settings.droplet.fill_range = range;
 }
 
-/// Reads --compress, which only a GLB without a slider can have.
-void readCompression(const CommandLine& line, ShapeOptions& options)
-{
-    using droplet::Compression;
-    const auto given = line.value("--compress");
-    if (!given) {
-        return;
-    }
-    options.compression = choice<Compression>(
-        *given, {{"none", Compression::None}, {"quantize", Compression::Quantize}, {"meshopt", Compression::Meshopt}});
-    if (options.compression == Compression::None) {
-        return;
-    }
-    if (options.format != droplet::Format::Glb) {
-        refuse(std::string("--compress and the format ") + droplet::name(options.format) +
-               " exclude each other: only glb can be compressed");
-    }
-    if (options.settings.droplet.fill_range) {
-        refuse("--compress and --fill-range exclude each other: the changes of a slider are not compressed");
-    }
-}
-
 }  // namespace
 
 void declareDroplets(CommandLine& line)
@@ -200,10 +178,7 @@ void declareDroplets(CommandLine& line)
         "Surface", "--sink", "LENGTH",
         "Lower the droplet into the ground by LENGTH in its file, so that a ground at height 0 cuts it: a base just "
         "above the ground leaves a film of air, which mirrors the sky");
-    line.add(
-        "Surface", "--compress", "none|quantize|meshopt",
-        "Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three quarters of the size; meshopt, "
-        "those encoded (EXT_meshopt_compression), a third of the size [none]");
+    declareCompression(line, "Surface");
 }
 
 void declareShapes(CommandLine& line)
@@ -250,7 +225,7 @@ ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const s
     }
     readFormat(line, subject, options);
     readFillRange(line, options);
-    readCompression(line, options);
+    options.compression = readCompression(line, options.format);
     return options;
 }
 

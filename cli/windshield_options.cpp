@@ -136,10 +136,11 @@ void declare(CommandLine& line)
     line.add(kOut, "--map-thickness", "LENGTH", "Thickness of the water that is white in a PNG [5mm]");
     line.add(kOut, "--droplets", "FILE", "Write a table of all running droplets in every frame: .csv or .json");
     line.addFlag(kOut, "--moving-only", "Leave droplets at rest out of the table");
-    line.add(kOut, "--model", "FILE", "Write the droplets as an animated .glb");
+    line.add(kOut, "--model", "FILE", "Write the droplets as an animated .glb, .gltf, .usda or .usdz");
     line.add(
         kOut, "--model-animation", "nodes|texture",
         "Form of the animation: nodes plays in every viewer; texture needs a shader and takes one draw call [nodes]");
+    declareCompression(line, kOut);
     line.add(kOut, "--json", "FILE", "Write a report, with the water's balance every second; - is standard output");
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
@@ -370,16 +371,25 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
         refuse("--moving-only needs --droplets");
     }
     if (const auto model = line.value("--model")) {
-        if (std::filesystem::path(model->text).extension() != ".glb") {
-            refuse(*model, "a file that ends in .glb");
+        const std::string extension = std::filesystem::path(model->text).extension().string();
+        if (!std::set<std::string>{".glb", ".gltf", ".usda", ".usdz"}.contains(extension)) {
+            refuse(*model, "a file that ends in .glb, .gltf, .usda or .usdz");
         }
         options.model = model->text;
+        options.model_file.format = droplet::formatNamed(extension);
+        options.model_file.compression = readCompression(line, options.model_file.format);
+    } else if (line.value("--compress")) {
+        refuse("--compress needs --model");
     }
     if (const auto animation = line.value("--model-animation")) {
         options.model_animation = choice<droplet::SceneAnimation>(
             *animation, {{"nodes", droplet::SceneAnimation::Nodes}, {"texture", droplet::SceneAnimation::Texture}});
         if (!options.model) {
             refuse("--model-animation needs --model");
+        }
+        if (options.model_animation == droplet::SceneAnimation::Texture &&
+            options.model_file.format != droplet::Format::Glb && options.model_file.format != droplet::Format::Gltf) {
+            refuse("--model-animation texture needs a .glb or .gltf: USD has no shader that places the droplets");
         }
     }
     options.json = text(line, "--json");
@@ -422,8 +432,8 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     options.progress = readProgress(line);
     // These options do not change what a frame shows.
     const std::set<std::string> neutral{
-        "--time", "--resume",   "--no-clobber", "--threads",     "--quiet",           "--config",
-        "--json", "--droplets", "--model",      "--moving-only", "--model-animation", "--progress"};
+        "--time",     "--resume", "--no-clobber",  "--threads",         "--quiet",    "--config",  "--json",
+        "--droplets", "--model",  "--moving-only", "--model-animation", "--progress", "--compress"};
     options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output;
     for (const auto& [name, value] : line.given()) {
         if (neutral.count(name) == 0) {

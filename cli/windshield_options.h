@@ -44,6 +44,7 @@ struct WindshieldOptions {
     std::optional<std::string> droplets;
     bool moving_only = false;  ///< leave droplets at rest out of the table
     std::optional<std::string> model;
+    droplet::AnimatedFile model_file;  ///< form of the model
     droplet::SceneAnimation model_animation = droplet::SceneAnimation::Nodes;
     std::optional<std::string> json;  ///< path or kStandardStream
     bool resume = false;

@@ -113,7 +113,7 @@ droplet::WindshieldReport WindshieldRun::execute()
         files.back().write = [&](std::ostream& out) { frames_.write(out); };
     }
     if (options_.model) {
-        files.push_back({*options_.model, [&](std::ostream& out) { scene_->write(out); }});
+        files.push_back({*options_.model, [&](std::ostream& out) { scene_->write(out, options_.model_file); }});
     }
     if (options_.json) {
         files.push_back({*options_.json, [&](std::ostream& out) {

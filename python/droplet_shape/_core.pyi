@@ -10,6 +10,7 @@ from ._reports import Report, SequenceReport
 
 _Path = Union[str, os.PathLike[str]]
 _Format = Literal["glb", "gltf", "obj", "ply", "stl", "usda", "usdz"]
+_FilmFormat = Literal["glb", "gltf", "usda", "usdz"]
 _Material = Literal["water", "ink", "mercury", "honey", "plain"]
 _Unit = Literal["m", "cm", "mm"]
 _Compress = Literal["none", "quantize", "meshopt"]
@@ -90,9 +91,21 @@ class Animation:
     def __getitem__(self, index: int) -> Surface: ...
     def __iter__(self) -> Iterator[Surface]: ...
     def save(
-        self, path: Union[_Path, _File], *, material: Optional[_Material] = None, no_clobber: bool = False
+        self,
+        path: Union[_Path, _File],
+        *,
+        material: Optional[_Material] = None,
+        no_clobber: bool = False,
+        format: Optional[_FilmFormat] = None,
+        compress: _Compress = "none",
     ) -> None: ...
-    def to_bytes(self, *, material: Optional[_Material] = None) -> bytes: ...
+    def to_bytes(
+        self,
+        format: _FilmFormat = "glb",
+        *,
+        material: Optional[_Material] = None,
+        compress: _Compress = "none",
+    ) -> bytes: ...
 
 class Mask:
     @property

@@ -414,6 +414,7 @@ _ANIMATE = {
     "edge": "m",
     "grading": "number",
     "open": "flag",
+    "compress": "text",
     "solver": "text",
     "threads": "number",
 }
@@ -451,6 +452,7 @@ def animate(
     edge: str | float | None = None,
     grading: Literal["auto", 1, 2, 4, 8, 16, 32, 64] | None = None,
     open: bool = False,
+    compress: Literal["none", "quantize", "meshopt"] | None = None,
     solver: Literal["auto", "llt", "multigrid"] | None = None,
     threads: str | int | None = None,
 ) -> Animation:
@@ -513,6 +515,8 @@ def animate(
       grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
         rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
       open: Leave out the base
+      compress: none, quantize, meshopt: Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three
+        quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size (default: none)
 
     Run:
       solver: auto, llt, multigrid: Solver of the linear system: llt is Eigen's factorisation, multigrid iterates;
@@ -719,6 +723,7 @@ _WINDSHIELD = {
     "moving_only": "flag",
     "model": "path",
     "model_animation": "text",
+    "compress": "text",
     "resume": "flag",
     "no_clobber": "flag",
     "threads": "number",
@@ -782,6 +787,7 @@ def windshield(
     moving_only: bool = False,
     model: Path | None = None,
     model_animation: Literal["nodes", "texture"] | None = None,
+    compress: Literal["none", "quantize", "meshopt"] | None = None,
     resume: bool = False,
     no_clobber: bool = False,
     threads: str | int | None = None,
@@ -878,9 +884,11 @@ def windshield(
       map_thickness [m]: Thickness of the water that is white in a PNG (default: 5mm)
       droplets: Write a table of all running droplets in every frame: .csv or .json
       moving_only: Leave droplets at rest out of the table
-      model: Write the droplets as an animated .glb
+      model: Write the droplets as an animated .glb, .gltf, .usda or .usdz
       model_animation: nodes, texture: Form of the animation: nodes plays in every viewer; texture needs a shader and
         takes one draw call (default: nodes)
+      compress: none, quantize, meshopt: Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three
+        quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size (default: none)
 
     Run:
       resume: Continue an interrupted run of the same options
@@ -944,6 +952,7 @@ _FLOW = {
     "seed": "number",
     "shape": "text",
     "material": "text",
+    "compress": "text",
     "streaks": "path",
     "maps": "path",
     "map_width": "number",
@@ -1019,6 +1028,7 @@ def flow(
     seed: str | int | None = None,
     shape: Literal["capillary", "springs", "capsule"] | None = None,
     material: str | None = None,
+    compress: Literal["none", "quantize", "meshopt"] | None = None,
     streaks: Path | None = None,
     maps: Path | None = None,
     map_width: str | int | None = None,
@@ -1121,7 +1131,9 @@ def flow(
       shape: capillary, springs, capsule: Shape of the droplets: capillary has least energy, springs is the paper's,
         capsule a cut capsule (default: capillary)
       material: Look of the droplets: water, ink, mercury, honey or plain (default: by liquid)
-      streaks: Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animated .glb has them too
+      compress: none, quantize, meshopt: Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three
+        quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size (default: none)
+      streaks: Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animation has them too
       maps: Textures of the water in the object's uv, such as maps/%05d.png or .exr: four files per frame, -normal,
         -thickness, -age and -wet, which tells where the age counts
       map_width: Width and height of the textures in pixels (default: 1024)

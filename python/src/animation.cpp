@@ -27,6 +27,7 @@
 #include "droplet_report.h"
 #include "mask.h"
 #include "mask_shape.h"
+#include "option_values.h"
 #include "shape.h"
 #include "state.h"
 #include "surface.h"
@@ -171,12 +172,36 @@ std::shared_ptr<Animation> animate(const py::iterable& frames, const Arguments& 
     return sequence.finish();
 }
 
-/// Writes all frames as one GLB.
-void writeGlb(const Animation& self, const std::optional<std::string>& material, std::ostream& out)
+/// What save() and to_bytes() in Python have in common.
+struct FilmOptions {
+    std::optional<std::string> material;
+    droplet::AnimatedFile file;
+};
+
+/// @throws Error InvalidArgument if there is no such format or compression
+FilmOptions filmOptions(const std::optional<std::string>& material, const std::string& format,
+                        const std::string& compress, const char* subject)
+{
+    FilmOptions options{material, {}};
+    options.file.format = cli::forOption(subject, [&] { return droplet::formatNamed(format); });
+    if (!droplet::isAnimated(options.file.format)) {
+        cli::refuse(std::string(subject) + ": " + droplet::name(options.file.format) +
+                    " holds single frames; glb, gltf, usda and usdz hold animations");
+    }
+    options.file.compression = cli::forOption("compress", [&] { return droplet::compressionNamed(compress); });
+    if (options.file.compression != droplet::Compression::None && options.file.format != droplet::Format::Glb) {
+        cli::refuse(std::string("compress: ") + droplet::name(options.file.format) +
+                    " files cannot be compressed, glb files can");
+    }
+    return options;
+}
+
+/// Writes all frames as one file.
+void writeFilm(const Animation& self, const FilmOptions& film, std::ostream& out)
 {
     droplet::AnimationOptions options;
     options.frames_per_second = self.frames_per_second;
-    options.material = materialOf(*self.frames.front().surface, material);
+    options.material = materialOf(*self.frames.front().surface, film.material);
     options.frames = self.frames.size();
     const auto is_dry = [](const Frame& frame) { return frame.surface->surface().triangles.empty(); };
     options.closed = std::all_of(self.frames.begin(), self.frames.end(),
@@ -189,32 +214,38 @@ void writeGlb(const Animation& self, const std::optional<std::string>& material,
             animation.add(frame.surface->surface(), frame.continues);
         }
     }
-    animation.write(out);
+    animation.write(out, film.file);
 }
 
-py::bytes bytesOf(const Animation& self, const std::optional<std::string>& material)
+py::bytes bytesOf(const Animation& self, const FilmOptions& film)
 {
     std::ostringstream out;
     {
         const py::gil_scoped_release release;
-        writeGlb(self, material, out);
+        writeFilm(self, film, out);
     }
     return out.str();
 }
 
-void save(const Animation& self, const py::object& file, const std::optional<std::string>& material, bool no_clobber)
+py::bytes toBytes(const Animation& self, const std::string& format, const std::optional<std::string>& material,
+                  const std::string& compress)
+{
+    return bytesOf(self, filmOptions(material, format, compress, "format"));
+}
+
+void save(const Animation& self, const py::object& file, const std::optional<std::string>& material, bool no_clobber,
+          const std::optional<std::string>& format, const std::string& compress)
 {
     if (isFileObject(file)) {
-        file.attr("write")(bytesOf(self, material));
+        file.attr("write")(bytesOf(self, filmOptions(material, format.value_or("glb"), compress, "format")));
         return;
     }
     const auto path = pathOf(file);
+    const std::string subject = format ? "format" : "path: '" + path.string() + "'";
+    const FilmOptions film =
+        filmOptions(material, format.value_or(path.extension().string()), compress, subject.c_str());
     const py::gil_scoped_release release;
-    if (path.extension() != ".glb" && path.extension() != ".GLB") {
-        throw Error(ErrorCode::InvalidArgument,
-                    "path: '" + path.string() + "' must end in .glb; other formats hold single frames");
-    }
-    droplet::writeAtomically(path, [&](std::ostream& out) { writeGlb(self, material, out); }, {no_clobber});
+    droplet::writeAtomically(path, [&](std::ostream& out) { writeFilm(self, film, out); }, {no_clobber});
 }
 
 /// State of an animation for pickle.
@@ -287,17 +318,21 @@ A frame without liquid has a surface without triangles.)")
             "warnings", [](const Animation& self) { return warningsOf(self.warnings); },
             "Warnings, one line each, the grave ones first; of each kind the first one.")
         .def("save", &save, py::arg("path"), py::kw_only(), py::arg("material") = py::none(),
-             py::arg("no_clobber") = false,
-             R"(Writes all frames to one .glb that plays, completely or not at all, or to a file object.
+             py::arg("no_clobber") = false, py::arg("format") = py::none(), py::arg("compress") = "none",
+             R"(Writes all frames to one file that plays, completely or not at all, or to a file object.
 
-path        ends in .glb; or an object that is open for bytes
+path        ends in .glb, .gltf, .usda or .usdz; or an object that is open for
+            bytes
 material    water, ink, mercury, honey or plain [the liquid's own]
 no_clobber  refuse to replace a file
+format      glb, gltf, usda or usdz, whatever the path's extension is [by the
+            extension; glb for an object]
+compress    none, quantize or meshopt: compression of a .glb
 
 Raises InvalidArgument for another extension, OutputFailed if the file cannot
 be written.)")
-        .def("to_bytes", py::overload_cast<const Animation&, const std::optional<std::string>&>(&bytesOf),
-             py::kw_only(), py::arg("material") = py::none(), R"(Bytes of the .glb that save() writes.)")
+        .def("to_bytes", &toBytes, py::arg("format") = "glb", py::kw_only(), py::arg("material") = py::none(),
+             py::arg("compress") = "none", R"(Bytes of the file that save() writes.)")
         .def(py::pickle(
             [](const py::object& self) {
                 return pickled(py::make_tuple(stateOf(self.cast<const Animation&>()), attributesOf(self)));

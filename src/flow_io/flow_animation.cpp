@@ -14,13 +14,14 @@
 #include <utility>
 #include <vector>
 
+#include "axes.h"
+#include "byte_stream.h"
 #include "droplet/error.h"
 #include "droplet/flow_io/droplet_surfaces.h"
 #include "flow_io/unit_bodies.h"
-#include "io/axes.h"
-#include "io/gltf_model.h"
-#include "io/scene_of_joints.h"
+#include "io/droplet_crowd.h"
 #include "require.h"
+#include "scene/write_scene.h"
 
 namespace droplet {
 namespace {
@@ -30,111 +31,50 @@ std::array<float, 3> floatsOf(Vec3 v)
     return {toFloat(v.x), toFloat(v.y), toFloat(v.z)};
 }
 
-/// Object and streaks in the model.
-class ObjectMeshes {
-public:
-    ObjectMeshes(const FlowObject& object, const std::optional<Surface>& streaks)
-        : names_(object.material_names), object_{object.positions, object.normals, {}, object.uvs}
-    {
-        // Triangles of a material are neighbours, in the order of the materials.
-        std::vector<std::size_t> order(object.triangles.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        const auto material = [&](std::size_t i) {
-            return object.materials.empty() ? 0 : static_cast<std::size_t>(object.materials[i]);
-        };
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::size_t a, std::size_t b) { return material(a) < material(b); });
-        counts_.resize(std::max<std::size_t>(names_.size(), 1));
-        names_.resize(counts_.size(), "object");
-        for (const std::size_t i : order) {
-            object_.triangles.push_back(object.triangles[i]);
-            ++counts_.at(material(i));
-        }
-        if (streaks && !streaks->triangles.empty()) {
-            streaks_ = {streaks->positions, streaks->normals, streaks->triangles, streaks->uvs};
-        }
-    }
+SceneMaterial opaque(const std::string& name, double roughness)
+{
+    Look look;
+    look.name = name;
+    look.roughness = roughness;
+    look.transmission = 0.0;
+    return {.look = std::move(look), .both_sides = true};
+}
 
-    int add(tinygltf::Model& model) const
-    {
-        const int mesh = addMesh(model, object_, "object", 0);
-        addParts(model, model.meshes[static_cast<std::size_t>(mesh)]);
-        const int node = addNode(model, "object", mesh);
-        if (!streaks_.triangles.empty()) {
-            tinygltf::Material wet = materialNamed("streaks");
-            wet.alphaMode = "BLEND";
-            wet.pbrMetallicRoughness.baseColorFactor = {0.85, 0.92, 1.0, 0.25};
-            wet.pbrMetallicRoughness.roughnessFactor = 0.05;
-            model.materials.push_back(std::move(wet));
-            const int number = static_cast<int>(model.materials.size()) - 1;
-            const int child = addNode(model, "streaks", addMesh(model, streaks_, "streaks", number));
-            model.nodes[static_cast<std::size_t>(node)].children.push_back(child);
-        }
-        return node;
+/// Adds the object, with a material for each name in its file, and its node; returns the node.
+std::size_t addObject(const FlowObject& object, Scene& scene)
+{
+    SceneMesh mesh{"object"};
+    SceneGeometry& geometry = mesh.geometries.emplace_back();
+    geometry.positions = sceneVectors(object.positions);
+    geometry.normals = sceneVectors(object.normals);
+    geometry.uvs = sceneCoordinates(object.uvs);
+    std::vector<std::string> names = object.material_names;
+    names.resize(std::max<std::size_t>(names.size(), 1), "object");
+    std::vector<ScenePart> parts(names.size());
+    for (std::size_t i = 0; i < object.triangles.size(); ++i) {
+        parts.at(object.materials.empty() ? 0 : object.materials[i]).triangles.push_back(object.triangles[i]);
     }
-
-    void write(ByteStream& bytes) const
-    {
-        writeMesh(object_, bytes);
-        if (!streaks_.triangles.empty()) {
-            writeMesh(streaks_, bytes);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (!parts[i].triangles.empty()) {
+            SceneMaterial material = opaque(names[i], 0.6);
+            material.look.colour = {0.6, 0.6, 0.6};
+            parts[i].material = scene.addMaterial(std::move(material));
+            geometry.parts.push_back(std::move(parts[i]));
         }
     }
+    return scene.addNode({"object", scene.addMesh(std::move(mesh))});
+}
 
-private:
-    static tinygltf::Material materialNamed(const std::string& name)
-    {
-        tinygltf::Material material;
-        material.name = name;
-        material.doubleSided = true;
-        material.pbrMetallicRoughness.metallicFactor = 0.0;
-        return material;
-    }
-
-    static int addNode(tinygltf::Model& model, const char* name, int mesh)
-    {
-        tinygltf::Node node;
-        node.name = name;
-        node.mesh = mesh;
-        model.nodes.push_back(std::move(node));
-        return static_cast<int>(model.nodes.size()) - 1;
-    }
-
-    /// Splits the only primitive by material; all parts have the same vertices.
-    void addParts(tinygltf::Model& model, tinygltf::Mesh& mesh) const
-    {
-        const tinygltf::Primitive whole = mesh.primitives.front();
-        const tinygltf::Accessor indices = model.accessors.back();
-        const auto bytes = static_cast<std::size_t>(
-            tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(indices.componentType)));
-        mesh.primitives.clear();
-        model.accessors.pop_back();
-        std::size_t first = 0;
-        for (std::size_t i = 0; i < counts_.size(); ++i) {
-            if (counts_[i] == 0) {
-                continue;
-            }
-            tinygltf::Primitive part = whole;
-            part.indices = static_cast<int>(model.accessors.size());
-            part.material = static_cast<int>(model.materials.size());
-            tinygltf::Accessor accessor = indices;
-            accessor.byteOffset = 3 * bytes * first;
-            accessor.count = 3 * counts_[i];
-            first += counts_[i];
-            model.accessors.push_back(std::move(accessor));
-            tinygltf::Material material = materialNamed(names_[i]);
-            material.pbrMetallicRoughness.baseColorFactor = {0.6, 0.6, 0.6, 1.0};
-            material.pbrMetallicRoughness.roughnessFactor = 0.6;
-            model.materials.push_back(std::move(material));
-            mesh.primitives.push_back(std::move(part));
-        }
-    }
-
-    std::vector<std::string> names_;   ///< of the materials
-    std::vector<std::size_t> counts_;  ///< number of triangles of every material
-    DropletMesh object_;
-    DropletMesh streaks_;
-};
+/// Adds a mesh of streaks on the object.
+void addStreaks(const Surface& streaks, std::size_t object, Scene& scene)
+{
+    SceneMaterial wet = opaque("streaks", 0.05);
+    wet.look.colour = {0.85, 0.92, 1.0};
+    wet.opacity = 0.25;
+    const DropletMesh mesh{streaks.positions, streaks.normals, streaks.triangles, streaks.uvs};
+    const std::size_t material = scene.addMaterial(std::move(wet));
+    scene.addNode({"streaks", scene.addMesh(sceneMesh(mesh, "streaks", material))}, object);
+}
 
 }  // namespace
 
@@ -152,11 +92,11 @@ struct FlowAnimation::Content {
     FlowAnimationOptions options;
     double unit_volume;  ///< of all meshes of a droplet
     DropletHistories histories = {};
-    std::vector<SceneGround::Pose> poses = {};  ///< of the object, if it moves
-    std::array<Vec3, 2> corners = {};           ///< of the object and all droplets, in the object's frame
-    std::array<Vec3, 2> moved_corners = {};     ///< the same in the world
-    double logarithms = 0.0;                    ///< sum of the logarithms of volumes
-    std::uint64_t volumes = 0;                  ///< their number
+    std::vector<GroundPose> poses = {};      ///< of the object, if it moves
+    std::array<Vec3, 2> corners = {};        ///< of the object and all droplets, in the object's frame
+    std::array<Vec3, 2> moved_corners = {};  ///< the same in the world
+    double logarithms = 0.0;                 ///< sum of the logarithms of volumes
+    std::uint64_t volumes = 0;               ///< their number
     std::optional<Surface> streaks = {};
 
     [[nodiscard]] DropletPose poseOf(const FlowSample& sample, Vec3 gravity) const
@@ -233,8 +173,7 @@ void FlowAnimation::add(double time, std::span<const FlowSample> samples)
     content.include(at);
     if (!content.options.motion.rests()) {
         const Vec3 axis = yUp(at.axis);
-        SceneGround::Pose pose{floatsOf(yUp(at.place)),
-                               {toFloat(axis.x), toFloat(axis.y), toFloat(axis.z), toFloat(at.real)}};
+        GroundPose pose{floatsOf(yUp(at.place)), {toFloat(axis.x), toFloat(axis.y), toFloat(axis.z), toFloat(at.real)}};
         if (!content.poses.empty()) {
             const auto& last = content.poses.back().turn;
             if (std::inner_product(last.begin(), last.end(), pose.turn.begin(), 0.0F) < 0.0F) {
@@ -246,7 +185,7 @@ void FlowAnimation::add(double time, std::span<const FlowSample> samples)
         content.poses.push_back(pose);
     }
     content.histories.endFrame();
-    checkSceneOfJoints(content.histories, "fewer droplets");
+    checkCrowd(content.histories, "fewer droplets");
 }
 
 void FlowAnimation::setStreaks(Surface streaks)
@@ -254,7 +193,7 @@ void FlowAnimation::setStreaks(Surface streaks)
     content_->streaks = std::move(streaks);
 }
 
-std::uint64_t FlowAnimation::write(std::ostream& out) const
+std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) const
 {
     const Content& content = *content_;
     if (content.histories.frames() == 0) {
@@ -269,20 +208,22 @@ std::uint64_t FlowAnimation::write(std::ostream& out) const
         content.volumes > 0 ? std::exp(content.logarithms / static_cast<double>(content.volumes)) : kUsualVolume;
     const double gravity = length(content.options.gravity);
     conditions.gravity = {0.0, 0.0, -gravity};
-    const ObjectMeshes ground(content.object, content.streaks);
-    JointScene scene;
+    Scene scene;
     scene.frames_per_second = content.options.frames_per_second;
-    scene.material = content.options.material;
-    scene.animation = "flow";
-    scene.decimals = 7;
-    scene.place_tolerance = 0.1;
-    scene.time_tolerance = 2e-3;
-    scene.ground.add = [&](tinygltf::Model& model) { return ground.add(model); };
-    scene.ground.write = [&](ByteStream& bytes) { ground.write(bytes); };
-    scene.ground.corners = content.moved_corners;
-    scene.ground.corner = "corner of the scene";
-    scene.ground.poses = content.poses;
-    scene.resting = unitBody(bodies, conditions, {.around = 12, .rings = 4}, unit);
+    CrowdOptions droplets;
+    droplets.ground = addObject(content.object, scene);
+    if (content.streaks && !content.streaks->triangles.empty()) {
+        addStreaks(*content.streaks, droplets.ground, scene);
+    }
+    droplets.material = content.options.material;
+    droplets.animation = "flow";
+    droplets.decimals = 7;
+    droplets.place_tolerance = 0.1;
+    droplets.time_tolerance = 2e-3;
+    droplets.corners = content.moved_corners;
+    droplets.corner = "corner of the scene";
+    droplets.poses = content.poses;
+    droplets.resting = unitBody(bodies, conditions, {.around = 12, .rings = 4}, unit);
     // A running droplet of usual length stands for all.
     constexpr double kUsualLength = 1.6;  // over the width
     constexpr double kFastest = 2.0;      // [m/s]
@@ -291,9 +232,10 @@ std::uint64_t FlowAnimation::write(std::ostream& out) const
     for (Vec2 half; conditions.speed < kFastest && half.x <= kUsualLength * half.y; conditions.speed *= 1.25) {
         half = halfSizes(bodies, conditions);
     }
-    scene.running = unitBody(bodies, conditions, {.around = 16, .rings = 5}, unit);
-    scene.falling = unitBall({.around = 10, .rings = 6}, unit);
-    return writeSceneOfJoints(content.histories, scene, out);
+    droplets.running = unitBody(bodies, conditions, {.around = 16, .rings = 5}, unit);
+    droplets.falling = unitBall({.around = 10, .rings = 6}, unit);
+    addDroplets(content.histories, droplets, scene);
+    return writeScene(scene, out, file);
 }
 
 }  // namespace droplet

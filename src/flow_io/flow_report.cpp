@@ -8,11 +8,11 @@
 #include <ostream>
 #include <utility>
 
+#include "axes.h"
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
 #include "droplet/wind/rain.h"
-#include "io/axes.h"
 #include "io/report_sections.h"
 #include "io/rounded_time.h"
 #include "wind_io/forces_section.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "io/axes.h"
+#include "axes.h"
 #include "io/table_rows.h"
 
 namespace droplet {

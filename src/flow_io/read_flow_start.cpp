@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
+#include "axes.h"
 #include "csv_table.h"
-#include "io/axes.h"
 #include "number_text.h"
 
 namespace droplet {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "axes.h"
 #include "csv_table.h"
-#include "io/axes.h"
 #include "number_text.h"
 
 namespace droplet {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/byte_stream.h"
+#include "byte_stream.h"
 
 namespace droplet {
 namespace {

@@ -4,40 +4,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "io/gltf_model.h"
-
 namespace droplet {
 
-int addMesh(tinygltf::Model& model, const DropletMesh& mesh, const char* name, int material)
+SceneMesh sceneMesh(const DropletMesh& mesh, std::string name, std::size_t material)
 {
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.material = material;
-    primitive.attributes["POSITION"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, mesh.positions.size());
-    addBounds(model.accessors.back(), mesh.positions);
-    primitive.attributes["NORMAL"] = addVertexArray(model, TINYGLTF_TYPE_VEC3, mesh.normals.size());
-    if (!mesh.uvs.empty()) {
-        primitive.attributes["TEXCOORD_0"] = addVertexArray(model, TINYGLTF_TYPE_VEC2, mesh.uvs.size());
-    }
-    primitive.indices = addIndices(model, mesh.triangles.size(), mesh.positions.size());
-    tinygltf::Mesh added;
-    added.name = name;
-    added.primitives.push_back(std::move(primitive));
-    model.meshes.push_back(std::move(added));
-    return static_cast<int>(model.meshes.size()) - 1;
-}
-
-void writeMesh(const DropletMesh& mesh, ByteStream& bytes)
-{
-    writeVectors(mesh.positions, bytes);
-    writeVectors(mesh.normals, bytes);
-    for (const Vec2& uv : mesh.uvs) {
-        bytes.f32(uv.x, uv.y);
-    }
-    writeIndices(mesh.triangles, mesh.positions.size(), bytes);
-    if (mesh.positions.size() < kVerticesBeyond16Bit && mesh.triangles.size() % 2 != 0) {
-        bytes.u16(0);  // pads to the next word
-    }
+    SceneMesh made{std::move(name)};
+    SceneGeometry& geometry = made.geometries.emplace_back();
+    geometry.positions = sceneVectors(mesh.positions);
+    geometry.normals = sceneVectors(mesh.normals);
+    geometry.uvs = sceneCoordinates(mesh.uvs);
+    geometry.parts.push_back({material, mesh.triangles});
+    return made;
 }
 
 std::array<Vec3, 2> cornersOf(const std::vector<Vec3>& positions)

@@ -2,14 +2,14 @@
 // The meshes of a scene of droplets.
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <array>
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/vector.h"
-#include "io/byte_stream.h"
+#include "scene/scene.h"
 
 namespace droplet {
 
@@ -21,10 +21,10 @@ struct DropletMesh {
     std::vector<Vec2> uvs;  ///< one per vertex, (0,0) top left; or empty
 };
 
-/// Adds a mesh to the model; writeMesh() then writes its bytes.
-/// @return  index of the mesh
-int addMesh(tinygltf::Model& model, const DropletMesh& mesh, const char* name, int material);
-void writeMesh(const DropletMesh& mesh, ByteStream& bytes);
+/// A mesh as one of a scene.
+/// @param material  index in the scene
+/// @throws Error InvalidArgument beyond float's range
+SceneMesh sceneMesh(const DropletMesh& mesh, std::string name, std::size_t material);
 
 /// Lowest and highest coordinates of points, at least one.
 std::array<Vec3, 2> cornersOf(const std::vector<Vec3>& positions);

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <type_traits>
 
+#include "byte_stream.h"
 #include "droplet/error.h"
 #include "droplet/version.h"
-#include "io/byte_stream.h"
 #include "shape/area_vector.h"
 #include "shape/liquid_shapes.h"
 #include "shape/sheet_base.h"

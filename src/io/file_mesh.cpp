@@ -29,10 +29,10 @@
 #include <unordered_map>
 #include <utility>
 
+#include "axes.h"
 #include "droplet/io/read_surface.h"
 #include "droplet/units.h"
 #include "file_bytes.h"
-#include "io/axes.h"
 #include "io/gltf_scene.h"
 #include "io/length_unit.h"
 #include "io/vertex_normals.h"

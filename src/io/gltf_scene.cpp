@@ -17,9 +17,9 @@
 #include <utility>
 #include <vector>
 
+#include "axes.h"
 #include "droplet/units.h"
 #include "file_bytes.h"
-#include "io/axes.h"
 #include "io/gltf_file.h"
 #include "io/vertex_normals.h"
 
@@ -349,9 +349,9 @@ std::vector<Triangle> trianglesOf(int mode, const std::vector<std::uint32_t>& in
     return triangles;
 }
 
-class Scene {
+class SceneReader {
 public:
-    Scene(const GltfFile& file, const SceneOptions& options)
+    SceneReader(const GltfFile& file, const SceneOptions& options)
         : file_(file), model_(file.model), options_(options), is_animated_(model_.nodes.size(), false)
     {
         for (const std::vector<GltfChannel>& channels : file.animations) {
@@ -626,7 +626,7 @@ private:
 FileMesh readScene(const std::filesystem::path& path, const SceneOptions& options)
 {
     const GltfFile file = readGltfFile(path);
-    return Scene(file, options).take();
+    return SceneReader(file, options).take();
 }
 
 }  // namespace droplet

@@ -16,17 +16,17 @@
 #include <string>
 #include <string_view>
 
+#include "axes.h"
+#include "byte_stream.h"
 #include "droplet/error.h"
 #include "droplet/printable.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
-#include "io/axes.h"
-#include "io/byte_stream.h"
 #include "io/dry_surface.h"
 #include "io/length_unit.h"
-#include "io/preview_opacity.h"
 #include "io/welded_vertices.h"
 #include "require.h"
+#include "scene/preview_opacity.h"
 
 namespace droplet {
 namespace {

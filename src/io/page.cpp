@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "byte_stream.h"
 #include "droplet/error.h"
-#include "io/byte_stream.h"
 #include "io/page_parts.h"
 
 namespace droplet {

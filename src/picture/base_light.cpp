@@ -90,8 +90,8 @@ Light everywhere()
 
 }  // namespace
 
-BaseLight::BaseLight(const Scene& scene, const Look& look, double mean_height, const std::vector<DropletBase>& bases,
-                     const std::vector<Light>& lights)
+BaseLight::BaseLight(const TracedScene& scene, const Look& look, double mean_height,
+                     const std::vector<DropletBase>& bases, const std::vector<Light>& lights)
 {
     for (const Light& light : lights) {
         if (light.soft || light.beams.empty()) {
@@ -132,7 +132,7 @@ void BaseLight::makeTextures(const Look& look, double mean_height, const std::ve
         radius += size / static_cast<double>(bases.size());
     }
     const Surface droplet = cap(std::clamp(aspect, 0.1, 1.5));
-    const Scene scene(droplet, {});
+    const TracedScene scene(droplet, {});
     const Media media{mediumOf(look, mean_height, radius * scene.scale())};
     // Places in radii instead of the scene's units.
     const auto in_radii = [&](LightMap map) {

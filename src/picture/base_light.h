@@ -9,8 +9,8 @@
 #include "droplet/surface/material.h"
 #include "picture/light_map.h"
 #include "picture/optics.h"
-#include "picture/scene.h"
 #include "picture/studio.h"
+#include "picture/traced_scene.h"
 
 namespace droplet {
 
@@ -23,7 +23,7 @@ public:
     /// @param look    of the liquid
     /// @param mean_height  of the surface [m], for the liquid's absorption
     /// @param lights  of the studio
-    BaseLight(const Scene& scene, const Look& look, double mean_height, const std::vector<DropletBase>& bases,
+    BaseLight(const TracedScene& scene, const Look& look, double mean_height, const std::vector<DropletBase>& bases,
               const std::vector<Light>& lights);
 
     /// Irradiance divided by π on the ground.

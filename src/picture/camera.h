@@ -5,7 +5,7 @@
 
 #include "droplet/picture/render.h"
 #include "picture/optics.h"
-#include "picture/scene.h"
+#include "picture/traced_scene.h"
 
 namespace droplet {
 

@@ -17,7 +17,7 @@ constexpr float kOne =
 
 class Gatherer {
 public:
-    Gatherer(const Scene& scene, const Media& media, LightMap& map)
+    Gatherer(const TracedScene& scene, const Media& media, LightMap& map)
         : scene_(scene), media_(media), map_(map), sums_(3 * map.values.size())
     {
     }
@@ -144,7 +144,7 @@ private:
         std::atomic_ref(sum).fetch_add(std::llrint(value), std::memory_order_relaxed);
     }
 
-    const Scene& scene_;
+    const TracedScene& scene_;
     const Media& media_;
     LightMap& map_;
     std::vector<std::int64_t> sums_;
@@ -251,7 +251,7 @@ Vec3f LightMap::at(Vec3f place) const
     return mix(mix(corner[0], corner[1], fx), mix(corner[width], corner[width + 1], fx), fy);
 }
 
-LightMap lightGain(const Scene& scene, const Media& media, const Light& light, int cells, float blur)
+LightMap lightGain(const TracedScene& scene, const Media& media, const Light& light, int cells, float blur)
 {
     const Vec3f size = scene.high() - scene.low();
     const float span = std::max(size.x, size.y);
@@ -294,7 +294,7 @@ LightMap lightGain(const Scene& scene, const Media& media, const Light& light, i
     return map;
 }
 
-LightMap lightOnPlane(const Scene& scene, const Media& media, const std::vector<Light>& lights, int cells)
+LightMap lightOnPlane(const TracedScene& scene, const Media& media, const std::vector<Light>& lights, int cells)
 {
     constexpr int kCoarser = 4;
     constexpr float kGrain = 1.3F;    // [cells]
@@ -332,7 +332,7 @@ LightMap lightOnPlane(const Scene& scene, const Media& media, const std::vector<
     return sum;
 }
 
-LightMap lightGainOnStand(const Scene& scene, const Media& media, const Light& light, int cells)
+LightMap lightGainOnStand(const TracedScene& scene, const Media& media, const Light& light, int cells)
 {
     constexpr float kGrain = 2.0F;         // [cells]
     constexpr float kRaysForACell = 0.7F;  // rays per cell along a side

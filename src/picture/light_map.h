@@ -10,8 +10,8 @@
 #include "droplet/surface/material.h"
 #include "picture/ground.h"
 #include "picture/optics.h"
-#include "picture/scene.h"
 #include "picture/studio.h"
+#include "picture/traced_scene.h"
 
 namespace droplet {
 
@@ -35,7 +35,7 @@ struct Media {
     std::optional<PicturePyramid> map = {};   ///< RenderOptions::colour_map
 
     /// Number of the droplet that a ray meets.
-    [[nodiscard]] std::uint32_t dropletAt(const Scene& scene, const Meeting& meeting) const
+    [[nodiscard]] std::uint32_t dropletAt(const TracedScene& scene, const Meeting& meeting) const
     {
         return droplet.empty() ? 0 : droplet[scene.triangle(meeting)[0]];
     }
@@ -81,13 +81,13 @@ struct LightMap {
 /// @param light   beams
 /// @param cells   number along the map's longer side; ≥ 8
 /// @param blur    standard deviation of a Gaussian that removes grain [cells]; 0 for none
-LightMap lightGain(const Scene& scene, const Media& media, const Light& light, int cells, float blur);
+LightMap lightGain(const TracedScene& scene, const Media& media, const Light& light, int cells, float blur);
 
 /// Irradiance of all lights on the plane, divided by π: soft lights on a coarse map, others on a map of `cells` cells.
-LightMap lightOnPlane(const Scene& scene, const Media& media, const std::vector<Light>& lights, int cells);
+LightMap lightOnPlane(const TracedScene& scene, const Media& media, const std::vector<Light>& lights, int cells);
 
 /// Share of a light's direct rays that reach a stand around and below droplets, over uv from (0,0) to (1,1): rays
 /// through the liquid divided by rays without it.
-LightMap lightGainOnStand(const Scene& scene, const Media& media, const Light& light, int cells);
+LightMap lightGainOnStand(const TracedScene& scene, const Media& media, const Light& light, int cells);
 
 }  // namespace droplet

@@ -21,9 +21,9 @@
 #include "picture/legend.h"
 #include "picture/light_map.h"
 #include "picture/optics.h"
-#include "picture/scene.h"
 #include "picture/stand_film.h"
 #include "picture/studio.h"
+#include "picture/traced_scene.h"
 #include "require.h"
 
 namespace droplet {
@@ -411,7 +411,7 @@ private:
 
     const RenderOptions& options_;
     CameraTurn turn_;
-    Scene scene_;
+    TracedScene scene_;
     Studio studio_;
     Media media_;
     Camera camera_;

@@ -6,7 +6,7 @@
 #include "droplet/picture/stand_water.h"
 #include "droplet/surface/textured_mesh.h"
 #include "picture/optics.h"
-#include "picture/scene.h"
+#include "picture/traced_scene.h"
 
 namespace droplet {
 

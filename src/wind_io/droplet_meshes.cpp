@@ -104,21 +104,16 @@ DropletMesh glassMesh(const Glass& glass)
     return mesh;
 }
 
-int addGlass(tinygltf::Model& model, const DropletMesh& pane)
+std::size_t addGlass(Scene& scene, const DropletMesh& pane)
 {
-    tinygltf::Material glass;
-    glass.name = "glass";
-    glass.alphaMode = "BLEND";
-    glass.doubleSided = true;
-    glass.pbrMetallicRoughness.baseColorFactor = {0.85, 0.95, 0.92, 0.15};
-    glass.pbrMetallicRoughness.metallicFactor = 0.0;
-    glass.pbrMetallicRoughness.roughnessFactor = 0.05;
-    model.materials.push_back(std::move(glass));
-    tinygltf::Node node;
-    node.name = "glass";
-    node.mesh = addMesh(model, pane, "glass", static_cast<int>(model.materials.size()) - 1);
-    model.nodes.push_back(std::move(node));
-    return static_cast<int>(model.nodes.size()) - 1;
+    Look look;
+    look.name = "glass";
+    look.colour = {0.85, 0.95, 0.92};
+    look.roughness = 0.05;
+    look.transmission = 0.0;
+    const std::size_t material = scene.addMaterial({.look = look, .opacity = 0.15, .both_sides = true});
+    const std::size_t mesh = scene.addMesh(sceneMesh(pane, "glass", material));
+    return scene.addNode({"glass", mesh});
 }
 
 }  // namespace droplet

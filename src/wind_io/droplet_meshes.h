@@ -2,8 +2,7 @@
 // The meshes of a windshield's scene.
 #pragma once
 
-#include <tiny_gltf.h>
-
+#include <cstddef>
 #include <cstdint>
 
 #include "droplet/windshield/glass.h"
@@ -24,7 +23,7 @@ DropletMesh capMesh(double angle, const CapDetail& detail);
 /// Mesh of the glass, with its front to -Y.
 DropletMesh glassMesh(const Glass& glass);
 
-/// Adds the glass with its material and node, and returns the node; writeMesh() then writes its bytes.
-int addGlass(tinygltf::Model& model, const DropletMesh& pane);
+/// Adds the glass, its material and its node to a scene; returns the node.
+std::size_t addGlass(Scene& scene, const DropletMesh& pane);
 
 }  // namespace droplet

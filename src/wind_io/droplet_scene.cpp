@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axes.h"
+#include "byte_stream.h"
 #include "droplet/error.h"
-#include "io/axes.h"
-#include "io/scene_of_joints.h"
+#include "io/droplet_crowd.h"
 #include "require.h"
+#include "scene/write_scene.h"
 #include "wind_io/droplet_meshes.h"
 #include "wind_io/scene_files.h"
 
@@ -47,21 +49,21 @@ DropletPose poseOf(const RunningDroplet& droplet, const GlassPlace& place, const
     return pose;
 }
 
-std::uint64_t writeSceneOfNodes(const DropletHistories& histories, const Glass& glass,
-                                const DropletSceneOptions& options, std::ostream& out)
+Scene sceneOfNodes(const DropletHistories& histories, const Glass& glass, const DropletSceneOptions& options)
 {
     const DropletMesh pane = glassMesh(glass);
-    JointScene scene;
+    Scene scene;
     scene.frames_per_second = options.frames_per_second;
-    scene.material = options.material;
-    scene.animation = "rain";
-    scene.ground.add = [&](tinygltf::Model& model) { return addGlass(model, pane); };
-    scene.ground.write = [&](ByteStream& bytes) { writeMesh(pane, bytes); };
-    scene.ground.corners = cornersOf(pane.positions);
-    scene.ground.corner = "corner of the glass";
-    scene.resting = capMesh(options.shape.contact_angle, {.around = 12, .rings = 3});
-    scene.running = capMesh(options.shape.contact_angle, {.around = 16, .rings = 5});
-    return writeSceneOfJoints(histories, scene, out);
+    CrowdOptions droplets;
+    droplets.ground = addGlass(scene, pane);
+    droplets.material = options.material;
+    droplets.animation = "rain";
+    droplets.corners = cornersOf(pane.positions);
+    droplets.corner = "corner of the glass";
+    droplets.resting = capMesh(options.shape.contact_angle, {.around = 12, .rings = 3});
+    droplets.running = capMesh(options.shape.contact_angle, {.around = 16, .rings = 5});
+    addDroplets(histories, droplets, scene);
+    return scene;
 }
 
 }  // namespace
@@ -77,7 +79,7 @@ struct DropletScene::Content {
             checkTexture(histories.maxCount(), histories.frames());
             return;
         }
-        checkSceneOfJoints(histories, "less rain");
+        checkCrowd(histories, "less rain");
     }
 };
 
@@ -110,13 +112,14 @@ void DropletScene::add(const WindshieldState& state)
     content_->checkSize();
 }
 
-std::uint64_t DropletScene::write(std::ostream& out) const
+std::uint64_t DropletScene::write(std::ostream& out, const AnimatedFile& file) const
 {
     if (content_->histories.frames() == 0) {
         throw Error(ErrorCode::InvalidArgument, "a scene of droplets must have at least one frame");
     }
-    const auto write = content_->options.animation == SceneAnimation::Texture ? writeSceneOfTexture : writeSceneOfNodes;
-    return write(content_->histories, content_->glass, content_->options, out);
+    const bool is_texture = content_->options.animation == SceneAnimation::Texture;
+    const auto scene = is_texture ? sceneOfTexture : sceneOfNodes;
+    return writeScene(scene(content_->histories, content_->glass, content_->options), out, file);
 }
 
 }  // namespace droplet

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writer of droplet scenes as a texture.
+// Droplets as a texture.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <iosfwd>
 
 #include "droplet/wind_io/droplet_scene.h"
 #include "io/droplet_histories.h"
+#include "scene/scene.h"
 
 namespace droplet {
 
-/// Writes droplets as a texture; see SceneAnimation::Texture.
+/// Scene of droplets as a texture; see SceneAnimation::Texture.
 /// @throws Error InvalidArgument as checkTexture()
-std::uint64_t writeSceneOfTexture(const DropletHistories& histories, const Glass& glass,
-                                  const DropletSceneOptions& options, std::ostream& out);
+Scene sceneOfTexture(const DropletHistories& histories, const Glass& glass, const DropletSceneOptions& options);
 
 /// Rejects textures that are too large for viewers.
 /// @param slots  number of droplets at once, or more

@@ -11,7 +11,6 @@
 
 #include "droplet/error.h"
 #include "droplet/picture/picture.h"
-#include "io/gltf_model.h"
 #include "wind_io/droplet_meshes.h"
 #include "wind_io/scene_files.h"
 
@@ -92,32 +91,23 @@ public:
         std::ostringstream png;
         writePng(picture, png);
         png_ = std::move(png).str();
-        png_.append((4 - png_.size() % 4) % 4, '\0');
     }
 
-    std::uint64_t write(std::ostream& out) const
+    [[nodiscard]] Scene scene() const
     {
-        tinygltf::Model model = makeBareModel(options_.material, mean_radius_, true);
-        tinygltf::Scene scene;
-        scene.nodes.push_back(addGlass(model, pane_));
-        tinygltf::Node node;
-        node.name = "droplets";
-        node.mesh = addMesh(model, cap_, "droplet", 0);
+        Scene scene;
+        addGlass(scene, pane_);
+        SceneMaterial liquid{lookOf(options_.material)};
+        if (mean_radius_ > 0.0) {
+            liquid.thickness = mean_radius_;
+        }
+        const std::size_t material = scene.addMaterial(std::move(liquid));
+        SceneNode node{"droplets", scene.addMesh(sceneMesh(cap_, "droplet", material))};
         node.scale = {0.0, 0.0, 0.0};  // invisible without the shader that places the droplets
-        node.extras = mapping();
-        scene.nodes.push_back(static_cast<int>(model.nodes.size()));
-        model.nodes.push_back(std::move(node));
-        model.scenes.push_back(std::move(scene));
-        model.defaultScene = 0;
-
-        const int texture = addTexture(model, "droplets", png_.size(),
-                                       {TINYGLTF_TEXTURE_FILTER_NEAREST, TINYGLTF_TEXTURE_FILTER_NEAREST});
-        model.textures[static_cast<std::size_t>(texture)].name = "droplets";
-        return writeBinary(out, model, [&](ByteStream& bytes) {
-            writeMesh(pane_, bytes);
-            writeMesh(cap_, bytes);
-            bytes.text(png_);
-        });
+        node.properties = mapping();
+        scene.addNode(std::move(node));
+        scene.picture = ScenePicture{"droplets", png_, false};
+        return scene;
     }
 
 private:
@@ -161,27 +151,20 @@ private:
         return bytes;
     }
 
-    [[nodiscard]] tinygltf::Value mapping() const
+    [[nodiscard]] std::vector<SceneProperty> mapping() const
     {
-        const auto count = [](std::size_t number) { return tinygltf::Value(static_cast<int>(number)); };
         const auto corner = [&](double Range::*end) {
-            tinygltf::Value::Array numbers;
-            for (const Range& range : places_) {
-                numbers.emplace_back(range.*end);
-            }
-            return tinygltf::Value(std::move(numbers));
+            return std::vector{places_[0].*end, places_[1].*end, places_[2].*end};
         };
-        return tinygltf::Value(tinygltf::Value::Object{
-            {"texture", count(0)},
-            {"slots", count(slots_)},
-            {"columns", count(columns_)},
-            {"frames", count(frames_)},
-            {"frames_per_second", tinygltf::Value(options_.frames_per_second)},
-            {"low_m", corner(&Range::low)},
-            {"high_m", corner(&Range::high)},
-            {"smallest_m", tinygltf::Value(sizes_.low)},
-            {"largest_m", tinygltf::Value(sizes_.high)},
-        });
+        return {{"texture", 0},
+                {"slots", static_cast<int>(slots_)},
+                {"columns", static_cast<int>(columns_)},
+                {"frames", static_cast<int>(frames_)},
+                {"frames_per_second", options_.frames_per_second},
+                {"low_m", corner(&Range::low)},
+                {"high_m", corner(&Range::high)},
+                {"smallest_m", sizes_.low},
+                {"largest_m", sizes_.high}};
     }
 
     std::uint32_t frames_;
@@ -210,10 +193,9 @@ void checkTexture(std::size_t slots, std::size_t frames)
     }
 }
 
-std::uint64_t writeSceneOfTexture(const DropletHistories& histories, const Glass& glass,
-                                  const DropletSceneOptions& options, std::ostream& out)
+Scene sceneOfTexture(const DropletHistories& histories, const Glass& glass, const DropletSceneOptions& options)
 {
-    return SceneOfTexture(histories, glass, options).write(out);
+    return SceneOfTexture(histories, glass, options).scene();
 }
 
 }  // namespace droplet

@@ -261,14 +261,13 @@ TEST_F(UsageTest, FillRangesContainTheDropletAndNeedTheLinearModelAndGltf)
     }
 }
 
-TEST_F(UsageTest, OnlyAGlbWithoutASliderIsCompressed)
+TEST_F(UsageTest, OnlyAGlbIsCompressed)
 {
     expectRefused({"--compress", "draco"}, {"--compress", "'draco'", "none, quantize, meshopt"});
     for (const char* compress : {"quantize", "meshopt"}) {
         for (const char* format : {"gltf", "obj", "ply", "stl", "usda", "usdz"}) {
             expectRefused({"--compress", compress, "--format", format}, {"--compress", format, "only glb"});
         }
-        expectRefused({"--compress", compress, "--fill-range", "0..2"}, {"--compress and --fill-range exclude"});
     }
 }
 

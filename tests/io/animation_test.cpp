@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -18,6 +19,7 @@
 
 #include "droplet/error.h"
 #include "support/surfaces.h"
+#include "support/usda.h"
 
 namespace droplet {
 namespace {
@@ -52,14 +54,14 @@ Film filmOf(const std::vector<int>& runs, bool open = false)
     return film;
 }
 
-std::string written(const Film& film, const AnimationOptions& options = {})
+std::string written(const Film& film, const AnimationOptions& options = {}, const AnimatedFile& file = {})
 {
     Animation animation(options);
     for (std::size_t k = 0; k < film.frames.size(); ++k) {
         animation.add(film.frames[k], film.continues[k]);
     }
     std::ostringstream out;
-    const std::uint64_t bytes = animation.write(out);
+    const std::uint64_t bytes = animation.write(out, file);
     EXPECT_EQ(bytes, out.str().size());
     EXPECT_TRUE(out.good());
     return out.str();
@@ -91,9 +93,10 @@ std::vector<Number> numbersOf(const tinygltf::Model& model, int index)
     const tinygltf::BufferView& view = model.bufferViews.at(at(accessor.bufferView));
     std::vector<Number> numbers(accessor.count *
                                 at(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type))));
-    EXPECT_EQ(view.byteLength, numbers.size() * sizeof(Number));
-    EXPECT_EQ(view.byteOffset % 4, 0U);
-    std::memcpy(numbers.data(), model.buffers.at(0).data.data() + view.byteOffset, view.byteLength);
+    EXPECT_LE(accessor.byteOffset + numbers.size() * sizeof(Number), view.byteLength);
+    EXPECT_EQ((view.byteOffset + accessor.byteOffset) % 4, 0U);
+    std::memcpy(numbers.data(), model.buffers.at(0).data.data() + view.byteOffset + accessor.byteOffset,
+                numbers.size() * sizeof(Number));
     return numbers;
 }
 
@@ -356,6 +359,111 @@ TEST(Animation, NamesMeshesAfterFrames)
     ASSERT_EQ(names.ArrayLen(), 2U);
     EXPECT_EQ(names.Get(0).Get<std::string>(), "frame 4");
     EXPECT_EQ(names.Get(1).Get<std::string>(), "frame 5");
+}
+
+/// Value of an attribute of a USD file at a time code at which it has a sample, or holds one.
+std::string valueAt(const testing::UsdProperty& property, double code)
+{
+    if (property.samples.empty()) {
+        return property.value;
+    }
+    const auto next = property.samples.upper_bound(code);
+    return next == property.samples.begin() ? next->second : std::prev(next)->second;
+}
+
+std::vector<double> numbersIn(std::string list)
+{
+    std::replace_if(
+        list.begin(), list.end(), [](char c) { return std::string("[](),").find(c) != std::string::npos; }, ' ');
+    std::istringstream in(list);
+    return {std::istream_iterator<double>(in), {}};
+}
+
+// The same frames as in glTF, as samples of scale, points and normals. Steps are held to a thousandth of a frame.
+TEST(Animation, HasTimeSamplesInUsd)
+{
+    const Film film = filmOf({3, 1, 4, 1});
+    const std::string usda = written(film, {.frames_per_second = 10.0}, {Format::Usda});
+    const testing::UsdPrim root = testing::UsdaReader(usda).read();
+    EXPECT_EQ(root.metadata.at("startTimeCode"), "0");
+    EXPECT_EQ(root.metadata.at("endTimeCode"), "9");
+    EXPECT_EQ(root.metadata.at("timeCodesPerSecond"), "10");
+    const testing::UsdPrim& droplet = root.child("droplet");
+    std::vector<std::string> meshes;
+    for (std::size_t frame = 0; frame < film.frames.size(); ++frame) {
+        for (const double code : {static_cast<double>(frame), static_cast<double>(frame) + 0.998}) {
+            std::size_t shown = 0;
+            for (const auto& [name, prim] : droplet.children) {
+                if (prim.type != "Mesh" || numbersIn(valueAt(prim.properties.at("xformOp:scale"), code))[0] == 0.0) {
+                    continue;
+                }
+                ++shown;
+                EXPECT_EQ(prim.value("xformOpOrder"), "[xformOp:scale]");
+                if (code > static_cast<double>(frame)) {
+                    continue;
+                }
+                meshes.push_back(name);
+                const Surface& surface = film.frames[frame];
+                const std::vector<double> points = numbersIn(valueAt(prim.properties.at("points"), code));
+                const std::vector<double> normals = numbersIn(valueAt(prim.properties.at("primvars:normals"), code));
+                const std::vector<double> corners = numbersIn(prim.value("faceVertexIndices"));
+                ASSERT_EQ(corners.size(), 3 * surface.triangles.size());
+                ASSERT_EQ(normals.size(), 3 * surface.normals.size());
+                for (std::size_t c = 0; c < corners.size(); ++c) {
+                    const std::uint32_t v = surface.triangles[c / 3][c % 3];
+                    const auto p = 3 * static_cast<std::size_t>(corners[c]);
+                    const Vec3 place{points.at(p), -points.at(p + 2), points.at(p + 1)};
+                    EXPECT_LT(length(place - surface.positions[v]), 1e-9);
+                    const Vec3 normal{normals[3 * v], -normals[3 * v + 2], normals[3 * v + 1]};
+                    EXPECT_LT(length(normal - surface.normals[v]), 1e-6);
+                }
+            }
+            EXPECT_EQ(shown, 1U) << code;
+        }
+    }
+    EXPECT_THAT(meshes, ::testing::ElementsAre("frame_1", "frame_1", "frame_1", "frame_4", "frame_5", "frame_5",
+                                               "frame_5", "frame_5", "frame_9"));
+    EXPECT_EQ(droplet.child("frame_1").properties.at("primvars:normals").metadata.at("interpolation"), "faceVarying");
+    EXPECT_EQ(written(film, {.frames_per_second = 10.0}, {Format::Usdz}).find("PK"), 0U);
+    const std::string still = written(filmOf({1}), {}, {Format::Usda});
+    EXPECT_EQ(still.find("timeCode"), std::string::npos) << "one frame has no time";
+}
+
+// Nodes that appear and go keep their tracks; a child places the compressed vertices.
+TEST(Animation, IsCompressed)
+{
+    Film film;
+    for (int k = 0; k < 8; ++k) {
+        film.frames.push_back(roundDroplet({.height = 1e-3 + 1e-4 * k, .rings = 20, .segments = 60}));
+        film.continues.push_back(k % 4 > 0);
+    }
+    const auto plain = static_cast<double>(written(film).size());
+    for (const Compression compression : {Compression::Quantize, Compression::Meshopt}) {
+        const std::string glb = written(film, {}, {Format::Glb, compression});
+        EXPECT_LT(static_cast<double>(glb.size()), (compression == Compression::Quantize ? 0.8 : 0.4) * plain);
+        EXPECT_EQ(glb, written(film, {}, {Format::Glb, compression}));
+    }
+    const tinygltf::Model model = parsed(written(film, {}, {Format::Glb, Compression::Quantize}));
+    for (const tinygltf::AnimationChannel& channel : model.animations.at(0).channels) {
+        const tinygltf::Node& node = model.nodes.at(at(channel.target_node));
+        EXPECT_EQ(node.mesh >= 0, channel.target_path == "weights");
+        if (channel.target_path == "scale") {
+            ASSERT_EQ(node.children.size(), 1U);
+            EXPECT_GE(model.nodes.at(at(node.children[0])).mesh, 0);
+        }
+    }
+}
+
+TEST(Animation, RefusesFormsThatDoNotExist)
+{
+    for (const AnimatedFile& file : {AnimatedFile{Format::Obj}, AnimatedFile{Format::Gltf, Compression::Quantize},
+                                     AnimatedFile{Format::Usdz, Compression::Meshopt}}) {
+        Animation animation(AnimationOptions{});
+        animation.add(roundDroplet(), false);
+        std::ostringstream out;
+        EXPECT_THROW(animation.write(out, file), Error);
+        EXPECT_EQ(out.str(), "");
+    }
 }
 
 std::string refusal(const std::function<void()>& action)

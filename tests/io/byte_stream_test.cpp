@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/byte_stream.h"
+#include "byte_stream.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

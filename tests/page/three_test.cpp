@@ -99,6 +99,72 @@ TEST(Three, SeesTheSameDropletInEveryFormat)
     }
 }
 
+// A slider, an animation with new triangles, a windshield and a flow look the same however they are compressed.
+TEST(Three, SeesTheSameFilmWithEveryCompression)
+{
+    testing::ScratchDirectory scratch;
+    const auto path = [&](const std::string& name) { return (scratch.path() / name).string(); };
+    writeFile(path("disc.pgm"), testing::discPicture(64, 24.0));
+    for (int frame = 0; frame < 4; ++frame) {
+        writeFile(path("f" + std::to_string(frame) + ".pgm"), testing::discPicture(64, 24.0 - 2.0 * frame));
+    }
+    struct Film {
+        std::string name;
+        std::vector<std::string> command;  ///< without the file
+        std::vector<std::string> shown;    ///< arguments of the player
+        double tolerance;                  ///< of places [m]
+    };
+    const std::vector<Film> films{
+        {"slider",
+         {path("disc.pgm"), "--triangles", "500", "--fill-range", "0.5..3", "-q", "@"},
+         {"fill", "0.5", "1", "3"},
+         2e-6},
+        {"animation",
+         {"animate", path("f0.pgm"), path("f1.pgm"), path("f2.pgm"), path("f3.pgm"), "@", "--triangles", "500", "-q"},
+         {"time", "0.001", "0.06", "0.12"},
+         2e-6},
+        {"windshield",
+         {"windshield", path("w.png"), "--rain", "25mm/h", "--glass-width", "0.4m", "--glass-height", "0.2m",
+          "--warm-up", "2s", "--time", "1s", "--size", "32x18", "--samples", "1", "-q", "--model", "@"},
+         {"time", "0.001", "0.5", "0.9"},
+         2e-5},
+        {"flow", {"flow", "--preset", "bottle", "@", "--time", "0.5s", "-q"}, {"time", "0.001", "0.2", "0.4"}, 2e-5}};
+    for (const Film& film : films) {
+        SCOPED_TRACE(film.name);
+        nlohmann::json plain;
+        for (const std::string compression : {"none", "quantize", "meshopt"}) {
+            SCOPED_TRACE(compression);
+            const std::string file = path(film.name + "_" + compression + ".glb");
+            std::vector<std::string> arguments = film.command;
+            std::replace(arguments.begin(), arguments.end(), std::string("@"), file);
+            arguments.insert(arguments.end(), {"--compress", compression});
+            const auto made = runDroplet(arguments);
+            ASSERT_EQ(made.exit_code, 0) << made.error;
+            std::vector<std::string> player{"node", testing::inSource("tests/page/film.mjs"), testing::kThree, file};
+            player.insert(player.end(), film.shown.begin(), film.shown.end());
+            const auto run = runProgram(player);
+            ASSERT_EQ(run.exit_code, 0) << run.error;
+            const auto seen = nlohmann::json::parse(run.output);
+            if (compression == "none") {
+                plain = seen;
+                EXPECT_NE(plain.at(0), plain.at(2)) << "it moves";
+                continue;
+            }
+            for (std::size_t k = 0; k < plain.size(); ++k) {
+                EXPECT_EQ(seen[k].at("triangles"), plain[k].at("triangles"));
+                for (const char* const figure : {"volume", "area"}) {
+                    const double expected = plain[k].at(figure);
+                    EXPECT_NEAR(seen[k].at(figure), expected, 1e-3 * expected) << figure;
+                }
+                for (std::size_t i = 0; i < 3; ++i) {
+                    EXPECT_NEAR(seen[k].at("low").at(i), plain[k].at("low").at(i), film.tolerance);
+                    EXPECT_NEAR(seen[k].at("high").at(i), plain[k].at("high").at(i), film.tolerance);
+                }
+            }
+        }
+    }
+}
+
 // The page lights the ground through the liquid's surface, of which the part below an overhang faces down, as the base
 // does: what is taken for it has no hole and ends on the ground.
 TEST(Three, PageKnowsTheSurfaceBelowAnOverhang)

@@ -28,7 +28,7 @@ Light slanted()
 }
 
 // Missing light on the plane, as an area [m²].
-double missing(const LightMap& map, const Scene& scene)
+double missing(const LightMap& map, const TracedScene& scene)
 {
     double sum = 0.0;
     for (const Vec3f& value : map.values) {
@@ -49,7 +49,7 @@ double reflectance(double cosine, double n)
 TEST(LightMap, LiquidOfAirsIndexChangesNothing)
 {
     const Surface surface = roundDroplet({.height = 2e-3, .rings = 8, .segments = 48});
-    const Scene scene(surface, RenderOptions{});
+    const TracedScene scene(surface, RenderOptions{});
     for (const Light& light : {straightDown(), slanted()}) {
         for (const Vec3f& value : lightGain(scene, {{true, 1.0F, {}}}, light, kCells, 0.0F).values) {
             ASSERT_NEAR(value.x, 1.0, 2e-4);
@@ -61,7 +61,7 @@ TEST(LightMap, LiquidOfAirsIndexChangesNothing)
 TEST(LightMap, OpaqueDropletTakesTheLightItIntercepts)
 {
     const Surface surface = roundDroplet({.height = 1e-3, .rings = 8, .segments = 48});
-    const Scene scene(surface, RenderOptions{});
+    const TracedScene scene(surface, RenderOptions{});
     const double area = testing::polygonArea(4e-3, 48);
     const LightMap down = lightGain(scene, {{false, 1.0F, {}}}, straightDown(), kCells, 0.0F);
     EXPECT_NEAR(missing(down, scene), area, 0.005 * area);
@@ -76,7 +76,7 @@ TEST(LightMap, ClearDropletLosesWhatItReflects)
     constexpr double kRadius = 4e-3;
     for (const double height : {0.3e-3, 1e-3, 1.6e-3}) {
         const Surface surface = roundDroplet({.outer = kRadius, .height = height, .rings = 40, .segments = 160});
-        const Scene scene(surface, RenderOptions{});
+        const TracedScene scene(surface, RenderOptions{});
         double reflected = 0.0;
         constexpr int kRings = 2000;
         for (int k = 0; k < kRings; ++k) {
@@ -97,7 +97,7 @@ TEST(LightMap, MiddleOfADropletGathersLightLikeALens)
     constexpr double kRadius = 4e-3;
     constexpr double kIndex = 1.5;
     const Surface surface = roundDroplet({.outer = kRadius, .height = kHeight, .rings = 60, .segments = 160});
-    const Scene scene(surface, RenderOptions{});
+    const TracedScene scene(surface, RenderOptions{});
     const LightMap map = lightGain(scene, {{true, static_cast<float>(kIndex), {}}}, straightDown(), 400, 4.0F);
     const double curvature = 2.0 * kHeight / (kRadius * kRadius);
     const double narrowed = 1.0 - kHeight * curvature * (1.0 - 1.0 / kIndex);
@@ -108,7 +108,7 @@ TEST(LightMap, ColouredLiquidAbsorbsByItsDepth)
 {
     // The middle is almost level.
     const Surface surface = roundDroplet({.outer = 8e-3, .height = 0.5e-3, .rings = 40, .segments = 96});
-    const Scene scene(surface, RenderOptions{});
+    const TracedScene scene(surface, RenderOptions{});
     const auto depth = static_cast<float>(0.5e-3 / scene.scale());
     const Media medium{{true, 1.0F, {1.0F / depth, 0.5F / depth, 0.0F}}};
     const Vec3f middle = lightGain(scene, medium, straightDown(), kCells, 0.0F).at({});
@@ -123,7 +123,7 @@ TEST(LightMap, IsTheSameWithAnyNumberOfThreads)
     const auto made = [&](int threads) {
         LightMap map;
         tbb::task_arena(threads).execute([&] {
-            const Scene scene(surface, RenderOptions{});
+            const TracedScene scene(surface, RenderOptions{});
             map = lightOnPlane(scene, {{true, 1.333F, {1.0F, 2.0F, 3.0F}}}, {slanted(), straightDown()}, kCells);
         });
         return map;
@@ -147,9 +147,9 @@ TEST(LightMap, OnAStandEqualsThePlane)
     plane.triangles = {{0, 1, 2}, {0, 2, 3}};
     RenderOptions options;
     options.extent = {testing::kExtent, testing::kExtent};
-    const Scene on_plane(surface, options);
+    const TracedScene on_plane(surface, options);
     options.stand = plane;
-    const Scene on_stand(surface, options);
+    const TracedScene on_stand(surface, options);
     const Media medium{{true, 1.333F, {}}};
     const LightMap expected = lightGain(on_plane, medium, slanted(), 300, 2.0F);
     const LightMap gain = lightGainOnStand(on_stand, medium, slanted(), 300);

@@ -19,7 +19,7 @@
 #include "droplet/units.h"
 #include "picture/camera.h"
 #include "picture/ground.h"
-#include "picture/scene.h"
+#include "picture/traced_scene.h"
 #include "support/surfaces.h"
 
 namespace droplet {
@@ -132,7 +132,7 @@ TEST(Render, FurnaceHoldsOnCurvedGround)
 TEST(Render, GroundPictureLiesWhereUvSays)
 {
     const Surface surface = roundDroplet({.height = 1e-3, .rings = 6, .segments = 32, .centre = {2e-3, -1e-3}});
-    const Scene scene(surface, small());
+    const TracedScene scene(surface, small());
     for (const View view : {View::Top, View::ThreeQuarter}) {
         for (const double azimuth : {0.0, 0.7}) {
             RenderOptions options = small(view);
@@ -165,7 +165,7 @@ TEST(Render, FilmShiftsAndDimsTheGroundExactly)
     constexpr double kHeight = 1.5e-3;
     constexpr double kIndex = 1.5;
     const Surface surface = film(kHeight, 9e-3);
-    const Scene scene(surface, small());
+    const TracedScene scene(surface, small());
     RenderOptions options = small();
     options.look = ofIndex(kIndex);
     options.ground = slopes();
@@ -369,7 +369,7 @@ TEST(Render, FramesAGivenBox)
 // In every view the droplet is in the picture and fills it up to the margin.
 TEST(Camera, FramesEverything)
 {
-    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
+    const TracedScene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
     for (const View view : kViews) {
         for (const auto& [width, height] : {std::pair{640, 480}, {200, 600}, {900, 100}}) {
             RenderOptions options = small(view);
@@ -393,7 +393,7 @@ TEST(Camera, FramesEverything)
 
 TEST(Camera, FramesATurntableForAllTurns)
 {
-    const Scene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
+    const TracedScene scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
     RenderOptions options = small(View::Side);
     options.fit_all_azimuths = true;
     const Vec2 top = Camera(scene.shown(), options).seen({0.0F, 0.0F, 0.5F});
@@ -446,7 +446,7 @@ TEST(Camera, DependsOnlyOnTheFramedBox)
 
 TEST(Camera, TurnsTheDropletCounterClockwise)
 {
-    const Scene scene(roundDroplet(), RenderOptions{});
+    const TracedScene scene(roundDroplet(), RenderOptions{});
     RenderOptions options = small(View::Top);
     options.azimuth = 90.0 * kDegree;
     const Camera camera(scene.shown(), options);
@@ -518,7 +518,7 @@ TEST(GroundMesh, EndsWhereTheGroundDoes)
 TEST(Render, ColourMapTintsTheLightThatPasses)
 {
     const Surface surface = film(1e-3, 9e-3);
-    const Scene scene(surface, small());
+    const TracedScene scene(surface, small());
     for (const View view : {View::Top, View::ThreeQuarter}) {
         RenderOptions options = small(view);
         options.look = ofIndex(1.0);

@@ -58,7 +58,7 @@ TEST(StandWater, DropletsGatherLightAndCastShadows)
 {
     RenderOptions options;
     options.stand = plate();
-    const Scene scene({}, options);
+    const TracedScene scene({}, options);
     Light light;
     light.irradiance = {3.0F, 3.0F, 3.0F};
     light.beams = {{unit({1.0F, 0.0F, 1.0F}), 1.0F}};

@@ -148,6 +148,12 @@ class FileObjects(unittest.TestCase):
         made.save(memory, material="ink")
         self.assertEqual(memory.getvalue(), (self.folder / "film.glb").read_bytes())
         self.assertEqual(made.to_bytes(material="ink"), memory.getvalue())
+        for extension in ("glb", "gltf", "usda", "usdz"):
+            with self.subTest(extension):
+                made.save(self.folder / f"film.{extension}")
+                self.assertEqual(made.to_bytes(extension), (self.folder / f"film.{extension}").read_bytes())
+        self.assertIn(b"timeSamples", made.to_bytes("usda"))
+        self.assertLess(len(made.to_bytes(compress="meshopt")), 0.6 * len(made.to_bytes()))
 
     def test_options_are_those_of_a_file(self):
         drop = flag()
@@ -165,6 +171,8 @@ class FileObjects(unittest.TestCase):
             ("^format: .*glb gltf obj", lambda: drop.to_bytes("dwg")),
             ("^unit: ", lambda: drop.to_bytes(unit="inch")),
             ("^material: ", lambda: film().to_bytes(material="gold")),
+            ("^format: obj holds single frames", lambda: film().to_bytes("obj")),
+            ("^compress: usda files cannot", lambda: film().to_bytes("usda", compress="meshopt")),
             ("^nodes: ", lambda: drop.to_bytes(nodes="some")),
         ):
             with self.assertRaisesRegex(ds.InvalidArgument, words):

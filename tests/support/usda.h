@@ -18,11 +18,13 @@ struct UsdProperty {
     std::string value;  ///< as it is written; empty: none
     bool connects = false;
     std::map<std::string, std::string> metadata = {};
+    std::map<double, std::string> samples = {};  ///< values by time code
 };
 
 /// Prim with its properties and children, both by name.
 struct UsdPrim {
     std::string type;
+    bool is_class = false;
     std::map<std::string, std::string> metadata;
     std::map<std::string, UsdProperty> properties;
     std::map<std::string, UsdPrim> children;
@@ -128,6 +130,22 @@ private:
         return content + last;
     }
 
+    std::map<double, std::string> samples()
+    {
+        std::map<double, std::string> all;
+        expect('{');
+        while (!take('}')) {
+            if (!all.empty()) {
+                expect(',');
+            }
+            const double code = std::stod(word("+-."));
+            require(all.empty() || all.rbegin()->first < code, "time codes that ascend");
+            expect(':');
+            all.emplace(code, value());
+        }
+        return all;
+    }
+
     std::map<std::string, std::string> metadata()
     {
         std::map<std::string, std::string> entries;
@@ -146,14 +164,16 @@ private:
 
     void prim(UsdPrim& parent)
     {
-        require(word("") == "def", "def");
         UsdPrim prim;
+        const std::string specifier = word("");
+        require(specifier == "def" || specifier == "class", "def or class");
+        prim.is_class = specifier == "class";
         prim.type = word("");
         const std::string name = quoted();
         prim.metadata = metadata();
         expect('{');
         while (!take('}')) {
-            if (text_.substr(at_, 4) == "def ") {
+            if (text_.substr(at_, 4) == "def " || text_.substr(at_, 6) == "class ") {
                 this->prim(prim);
             } else {
                 property(prim);
@@ -179,10 +199,20 @@ private:
             name.resize(name.size() - kConnect.size());
             property.connects = true;
         }
-        if (take('=')) {
+        if (constexpr std::string_view kSamples = ".timeSamples"; name.ends_with(kSamples)) {
+            name.resize(name.size() - kSamples.size());
+            expect('=');
+            property.samples = samples();
+            // An attribute may be declared before its samples.
+            if (const auto declared = prim.properties.find(name); declared != prim.properties.end()) {
+                require(declared->second.value.empty(), "samples of an attribute without a value");
+                property.metadata = declared->second.metadata;
+                prim.properties.erase(declared);
+            }
+        } else if (take('=')) {
             property.value = value();
         }
-        property.metadata = metadata();
+        property.metadata.merge(metadata());
         require(prim.properties.emplace(name, std::move(property)).second, "a property's name that is new: " + name);
     }
 

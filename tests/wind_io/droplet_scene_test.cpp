@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -23,6 +24,7 @@
 #include "support/animated_scene.h"
 #include "support/command.h"
 #include "support/paths.h"
+#include "support/usda.h"
 
 namespace droplet {
 namespace {
@@ -94,14 +96,14 @@ struct Rain {
         }
     }
 
-    [[nodiscard]] std::string scene(SceneAnimation animation) const
+    [[nodiscard]] std::string scene(SceneAnimation animation, const AnimatedFile& file = {}) const
     {
         DropletScene scene(glass, {.animation = animation});
         for (const WindshieldState& state : states) {
             scene.add(state);
         }
         std::ostringstream out;
-        scene.write(out);
+        scene.write(out, file);
         return out.str();
     }
 };
@@ -210,6 +212,89 @@ TEST(DropletScene, TextureHasTheDropletsOfEveryFrame)
     }
 }
 
+/// Numbers of an attribute at a time code, between its samples as USD shows them.
+std::vector<double> numbersAt(const testing::UsdPrim& prim, const std::string& name, double code,
+                              std::vector<double> otherwise)
+{
+    const auto found = prim.properties.find(name);
+    if (found == prim.properties.end()) {
+        return otherwise;
+    }
+    const auto numbersOf = [](std::string text) {
+        std::replace_if(
+            text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+        std::istringstream in(text);
+        return std::vector<double>(std::istream_iterator<double>(in), {});
+    };
+    const std::map<double, std::string>& samples = found->second.samples;
+    if (samples.empty()) {
+        return numbersOf(found->second.value);
+    }
+    const auto next = samples.upper_bound(code);
+    if (next == samples.begin() || next == samples.end()) {
+        return numbersOf(next == samples.begin() ? next->second : samples.rbegin()->second);
+    }
+    std::vector<double> numbers = numbersOf(std::prev(next)->second);
+    const std::vector<double> after = numbersOf(next->second);
+    const double share = (code - std::prev(next)->first) / (next->first - std::prev(next)->first);
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        numbers[k] += share * (after[k] - numbers[k]);
+    }
+    return numbers;
+}
+
+// Every droplet is an instance of one of two classes, in the place and size of its joint in glTF.
+TEST(DropletScene, UsdShowsTheSameDroplets)
+{
+    const Rain& rain = theRain();
+    const AnimatedScene scene(rain.scene(SceneAnimation::Nodes));
+    const testing::UsdPrim root =
+        testing::UsdaReader(rain.scene(SceneAnimation::Nodes, {Format::Usda})).read().child("droplet");
+    EXPECT_TRUE(root.child("droplets_at_rest").is_class);
+    EXPECT_TRUE(root.child("droplets_on_their_way").is_class);
+    EXPECT_EQ(root.child("glass").type, "Mesh");
+    for (std::size_t frame = 0; frame < rain.states.size(); frame += 13) {
+        SCOPED_TRACE(frame);
+        const double code = static_cast<double>(frame) + 0.03;
+        std::vector<Vec3> places;
+        double volume = 0.0;
+        const auto take = [&](const testing::UsdPrim& prim, const std::vector<double>& q) {
+            EXPECT_EQ(prim.metadata.at("instanceable"), "true");
+            const std::string& of = prim.metadata.at("prepend references");
+            EXPECT_TRUE(of == "/droplet/droplets_at_rest" || of == "/droplet/droplets_on_their_way") << of;
+            const std::vector<double> size = numbersAt(prim, "xformOp:scale", code, {1, 1, 1});
+            if (size[0] == 0.0) {
+                return;
+            }
+            const std::vector<double> p = numbersAt(prim, "xformOp:translate", code, {0, 0, 0});
+            const Vec3 v{p[0], p[1], p[2]};
+            const Vec3 u{q[1], q[2], q[3]};
+            const Vec3 t = 2.0 * cross(u, v);
+            places.push_back(v + q[0] * t + cross(u, t));
+            volume += size[0] * size[1] * size[2];
+        };
+        const std::vector<double> no_turn{1, 0, 0, 0};
+        for (const auto& [name, prim] : root.child("droplets").children) {
+            if (!prim.metadata.contains("instanceable")) {
+                for (const auto& [copy_name, copy] : prim.children) {
+                    take(copy, numbersAt(prim, "xformOp:orient", code, no_turn));
+                }
+            } else {
+                take(prim, no_turn);
+            }
+        }
+        const std::vector<Shown> shown = scene.at(code / 30.0);
+        ASSERT_EQ(places.size(), shown.size());
+        for (const Shown& one : shown) {
+            volume -= one.scale.x * one.scale.y * one.scale.z;
+            EXPECT_TRUE(std::any_of(places.begin(), places.end(),
+                                    [&](const Vec3& place) { return length(place - one.place) < 1e-6; }));
+        }
+        EXPECT_NEAR(volume, 0.0, 1e-12);
+    }
+    EXPECT_THROW((void)rain.scene(SceneAnimation::Texture, {Format::Usda}), Error);
+}
+
 TEST(DropletScene, DropletsAreVisibleOnlyWhileTheyExist)
 {
     const Glass glass;
@@ -253,6 +338,8 @@ TEST(DropletScene, PassesTheValidator)
     };
     store("five.glb", fiveFrames(Glass()));
     store("texture.glb", fiveFrames(Glass(), {.animation = SceneAnimation::Texture}));
+    store("quantized.glb", theRain().scene(SceneAnimation::Nodes, {Format::Glb, Compression::Quantize}));
+    store("meshopt.glb", theRain().scene(SceneAnimation::Nodes, {Format::Glb, Compression::Meshopt}));
     store("ink.glb", fiveFrames(Glass(), {.material = Material::Ink, .shape = {.contact_angle = 0.5}}));
     DropletScene one{Glass()};
     WindshieldState state;
@@ -274,7 +361,7 @@ TEST(DropletScene, PassesTheValidator)
     store("empty.glb", empty.str());
     const auto verdict = testing::runProgram(command);
     EXPECT_EQ(verdict.exit_code, 0) << verdict.output << verdict.error;
-    for (const char* name : {"five", "texture", "ink", "one_frame", "dry", "empty"}) {
+    for (const char* name : {"five", "texture", "quantized", "meshopt", "ink", "one_frame", "dry", "empty"}) {
         EXPECT_THAT(verdict.output + verdict.error, HasSubstr(std::string(name) + ".glb: 0 errors, 0 warnings"));
     }
 }

@@ -10,6 +10,7 @@
 #include "droplet/flow/flow.h"
 #include "droplet/flow/object_motion.h"
 #include "droplet/flow_io/flow_object.h"
+#include "droplet/scene/format.h"
 #include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
 #include "droplet/units.h"
@@ -29,8 +30,8 @@ struct FlowAnimationOptions {
     void validate() const;
 };
 
-/// Animated GLB of droplets that run over an object. Takes one frame after another, keeps their data in memory, and
-/// writes the file at the end.
+/// Animation of droplets that run over an object, glTF or USD. Takes one frame after another, keeps their data in
+/// memory, and writes the file at the end.
 ///
 /// Droplets are joints of skinned meshes, as in SceneAnimation::Nodes. Positions are exact to a tenth of the droplet's
 /// half width, plus 2 ms of the way along a path; other tolerances are those of SceneAnimation::Nodes. There are three
@@ -63,9 +64,11 @@ public:
     ///
     /// Guarantees: the same frames give the same bytes with any number of threads; the stream is in a failed state if a
     /// write failed.
+    /// @param out    takes the bytes
+    /// @param file   form; by default GLB
     /// @return       number of bytes written
-    /// @throws Error InvalidArgument if there is no frame
-    std::uint64_t write(std::ostream& out) const;
+    /// @throws Error InvalidArgument if there is no frame, or the form does not exist
+    std::uint64_t write(std::ostream& out, const AnimatedFile& file = {}) const;
 
 private:
     struct Content;

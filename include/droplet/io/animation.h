@@ -7,12 +7,13 @@
 #include <memory>
 #include <optional>
 
-#include "droplet/io/gltf.h"
+#include "droplet/scene/format.h"
+#include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
 
-/// Options of an animated glTF file.
+/// Options of an animation.
 struct AnimationOptions {
     double frames_per_second = 24.0;         ///< > 0
     Material material = Material::Water;     ///< of the liquid
@@ -24,14 +25,15 @@ struct AnimationOptions {
     void validate() const;
 };
 
-/// Builder of an animated GLB: collects surfaces frame by frame and writes the file at the end.
+/// Builder of an animated file, glTF or USD: collects surfaces frame by frame and writes the file at the end.
 ///
 /// Each run of frames with the same triangles becomes one node with one mesh. The frames of a run are morph targets
 /// with LINEAR weights, so vertices move between frames. A run of more than 64 frames continues in another node; its
 /// first frame is the last one of the node before, so nothing jumps. The scale of a node, 1 or 0 with STEP, shows or
 /// hides its run; all viewers support that. The last frame is shown as long as the others; then the animation may
 /// repeat. Frames without a surface show no run. Viewers that do not play animations show the first surface.
-/// Texture coordinates are those of a run's first frame; contact angles are left out.
+/// Texture coordinates are those of a run's first frame; contact angles are left out. USD has time samples of points
+/// and normals in place of morph targets.
 class Animation {
 public:
     /// An animation without frames.
@@ -51,12 +53,14 @@ public:
     /// Adds a frame without liquid.
     void addDry();
 
-    /// Writes the GLB.
+    /// Writes the file. Frames may be added afterwards.
     ///
     /// Guarantees: the same frames give the same bytes; the stream is left failed if it did not take everything.
+    /// @param out    takes the bytes
+    /// @param file   form; by default GLB
     /// @return       bytes handed to the stream
-    /// @throws Error InvalidArgument if no frame has a surface
-    std::uint64_t write(std::ostream& out) const;
+    /// @throws Error InvalidArgument if no frame has a surface, or the form does not exist
+    std::uint64_t write(std::ostream& out, const AnimatedFile& file = {});
 
 private:
     struct Content;

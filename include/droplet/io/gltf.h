@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "droplet/io/compression.h"
 #include "droplet/io/file_droplet.h"
+#include "droplet/scene/compression.h"
 #include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
 
@@ -21,7 +21,7 @@ struct GltfOptions {
     Nodes nodes = Nodes::One;  ///< Each: needs `droplets`
     std::vector<FileDroplet> droplets = {};  ///< by SurfacePart::droplet; empty: all are alike, of `material`
     std::string texture = {};  ///< bytes of a PNG over the surface's uv, which tints the liquid; empty: none
-    Compression compression = Compression::None;  ///< only of a GLB without a refill
+    Compression compression = Compression::None;  ///< of a GLB
 };
 
 /// Writes a surface as glTF 2.0: metres, +Y up, the image's lower edge toward +Z, float attributes POSITION, NORMAL
@@ -42,13 +42,13 @@ struct GltfOptions {
 /// it, as KHR_materials_transmission says.
 ///
 /// A compressed file requires the extensions of its Compression, and its nodes have one scale and one translation, so
-/// that vertices that droplets share stay together. Meshopt gives vertices and triangles another order.
+/// that vertices that droplets share stay together. Changes by a refill are compressed, too. Meshopt gives vertices and
+/// triangles another order.
 ///
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
 /// @return       bytes handed to the stream
 /// @throws Error InvalidArgument if the surface is invalid, beyond float's range, or has parts that `droplets` lacks;
-///               if Nodes::Each has no `droplets`; if it cannot be compressed; or if the file would reach 2 GiB
-///               without compression
+///               if Nodes::Each has no `droplets`; if text would be compressed; or if the file would reach 2 GiB
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options = {});
 
 }  // namespace droplet

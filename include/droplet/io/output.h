@@ -10,22 +10,13 @@
 #include <string_view>
 #include <vector>
 
-#include "droplet/io/compression.h"
 #include "droplet/io/file_droplet.h"
 #include "droplet/io/mesh_files.h"
+#include "droplet/scene/compression.h"
+#include "droplet/scene/format.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
-
-/// File formats of a surface.
-enum class Format { Glb, Gltf, Obj, Ply, Stl, Usda, Usdz };
-
-/// Format with a name (`glb`) or a file extension (`.GLB`).
-/// @throws Error InvalidArgument, listing the known names
-Format formatNamed(std::string_view name);
-
-/// Lower-case name of a format; also its file extension without the dot.
-const char* name(Format format);
 
 /// Options of all formats; a format ignores those that it cannot express.
 struct WriteOptions {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "droplet/body/running_shape.h"
+#include "droplet/scene/format.h"
 #include "droplet/surface/material.h"
 #include "droplet/windshield/glass.h"
 #include "droplet/windshield/windshield.h"
@@ -39,8 +40,8 @@ struct DropletSceneOptions {
     void validate() const;
 };
 
-/// Animated GLB of droplets that run over a windshield. Takes one state after another, keeps their data in memory, and
-/// writes the file at the end.
+/// Animation of droplets that run over a windshield, glTF or USD. Takes one state after another, keeps their data in
+/// memory, and writes the file at the end.
 ///
 /// A droplet is a scaled mesh of a cap with contact radius 1 m, slightly enlarged to the volume of the true cap. A
 /// running droplet is stretched along its motion by λ and made narrower and lower by √λ, which keeps its volume; λ^1.5
@@ -62,9 +63,12 @@ public:
     /// Writes the file.
     ///
     /// Guarantees: the same frames give the same bytes; the stream is in a failed state if a write failed.
+    /// @param out    takes the bytes
+    /// @param file   form; by default GLB
     /// @return       number of bytes written
-    /// @throws Error InvalidArgument if there is no frame
-    std::uint64_t write(std::ostream& out) const;
+    /// @throws Error InvalidArgument if there is no frame, or the form does not exist; USD has no
+    /// SceneAnimation::Texture
+    std::uint64_t write(std::ostream& out, const AnimatedFile& file = {}) const;
 
 private:
     struct Content;

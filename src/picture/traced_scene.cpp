@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // I. Wald, S. Woop, C. Benthin, G. S. Johnson, M. Ernst, "Embree: A Kernel Framework for Efficient CPU Ray Tracing"
 // (2014).
-#include "picture/scene.h"
+#include "picture/traced_scene.h"
 
 #include <tbb/task_arena.h>
 
@@ -57,7 +57,7 @@ constexpr unsigned kStand = 2;
 
 }  // namespace
 
-struct Scene::Embree {
+struct TracedScene::Embree {
     EmbreeDevice device;
     EmbreeDevice::Scene air;
     EmbreeDevice::Scene liquid;
@@ -94,7 +94,7 @@ struct Scene::Embree {
     }
 };
 
-Scene::Scene(const Surface& surface, const RenderOptions& options) : embree_(std::make_unique<Embree>())
+TracedScene::TracedScene(const Surface& surface, const RenderOptions& options) : embree_(std::make_unique<Embree>())
 {
     const TexturedMesh* const stand = options.stand ? &*options.stand : nullptr;
     const Vec2 extent = options.extent;
@@ -179,32 +179,32 @@ Scene::Scene(const Surface& surface, const RenderOptions& options) : embree_(std
     embree_->dry = stand != nullptr ? embree_->build({kStand}) : embree_->build({kBase});
 }
 
-Scene::~Scene() = default;
+TracedScene::~TracedScene() = default;
 
-Vec3f Scene::toScene(Vec3 p) const
+Vec3f TracedScene::toScene(Vec3 p) const
 {
     return toFloats((1.0 / scale_) * (p - middle_));
 }
 
-std::vector<Vec3f> Scene::droplets() const
+std::vector<Vec3f> TracedScene::droplets() const
 {
     return framed_.empty()
                ? std::vector<Vec3f>(shown_.begin(), shown_.begin() + static_cast<std::ptrdiff_t>(surface_vertices_))
                : framed_;
 }
 
-std::vector<Vec3f> Scene::stand() const
+std::vector<Vec3f> TracedScene::stand() const
 {
     return {shown_.begin() + static_cast<std::ptrdiff_t>(surface_vertices_), shown_.end()};
 }
 
-Vec2 Scene::uvOnPlane(Vec3f place) const
+Vec2 TracedScene::uvOnPlane(Vec3f place) const
 {
     return {0.5 + (scale_ * static_cast<double>(place.x) + middle_.x) / extent_.x,
             0.5 - (scale_ * static_cast<double>(place.y) + middle_.y) / extent_.y};
 }
 
-Meeting Scene::meet(void* scene, const RayF& ray) const
+Meeting TracedScene::meet(void* scene, const RayF& ray) const
 {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -246,7 +246,7 @@ Meeting Scene::meet(void* scene, const RayF& ray) const
     return meeting;
 }
 
-bool Scene::passesBox(const RayF& ray) const
+bool TracedScene::passesBox(const RayF& ray) const
 {
     float from = 0.0F;
     float to = std::numeric_limits<float>::infinity();
@@ -264,7 +264,7 @@ bool Scene::passesBox(const RayF& ray) const
     return from > to;
 }
 
-Meeting Scene::nearerOfPlane(const RayF& ray, Meeting meeting) const
+Meeting TracedScene::nearerOfPlane(const RayF& ray, Meeting meeting) const
 {
     if (!on_plane_ || ray.direction.z >= 0.0F) {
         return meeting;
@@ -283,7 +283,7 @@ Meeting Scene::nearerOfPlane(const RayF& ray, Meeting meeting) const
     return plane;
 }
 
-Meeting Scene::fromAir(const RayF& ray) const
+Meeting TracedScene::fromAir(const RayF& ray) const
 {
     if (on_plane_ && passesBox(ray)) {
         return nearerOfPlane(ray, {});
@@ -291,12 +291,12 @@ Meeting Scene::fromAir(const RayF& ray) const
     return nearerOfPlane(ray, meet(embree_->air.get(), ray));
 }
 
-Meeting Scene::fromLiquid(const RayF& ray) const
+Meeting TracedScene::fromLiquid(const RayF& ray) const
 {
     return nearerOfPlane(ray, meet(embree_->liquid.get(), ray));
 }
 
-Meeting Scene::dry(const RayF& ray) const
+Meeting TracedScene::dry(const RayF& ray) const
 {
     return nearerOfPlane(ray, on_plane_ ? Meeting{} : meet(embree_->dry.get(), ray));
 }

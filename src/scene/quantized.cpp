@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Khronos Group, "KHR_mesh_quantization" and "EXT_meshopt_compression", appendix A, "Filters".
-#include "io/quantized.h"
+#include "scene/quantized.h"
 
 #include <meshoptimizer.h>
 
@@ -11,9 +11,9 @@
 #include <string>
 #include <utility>
 
+#include "axes.h"
+#include "byte_stream.h"
 #include "droplet/error.h"
-#include "io/axes.h"
-#include "io/byte_stream.h"
 
 namespace droplet {
 namespace {
@@ -44,6 +44,13 @@ std::vector<Vec3> inFloats(const std::vector<Vec3>& vectors)
     return floats;
 }
 
+/// Vector that a reader finds.
+Vec3 vectorOf(const QuantizedVector& quantized)
+{
+    return (1.0 / kOne) * Vec3{static_cast<double>(quantized[0]), static_cast<double>(quantized[1]),
+                               static_cast<double>(quantized[2])};
+}
+
 double angle(Vec3 a, Vec3 b)
 {
     return std::atan2(length(cross(a, b)), dot(a, b));
@@ -51,7 +58,7 @@ double angle(Vec3 a, Vec3 b)
 
 }  // namespace
 
-std::array<std::uint16_t, kLanes> QuantizationCube::quantized(Vec3 position) const
+QuantizedPosition QuantizationCube::quantized(Vec3 position) const
 {
     const auto step = [this](double from, double value) {
         return static_cast<std::uint16_t>(std::clamp(std::round((value - from) / side * kSteps), 0.0, kSteps));
@@ -59,14 +66,24 @@ std::array<std::uint16_t, kLanes> QuantizationCube::quantized(Vec3 position) con
     return {step(low.x, position.x), step(low.y, position.y), step(low.z, position.z), 0};
 }
 
-Vec3 QuantizationCube::place(const std::array<std::uint16_t, kLanes>& quantized) const
+QuantizedVector QuantizationCube::quantizedChange(Vec3 change) const
+{
+    return droplet::quantized((1.0 / side) * change);
+}
+
+Vec3 QuantizationCube::place(const QuantizedPosition& quantized) const
 {
     const double step = side / kSteps;
     return low + step * Vec3{static_cast<double>(quantized[0]), static_cast<double>(quantized[1]),
                              static_cast<double>(quantized[2])};
 }
 
-QuantizationCube cubeAround(std::span<const Vec3> positions)
+Vec3 QuantizationCube::change(const QuantizedVector& quantized) const
+{
+    return side * vectorOf(quantized);
+}
+
+QuantizationCube cubeAround(std::span<const Vec3> positions, double longest)
 {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Vec3 low{kInfinity, kInfinity, kInfinity};
@@ -75,8 +92,16 @@ QuantizationCube cubeAround(std::span<const Vec3> positions)
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    const double side = std::max({high.x - low.x, high.y - low.y, high.z - low.z, longest});
     return {low, side > 0.0 ? side : 1.0};
+}
+
+QuantizedVector quantized(Vec3 vector)
+{
+    const auto lane = [](double value) {
+        return static_cast<std::int16_t>(std::round(kOne * std::clamp(value, -1.0, 1.0)));
+    };
+    return {lane(vector.x), lane(vector.y), lane(vector.z), 0};
 }
 
 QuantizedNormals quantizeNormals(std::span<const Vec3> normals, Compression compression)
@@ -84,22 +109,20 @@ QuantizedNormals quantizeNormals(std::span<const Vec3> normals, Compression comp
     QuantizedNormals quantized;
     if (compression == Compression::Meshopt) {
         std::vector<float> floats;
-        floats.reserve(kLanes * normals.size());
+        floats.reserve(4 * normals.size());
         for (const Vec3& n : normals) {
             floats.insert(floats.end(), {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z), 0});
         }
-        constexpr std::size_t kStride = kLanes * sizeof(std::int16_t);
-        quantized.stored.resize(floats.size());
-        meshopt_encodeFilterOct(quantized.stored.data(), normals.size(), kStride, kOctahedralBits, floats.data());
+        quantized.stored.resize(normals.size());
+        meshopt_encodeFilterOct(quantized.stored.data(), normals.size(), sizeof(QuantizedVector), kOctahedralBits,
+                                floats.data());
         quantized.read = quantized.stored;
-        meshopt_decodeFilterOct(quantized.read.data(), normals.size(), kStride);
+        meshopt_decodeFilterOct(quantized.read.data(), normals.size(), sizeof(QuantizedVector));
         return quantized;
     }
-    for (const Vec3& n : normals) {
-        for (const double lane : {n.x, n.y, n.z, 0.0}) {
-            quantized.stored.push_back(static_cast<std::int16_t>(std::round(kOne * lane)));
-        }
-    }
+    quantized.stored.resize(normals.size());
+    std::transform(normals.begin(), normals.end(), quantized.stored.begin(),
+                   [](Vec3 normal) { return droplet::quantized(normal); });
     quantized.read = quantized.stored;
     return quantized;
 }
@@ -133,16 +156,26 @@ CompressionError compressionError(const Surface& surface, Compression compressio
     if (compression == Compression::None || positions.empty()) {
         return error;
     }
-    const QuantizationCube cube = cubeAround(positions);
+    const std::vector<RefillState> none;
+    const std::vector<RefillState>& states = surface.refill ? surface.refill->states : none;
+    double longest = 0.0;
+    for (const RefillState& state : states) {
+        for (const Vec3& change : state.positions) {
+            longest = std::max({longest, std::abs(change.x), std::abs(change.y), std::abs(change.z)});
+        }
+    }
+    const QuantizationCube cube = cubeAround(positions, longest);
     for (std::size_t i = 0; i < positions.size(); ++i) {
-        const Vec3 place = cube.place(cube.quantized(positions[i]));
-        error.position = std::max(error.position, length(place - yUp(surface.positions[i])));
+        const Vec3 off = cube.place(cube.quantized(positions[i])) - yUp(surface.positions[i]);
+        error.position = std::max(error.position, length(off));
+        for (const RefillState& state : states) {
+            const Vec3 change = yUp(state.positions[i]);
+            error.position = std::max(error.position, length(off + cube.change(cube.quantizedChange(change)) - change));
+        }
     }
     const QuantizedNormals normals = quantizeNormals(inFloats(surface.normals), compression);
     for (std::size_t i = 0; i < surface.normals.size(); ++i) {
-        const std::int16_t* const read = &normals.read[kLanes * i];
-        const Vec3 normal{static_cast<double>(read[0]), static_cast<double>(read[1]), static_cast<double>(read[2])};
-        error.normal = std::max(error.normal, angle(normal, yUp(surface.normals[i])));
+        error.normal = std::max(error.normal, angle(vectorOf(normals.read[i]), yUp(surface.normals[i])));
     }
     return error;
 }

@@ -37,15 +37,15 @@ struct Meeting {
 ///
 /// The base counts as ground. It is the part of the surface that is connected to the copied vertices of the rim, or
 /// lies in the plane z = 0. In the latter case the plane replaces it.
-class Scene {
+class TracedScene {
 public:
     /// @param surface  valid, or without triangles
     /// @param options  `stand`, valid; without it the ground is the plane z = 0, or only the base if that is not in the
     ///                 plane. `extent` gives uv on the plane; zero: that of the surface. `framed`
-    Scene(const Surface& surface, const RenderOptions& options);
-    ~Scene();
-    Scene(const Scene&) = delete;
-    Scene& operator=(const Scene&) = delete;
+    TracedScene(const Surface& surface, const RenderOptions& options);
+    ~TracedScene();
+    TracedScene(const TracedScene&) = delete;
+    TracedScene& operator=(const TracedScene&) = delete;
 
     /// Intersection of a ray from outside the liquid.
     [[nodiscard]] Meeting fromAir(const RayF& ray) const;

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a file of meshes shows, whatever its format: metres, seconds, +Y up.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "droplet/mesh/planar_mesh.h"
+#include "droplet/surface/material.h"
+#include "droplet/vector.h"
+
+namespace droplet {
+
+using Float2 = std::array<float, 2>;
+using Float3 = std::array<float, 3>;
+using Float4 = std::array<float, 4>;
+
+/// Look of triangles.
+struct SceneMaterial {
+    Look look;
+    /// Thickness of the liquid under a closed surface, for viewers that do not measure it [m] > 0; empty: no inside.
+    std::optional<double> thickness = {};
+    double opacity = 1.0;     ///< below 1: what lies behind shines through
+    bool both_sides = false;  ///< whether triangles are also seen from behind
+};
+
+/// Triangles of one material.
+struct ScenePart {
+    std::size_t material = 0;  ///< index
+    std::vector<Triangle> triangles;
+};
+
+/// Change of all vertices, by a weight.
+struct SceneTarget {
+    std::vector<Float3> positions;  ///< [m]
+    std::vector<Float3> normals;
+};
+
+/// Vertices and the triangles between them. All arrays of vertices have one length, unless they are empty.
+struct SceneGeometry {
+    std::vector<Float3> positions;          ///< [m]
+    std::vector<Float3> normals;            ///< unit vectors
+    std::vector<Float2> uvs = {};           ///< origin at the upper left; or empty
+    std::vector<float> angles = {};         ///< contact angles [degrees]; or empty
+    std::vector<std::uint32_t> weld = {};   ///< smallest index of a vertex at the same place; empty: every vertex alone
+    std::vector<SceneTarget> targets = {};  ///< one for each name of the mesh
+    std::vector<ScenePart> parts = {};
+};
+
+/// Number, count or list of numbers that a file states beside a mesh or node.
+using SceneProperty = std::pair<std::string, std::variant<int, double, std::vector<double>>>;
+
+struct SceneMesh {
+    std::string name;
+    std::vector<SceneGeometry> geometries = {};
+    std::vector<std::string> targets = {};  ///< names
+    std::vector<SceneProperty> properties = {};
+};
+
+/// Place in the scene. It moves what it carries: scale, then rotation, then translation.
+struct SceneNode {
+    std::string name = {};
+    std::optional<std::size_t> mesh = {};
+    std::vector<std::size_t> children = {};
+    std::array<double, 3> translation = {0.0, 0.0, 0.0};    ///< [m]
+    std::array<double, 4> rotation = {0.0, 0.0, 0.0, 1.0};  ///< quaternion, x first, w last
+    std::array<double, 3> scale = {1.0, 1.0, 1.0};
+    std::vector<SceneProperty> properties = {};
+};
+
+/// Many copies of a small mesh, each moved by a node of its own: droplets.
+struct SceneCrowd {
+    std::size_t mesh = 0;            ///< with one geometry, without targets
+    std::vector<std::size_t> nodes;  ///< one for each copy, without mesh and children
+    std::size_t parent = 0;          ///< node above all of them
+};
+
+/// What a track changes.
+enum class SceneChange { Translation, Rotation, Scale, Weights };
+
+/// Values of a node over time.
+struct SceneTrack {
+    std::size_t node = 0;
+    SceneChange change = SceneChange::Translation;
+    bool steps = false;              ///< values hold until the next key; otherwise they change evenly
+    std::size_t times = 0;           ///< index of Scene::times
+    std::vector<float> values = {};  ///< 3 for each key, 4 for a rotation, or one for each target
+    bool is_coarse = false;          ///< of rotations: 2^-15 is exact enough
+};
+
+/// Picture over the texture coordinates.
+struct ScenePicture {
+    std::string name;
+    std::string png;        ///< bytes of the file
+    bool is_colour = true;  ///< whether it multiplies the colours of all materials; otherwise it is data, not smoothed
+};
+
+struct Scene {
+    std::vector<SceneMaterial> materials = {};
+    std::vector<SceneMesh> meshes = {};
+    std::vector<SceneNode> nodes = {};
+    std::vector<std::size_t> roots = {};  ///< nodes without a parent
+    std::vector<SceneCrowd> crowds = {};
+    std::vector<std::size_t> corners = {};  ///< nodes at corners of a box that holds the crowds at all times
+    std::optional<ScenePicture> picture = {};
+    std::string animation = {};                  ///< name
+    double frames_per_second = 24.0;             ///< > 0
+    std::vector<std::vector<float>> times = {};  ///< of keys, ascending [s]
+    std::vector<SceneTrack> tracks = {};
+
+    /// Adds a node.
+    /// @param parent  index; empty: a root
+    /// @return        its index
+    std::size_t addNode(SceneNode node, std::optional<std::size_t> parent = {});
+    /// Adds a mesh; returns its index.
+    std::size_t addMesh(SceneMesh mesh);
+    /// Adds a material; returns its index.
+    std::size_t addMaterial(SceneMaterial material);
+    /// Adds times of keys; returns their index.
+    std::size_t addTimes(std::vector<float> keys);
+};
+
+/// Vectors, z up, as a scene's numbers.
+/// @throws Error InvalidArgument beyond float's range
+std::vector<Float3> sceneVectors(const std::vector<Vec3>& vectors);
+/// @throws Error InvalidArgument beyond float's range
+Float3 sceneVector(Vec3 vector);
+/// @throws Error InvalidArgument beyond float's range
+std::vector<Float2> sceneCoordinates(const std::vector<Vec2>& uvs);
+
+}  // namespace droplet

@@ -1,0 +1,870 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pixar, "OpenUSD": UsdGeomMesh, UsdGeomPrimvar, "UsdPreviewSurface Specification" (2.6), "Usdz File Format
+// Specification" (1.3); PKWARE, ".ZIP File Format Specification" (6.3).
+#include "scene/write_usd.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <ostream>
+#include <streambuf>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "byte_stream.h"
+#include "droplet/error.h"
+#include "droplet/printable.h"
+#include "droplet/version.h"
+#include "scene/preview_opacity.h"
+
+namespace droplet {
+namespace {
+
+constexpr std::string_view kLayer = "droplet.usda";
+constexpr std::string_view kPicture = "picture.png";
+constexpr std::string_view kRoot = "/droplet/";
+
+/// Name of a prim, and the name that it stands for.
+struct PrimName {
+    std::string prim;
+    std::string display;
+};
+
+constexpr bool isDigit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+constexpr bool isLetter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/// Names of sibling prims: identifiers, each once.
+std::vector<PrimName> primNames(const std::vector<std::string>& names)
+{
+    std::vector<PrimName> prims;
+    const auto is_taken = [&](const std::string& prim) {
+        return std::any_of(prims.begin(), prims.end(), [&](const PrimName& other) { return other.prim == prim; });
+    };
+    for (const std::string& name : names) {
+        std::string prim = name.empty() || isDigit(name.front()) ? "_" + name : name;
+        std::replace_if(
+            prim.begin(), prim.end(), [](char c) { return !isLetter(c) && !isDigit(c); }, '_');
+        const std::string first = prim;
+        for (std::size_t k = 2; is_taken(prim); ++k) {
+            prim = first + "_" + std::to_string(k);
+        }
+        prims.push_back({prim, name});
+    }
+    return prims;
+}
+
+/// Metadata with the name that a prim stands for, unless it is the prim's own.
+std::string displayName(const PrimName& name)
+{
+    if (name.display == name.prim) {
+        return {};
+    }
+    std::string text = "displayName = \"";
+    for (const char c : printable(name.display)) {
+        text += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+    }
+    return text + "\"";
+}
+
+/// Begins a prim, with its metadata, if there are any, up to its opening brace.
+void beginPrim(ByteStream& bytes, const std::string& indent, const std::string& type, const std::string& name,
+               const std::vector<std::string>& metadata)
+{
+    bytes.text("\n" + indent + "def " + type + " \"" + name + "\"");
+    bool has_metadata = false;
+    for (const std::string& entry : metadata) {
+        if (!entry.empty()) {
+            bytes.text(has_metadata ? "" : " (\n");
+            bytes.text(indent);
+            bytes.text("    ");
+            bytes.text(entry);
+            bytes.u8('\n');
+            has_metadata = true;
+        }
+    }
+    bytes.text((has_metadata ? indent + ")\n" : "\n") + indent + "{\n");
+}
+
+template <std::size_t Size>
+void write(ByteStream& bytes, const std::array<float, Size>& numbers)
+{
+    for (std::size_t k = 0; k < Size; ++k) {
+        bytes.text(k == 0 ? "(" : ", ");
+        bytes.digits(numbers[k]);
+    }
+    bytes.u8(')');
+}
+
+void write(ByteStream& bytes, float number)
+{
+    bytes.digits(number);
+}
+
+void write(ByteStream& bytes, std::uint32_t number)
+{
+    bytes.digits(number);
+}
+
+/// Writes a list of as many values, each by its index.
+template <typename ValueOf>
+void writeList(ByteStream& bytes, std::size_t count, const ValueOf& value_of)
+{
+    bytes.u8('[');
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i > 0) {
+            bytes.text(", ");
+        }
+        write(bytes, value_of(i));
+    }
+    bytes.u8(']');
+}
+
+constexpr const char* kBindsMaterial = "prepend apiSchemas = [\"MaterialBindingAPI\"]";
+
+/// Vertices of a mesh in one list.
+SceneGeometry joined(const SceneMesh& mesh)
+{
+    SceneGeometry all;
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    for (const SceneGeometry& one : mesh.geometries) {
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        append(all.positions, one.positions);
+        append(all.normals, one.normals);
+        append(all.uvs, one.uvs);
+        append(all.angles, one.angles);
+        all.targets.resize(one.targets.size());
+        for (std::size_t k = 0; k < one.targets.size(); ++k) {
+            append(all.targets[k].positions, one.targets[k].positions);
+            append(all.targets[k].normals, one.targets[k].normals);
+        }
+        for (std::uint32_t v = 0; v < one.positions.size(); ++v) {
+            all.weld.push_back(first + (one.weld.empty() ? v : one.weld[v]));
+        }
+        for (const auto& [material, triangles] : one.parts) {
+            ScenePart& part = all.parts.emplace_back();
+            part.material = material;
+            for (const auto& [a, b, c] : triangles) {
+                part.triangles.push_back({first + a, first + b, first + c});
+            }
+        }
+    }
+    return all;
+}
+
+/// Time in frames. Keys at frames are exact.
+double timeCode(float seconds, double frames_per_second)
+{
+    constexpr double kParts = 1000.0;
+    return std::round(kParts * static_cast<double>(seconds) * frames_per_second) / kParts;
+}
+
+/// Samples of an attribute over time.
+struct Samples {
+    std::vector<double> codes;
+    std::vector<std::size_t> keys;  ///< key of the track whose value a sample has
+};
+
+Samples samplesOf(const SceneTrack& track, const Scene& scene)
+{
+    constexpr double kBefore = 1e-3;  // the step of time codes
+    const std::vector<float>& times = scene.times[track.times];
+    const auto width = static_cast<std::ptrdiff_t>(track.values.size() / times.size());
+    const auto is_same = [&](std::size_t a, std::size_t b) {
+        const auto at = [&](std::size_t key) {
+            return track.values.begin() + static_cast<std::ptrdiff_t>(key) * width;
+        };
+        return std::equal(at(a), at(a) + width, at(b));
+    };
+    Samples samples;
+    for (std::size_t key = 0; key < times.size(); ++key) {
+        const double code = timeCode(times[key], scene.frames_per_second);
+        if (track.steps && key > 0) {
+            if (is_same(key - 1, key)) {
+                continue;
+            }
+            if (code - kBefore > samples.codes.back()) {
+                samples.codes.push_back(code - kBefore);
+                samples.keys.push_back(key - 1);
+            }
+        }
+        samples.codes.push_back(code);
+        samples.keys.push_back(key);
+    }
+    return samples;
+}
+
+/// Writes samples; write_key writes the value of a key.
+template <class WriteKey>
+void writeSamples(ByteStream& bytes, const std::string& indent, const Samples& samples, const WriteKey& write_key)
+{
+    bytes.text(".timeSamples = {");
+    for (std::size_t i = 0; i < samples.codes.size(); ++i) {
+        bytes.text(i == 0 ? "\n" : ",\n");
+        bytes.text(indent);
+        bytes.text("    ");
+        bytes.digits(samples.codes[i]);
+        bytes.text(": ");
+        write_key(samples.keys[i]);
+    }
+    bytes.text("\n" + indent + "}");
+}
+
+/// Writer of a mesh with its welded points.
+class MeshWriter {
+public:
+    /// Where a mesh stands in the file.
+    struct Place {
+        std::string indent;
+        PrimName name;
+        std::vector<std::string> material_paths;  ///< of every material of the scene
+    };
+
+    /// @param weights  track of its targets; null: none
+    MeshWriter(const Scene& scene, const SceneMesh& mesh, const SceneTrack* weights, ByteStream& bytes)
+        : scene_(scene), geometry_(joined(mesh)), weights_(weights), bytes_(bytes)
+    {
+        for (const ScenePart& part : geometry_.parts) {
+            triangles_.insert(triangles_.end(), part.triangles.begin(), part.triangles.end());
+        }
+        number_.resize(geometry_.weld.size());
+        for (std::uint32_t v = 0; v < number_.size(); ++v) {
+            if (geometry_.weld[v] == v) {
+                number_[v] = static_cast<std::uint32_t>(first_.size());
+                first_.push_back(v);
+            } else {
+                number_[v] = number_[geometry_.weld[v]];
+            }
+        }
+    }
+
+    /// Writes the prim up to the end of its own attributes.
+    void begin(const Place& place)
+    {
+        indent_ = place.indent + "    ";
+        beginPrim(bytes_, place.indent, "Mesh", place.name.prim, {kBindsMaterial, displayName(place.name)});
+        const bool is_double_sided =
+            std::all_of(geometry_.parts.begin(), geometry_.parts.end(),
+                        [&](const ScenePart& part) { return scene_.materials[part.material].both_sides; });
+        if (is_double_sided) {
+            bytes_.text(indent_ + "uniform bool doubleSided = 1\n");
+        }
+        bytes_.text(indent_ + "float3[] extent");
+        overTime([&](const SceneGeometry& geometry) { writeExtent(geometry); });
+        attribute("int[] faceVertexCounts", triangles_.size(), [](std::size_t) { return std::uint32_t{3}; });
+        attribute("int[] faceVertexIndices", corners(), [&](std::size_t i) { return number_[vertexAt(i)]; });
+        // Subsets go before it; readers that do not know them show it.
+        bytes_.text("\n" + indent_ + "rel material:binding = <" +
+                    place.material_paths[geometry_.parts.front().material] + ">\n" + indent_ +
+                    "uniform token orientation = \"rightHanded\"\n" + indent_ + "point3f[] points");
+        overTime([&](const SceneGeometry& geometry) {
+            writeList(bytes_, first_.size(), [&](std::size_t i) { return geometry.positions[first_[i]]; });
+        });
+        if (!geometry_.angles.empty()) {
+            attribute("float[] primvars:contact_angle", first_.size(),
+                      [&](std::size_t i) { return geometry_.angles[first_[i]]; });
+            interpolate("vertex");
+        }
+        bytes_.text("\n" + indent_ + "normal3f[] primvars:normals");
+        const auto write_normals = [&](const SceneGeometry& geometry) {
+            writeList(bytes_, geometry.normals.size(), [&](std::size_t i) { return geometry.normals[i]; });
+        };
+        if (weights_) {
+            bytes_.text(" (\n" + indent_ + "    interpolation = \"faceVarying\"\n" + indent_ + ")\n" + indent_ +
+                        "normal3f[] primvars:normals");
+            overTime(write_normals);
+        } else {
+            overTime(write_normals);
+            interpolate("faceVarying");
+        }
+        attribute("int[] primvars:normals:indices", corners(), [&](std::size_t i) { return vertexAt(i); });
+        if (!geometry_.uvs.empty()) {
+            writeTexture();
+        }
+        bytes_.text("\n" + indent_ + "uniform token subdivisionScheme = \"none\"\n");
+    }
+
+    /// Writes the faces of every material, if there are several, and ends the prim.
+    void end(const Place& place, const std::vector<PrimName>& material_names)
+    {
+        std::vector<std::size_t> materials;
+        for (const ScenePart& part : geometry_.parts) {
+            if (std::find(materials.begin(), materials.end(), part.material) == materials.end()) {
+                materials.push_back(part.material);
+            }
+        }
+        if (materials.size() > 1) {
+            bytes_.text(indent_ + "uniform token subsetFamily:materialBind:familyType = \"partition\"\n");
+            for (const std::size_t material : materials) {
+                writeSubset(material, material_names[material], place.material_paths[material]);
+            }
+        }
+        bytes_.text(place.indent + "}\n");
+    }
+
+private:
+    [[nodiscard]] std::size_t corners() const { return 3 * triangles_.size(); }
+    [[nodiscard]] std::uint32_t vertexAt(std::size_t corner) const { return triangles_[corner / 3][corner % 3]; }
+
+    template <typename ValueOf>
+    void attribute(std::string_view declaration, std::size_t count, const ValueOf& value_of)
+    {
+        bytes_.text("\n" + indent_);
+        bytes_.text(declaration);
+        bytes_.text(" = ");
+        writeList(bytes_, count, value_of);
+    }
+
+    /// Writes a value of the vertices, or its samples where weights change.
+    template <class WriteValue>
+    void overTime(const WriteValue& write_value)
+    {
+        if (!weights_) {
+            bytes_.text(" = ");
+            write_value(geometry_);
+            return;
+        }
+        writeSamples(bytes_, indent_, samplesOf(*weights_, scene_),
+                     [&](std::size_t key) { write_value(shapeAt(key)); });
+    }
+
+    /// Positions and normals at a key of the weights.
+    [[nodiscard]] SceneGeometry shapeAt(std::size_t key) const
+    {
+        SceneGeometry shape{geometry_.positions, geometry_.normals};
+        const std::size_t targets = geometry_.targets.size();
+        for (std::size_t k = 0; k < targets; ++k) {
+            if (const float weight = weights_->values[key * targets + k]; weight != 0.0F) {
+                const auto add = [weight](std::vector<Float3>& to, const std::vector<Float3>& changes) {
+                    for (std::size_t v = 0; v < to.size(); ++v) {
+                        for (std::size_t i = 0; i < 3; ++i) {
+                            to[v][i] += weight * changes[v][i];
+                        }
+                    }
+                };
+                add(shape.positions, geometry_.targets[k].positions);
+                add(shape.normals, geometry_.targets[k].normals);
+            }
+        }
+        for (Float3& n : shape.normals) {
+            const float size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+            n = {n[0] / size, n[1] / size, n[2] / size};
+        }
+        return shape;
+    }
+
+    void interpolate(std::string_view kind)
+    {
+        bytes_.text(" (\n" + indent_ + "    interpolation = \"");
+        bytes_.text(kind);
+        bytes_.text("\"\n" + indent_ + ")");
+    }
+
+    void writeExtent(const SceneGeometry& geometry)
+    {
+        Float3 low = geometry.positions.front();
+        Float3 high = low;
+        for (const Float3& point : geometry.positions) {
+            for (std::size_t k = 0; k < point.size(); ++k) {
+                low[k] = std::min(low[k], point[k]);
+                high[k] = std::max(high[k], point[k]);
+            }
+        }
+        writeList(bytes_, 2, [&](std::size_t i) { return i == 0 ? low : high; });
+    }
+
+    void writeSubset(std::size_t material, const PrimName& name, const std::string& path)
+    {
+        beginPrim(bytes_, indent_, "GeomSubset", name.prim, {kBindsMaterial, displayName(name)});
+        bytes_.text(indent_ + "    uniform token elementType = \"face\"\n" + indent_ +
+                    "    uniform token familyName = \"materialBind\"\n" + indent_ + "    int[] indices = ");
+        std::vector<std::uint32_t> faces;
+        std::uint32_t face = 0;
+        for (const ScenePart& part : geometry_.parts) {
+            for (std::size_t t = 0; t < part.triangles.size(); ++t, ++face) {
+                if (part.material == material) {
+                    faces.push_back(face);
+                }
+            }
+        }
+        writeList(bytes_, faces.size(), [&](std::size_t i) { return faces[i]; });
+        bytes_.text("\n" + indent_ + "    rel material:binding = <" + path + ">\n" + indent_ + "}\n");
+    }
+
+    /// Copies of a vertex have one place in the mask, but not where a surface that leans out was spread. The origin is
+    /// at the lower left.
+    void writeTexture()
+    {
+        const auto texture = [&](std::size_t i) {
+            return Float2{geometry_.uvs[i][0], static_cast<float>(1.0 - static_cast<double>(geometry_.uvs[i][1]))};
+        };
+        bool is_shared = true;
+        for (std::size_t i = 0; i < geometry_.uvs.size(); ++i) {
+            is_shared = is_shared && geometry_.uvs[i] == geometry_.uvs[geometry_.weld[i]];
+        }
+        constexpr std::string_view kDeclaration = "texCoord2f[] primvars:st";
+        if (is_shared) {
+            attribute(kDeclaration, first_.size(), [&](std::size_t i) { return texture(first_[i]); });
+            interpolate("vertex");
+        } else {
+            attribute(kDeclaration, geometry_.uvs.size(), texture);
+            interpolate("faceVarying");
+            attribute("int[] primvars:st:indices", corners(), [&](std::size_t i) { return vertexAt(i); });
+        }
+    }
+
+    const Scene& scene_;
+    SceneGeometry geometry_;
+    const SceneTrack* weights_;
+    ByteStream& bytes_;
+    std::string indent_;
+    std::vector<Triangle> triangles_;
+    std::vector<std::uint32_t> first_;   ///< for each welded vertex, a vertex
+    std::vector<std::uint32_t> number_;  ///< for each vertex, its welded vertex
+};
+
+/// @param has_picture  whether the colours of the picture multiply that of the look
+void writeMaterial(const SceneMaterial& material, const PrimName& name, bool has_picture, ByteStream& bytes)
+{
+    const Look& look = material.look;
+    const std::string path = std::string(kRoot) + name.prim;
+    const std::array colour{toFloat(look.colour.x), toFloat(look.colour.y), toFloat(look.colour.z)};
+    const auto input = [&](const char* declaration, double value) {
+        bytes.text(std::string("            ") + declaration + " = ");
+        bytes.digits(toFloat(value));
+        bytes.u8('\n');
+    };
+    beginPrim(bytes, "    ", "Material", name.prim, {displayName(name)});
+    bytes.text("        token outputs:surface.connect = <" + path + "/preview.outputs:surface>\n");
+    beginPrim(bytes, "        ", "Shader", "preview", {});
+    bytes.text("            uniform token info:id = \"UsdPreviewSurface\"\n            color3f inputs:diffuseColor");
+    if (has_picture) {
+        bytes.text(".connect = <" + path + "/picture.outputs:rgb>\n");
+    } else {
+        bytes.text(" = ");
+        write(bytes, colour);
+        bytes.u8('\n');
+    }
+    input("float inputs:ior", look.ior);
+    input("float inputs:metallic", look.metallic);
+    input("float inputs:opacity", material.opacity * previewOpacity(look));
+    input("float inputs:roughness", look.roughness);
+    bytes.text("            token outputs:surface\n        }\n");
+    if (has_picture) {
+        beginPrim(bytes, "        ", "Shader", "picture", {});
+        bytes.text("            uniform token info:id = \"UsdUVTexture\"\n            asset inputs:file = @" +
+                   std::string(kPicture) + "@\n            float4 inputs:scale = ");
+        write(bytes, std::array{colour[0], colour[1], colour[2], 1.0F});
+        bytes.text(
+            "\n            token inputs:sourceColorSpace = \"sRGB\"\n"
+            "            float2 inputs:st.connect = <" +
+            path +
+            "/st.outputs:result>\n            token inputs:wrapS = \"clamp\"\n"
+            "            token inputs:wrapT = \"clamp\"\n            float3 outputs:rgb\n        }\n");
+        beginPrim(bytes, "        ", "Shader", "st", {});
+        bytes.text(
+            "            uniform token info:id = \"UsdPrimvarReader_float2\"\n"
+            "            string inputs:varname = \"st\"\n            float2 outputs:result\n        }\n");
+    }
+    bytes.text("    }\n");
+}
+
+/// Writer of a scene's prims.
+class LayerWriter {
+public:
+    LayerWriter(const Scene& scene, ByteStream& bytes) : scene_(scene), bytes_(bytes), tracks_(scene.nodes.size())
+    {
+        for (const SceneTrack& track : scene.tracks) {
+            tracks_[track.node].push_back(&track);
+        }
+        crowd_of_.resize(scene.nodes.size());
+        for (std::size_t k = 0; k < scene.crowds.size(); ++k) {
+            for (const std::size_t node : scene.crowds[k].nodes) {
+                crowd_of_[node] = k;
+            }
+        }
+        nameAll();
+    }
+
+    void write()
+    {
+        bytes_.text(std::string("#usda 1.0\n(\n    defaultPrim = \"droplet\"\n    doc = \"droplet-shape ") + kVersion +
+                    "\"\n");
+        if (!scene_.tracks.empty()) {
+            double end = 0.0;
+            for (const std::vector<float>& times : scene_.times) {
+                end = std::max(end, timeCode(times.back(), scene_.frames_per_second));
+            }
+            bytes_.text("    endTimeCode = ");
+            bytes_.digits(end);
+            bytes_.text("\n    framesPerSecond = ");
+            bytes_.digits(scene_.frames_per_second);
+            bytes_.u8('\n');
+        }
+        bytes_.text("    metersPerUnit = 1\n");
+        if (!scene_.tracks.empty()) {
+            bytes_.text("    startTimeCode = 0\n    timeCodesPerSecond = ");
+            bytes_.digits(scene_.frames_per_second);
+            bytes_.u8('\n');
+        }
+        bytes_.text("    upAxis = \"Y\"\n)\n");
+        beginPrim(bytes_, "", "Xform", "droplet", {"kind = \"component\""});
+        const std::vector<std::size_t> shown = shownOf(scene_.roots);
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            writeNode(shown[i], root_names_[i], "    ");
+        }
+        for (std::size_t k = 0; k < scene_.crowds.size(); ++k) {
+            writeClass(k);
+        }
+        for (const std::size_t i : written_materials_) {
+            writeMaterial(scene_.materials[i], material_names_[i], scene_.picture.has_value(), bytes_);
+        }
+        bytes_.text("}\n");
+    }
+
+private:
+    /// Names what lies directly below the default prim: nodes, classes of crowds, materials. Equal looks share one.
+    void nameAll()
+    {
+        std::vector<std::string> names;
+        for (const std::size_t node : shownOf(scene_.roots)) {
+            names.push_back(scene_.nodes[node].name);
+        }
+        const std::size_t nodes = names.size();
+        for (const SceneCrowd& crowd : scene_.crowds) {
+            names.push_back(scene_.meshes[crowd.mesh].name);
+        }
+        std::vector<std::size_t> same(scene_.materials.size());
+        for (std::size_t i = 0; i < same.size(); ++i) {
+            same[i] = i;
+            for (const std::size_t k : written_materials_) {
+                if (scene_.materials[k].look == scene_.materials[i].look &&
+                    scene_.materials[k].opacity == scene_.materials[i].opacity) {
+                    same[i] = k;
+                }
+            }
+            if (same[i] == i) {
+                written_materials_.push_back(i);
+                names.push_back(scene_.materials[i].look.name);
+            }
+        }
+        const std::vector<PrimName> prims = primNames(names);
+        root_names_.assign(prims.begin(), prims.begin() + static_cast<std::ptrdiff_t>(nodes));
+        material_names_.resize(same.size());
+        for (std::size_t k = 0; k < written_materials_.size(); ++k) {
+            material_names_[written_materials_[k]] = prims[nodes + scene_.crowds.size() + k];
+        }
+        for (std::size_t i = 0; i < same.size(); ++i) {
+            material_names_[i] = material_names_[same[i]];
+            material_paths_.push_back(std::string(kRoot) + material_names_[i].prim);
+        }
+        for (std::size_t k = 0; k < scene_.crowds.size(); ++k) {
+            class_names_.push_back(prims[nodes + k]);
+        }
+    }
+
+    /// Nodes that show something, or carry such.
+    [[nodiscard]] std::vector<std::size_t> shownOf(const std::vector<std::size_t>& nodes) const
+    {
+        std::vector<std::size_t> shown;
+        std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(shown), [this](std::size_t node) {
+            return scene_.nodes[node].mesh || crowd_of_[node] || !shownOf(scene_.nodes[node].children).empty();
+        });
+        return shown;
+    }
+
+    [[nodiscard]] const SceneTrack* trackOf(std::size_t node, SceneChange change) const
+    {
+        const auto found = std::find_if(tracks_[node].begin(), tracks_[node].end(),
+                                        [&](const SceneTrack* track) { return track->change == change; });
+        return found == tracks_[node].end() ? nullptr : *found;
+    }
+
+    void writeNode(std::size_t index, const PrimName& name, const std::string& indent)
+    {
+        const SceneNode& node = scene_.nodes[index];
+        const std::vector<std::size_t> children = shownOf(node.children);
+        if (node.mesh && children.empty()) {
+            writeMesh(index, name, indent, true);
+            return;
+        }
+        if (crowd_of_[index]) {
+            beginPrim(bytes_, indent, "Xform", name.prim,
+                      {"instanceable = true",
+                       "prepend references = <" + std::string(kRoot) + class_names_[*crowd_of_[index]].prim + ">"});
+        } else {
+            beginPrim(bytes_, indent, "Xform", name.prim, {displayName(name)});
+        }
+        writeTransform(index, indent + "    ");
+        writeProperties(node, indent + "    ");
+        std::vector<std::string> names;
+        for (const std::size_t child : children) {
+            const SceneNode& one = scene_.nodes[child];
+            names.push_back(one.name.empty() ? "droplet_" + std::to_string(names.size() + 1) : one.name);
+        }
+        if (node.mesh) {
+            names.push_back(scene_.meshes[*node.mesh].name);
+        }
+        const std::vector<PrimName> prims = primNames(names);
+        if (node.mesh) {
+            writeMesh(index, prims.back(), indent + "    ", false);
+        }
+        for (std::size_t i = 0; i < children.size(); ++i) {
+            writeNode(children[i], prims[i], indent + "    ");
+        }
+        bytes_.text(indent + "}\n");
+    }
+
+    /// @param is_node  whether the mesh's prim stands for its node, too
+    void writeMesh(std::size_t index, const PrimName& name, const std::string& indent, bool is_node)
+    {
+        const SceneNode& node = scene_.nodes[index];
+        const MeshWriter::Place place{indent, name, material_paths_};
+        MeshWriter writer(scene_, scene_.meshes[*node.mesh], trackOf(index, SceneChange::Weights), bytes_);
+        writer.begin(place);
+        if (is_node) {
+            writeProperties(node, indent + "    ");
+            writeTransform(index, indent + "    ");
+        }
+        writer.end(place, material_names_);
+    }
+
+    /// Writes a crowd's mesh, which its copies refer to.
+    void writeClass(std::size_t crowd)
+    {
+        const std::string indent = "    ";
+        const PrimName& name = class_names_[crowd];
+        bytes_.text("\n" + indent + "class Xform \"" + name.prim + "\"\n" + indent + "{\n");
+        const MeshWriter::Place place{indent + "    ", {"surface", "surface"}, material_paths_};
+        MeshWriter writer(scene_, scene_.meshes[scene_.crowds[crowd].mesh], nullptr, bytes_);
+        writer.begin(place);
+        writer.end(place, material_names_);
+        bytes_.text(indent + "}\n");
+    }
+
+    /// Blender and Omniverse show attributes of this namespace as a prim's own.
+    void writeProperties(const SceneNode& node, const std::string& indent)
+    {
+        for (const auto& [name, value] : node.properties) {
+            if (const double* const number = std::get_if<double>(&value)) {
+                bytes_.text(indent + "custom double userProperties:" + name + " = ");
+                bytes_.digits(*number);
+                bytes_.u8('\n');
+            }
+        }
+    }
+
+    void writeTransform(std::size_t index, const std::string& indent)
+    {
+        const SceneNode& node = scene_.nodes[index];
+        std::string order;
+        const auto operation = [&](SceneChange change, const char* type, const char* name, const auto& rest,
+                                   const auto& neutral, const auto& write_value) {
+            const SceneTrack* const track = trackOf(index, change);
+            if (!track && rest == neutral) {
+                return;
+            }
+            order += std::string(order.empty() ? "" : ", ") + "\"xformOp:" + name + "\"";
+            bytes_.text(indent + type + " xformOp:" + name);
+            if (track) {
+                writeSamples(bytes_, indent, samplesOf(*track, scene_), [&](std::size_t key) {
+                    write_value([&](std::size_t k) { return track->values[key * rest.size() + k]; });
+                });
+            } else {
+                bytes_.text(" = ");
+                write_value([&](std::size_t k) { return static_cast<float>(rest[k]); });
+            }
+            bytes_.u8('\n');
+        };
+        const auto vector = [&](const auto& at) { droplet::write(bytes_, Float3{at(0), at(1), at(2)}); };
+        const auto quaternion = [&](const auto& at) { droplet::write(bytes_, Float4{at(3), at(0), at(1), at(2)}); };
+        const SceneNode neutral;
+        operation(SceneChange::Translation, "double3", "translate", node.translation, neutral.translation, vector);
+        operation(SceneChange::Rotation, "quatf", "orient", node.rotation, neutral.rotation, quaternion);
+        operation(SceneChange::Scale, "float3", "scale", node.scale, neutral.scale, vector);
+        if (!order.empty()) {
+            bytes_.text(indent + "uniform token[] xformOpOrder = [" + order + "]\n");
+        }
+    }
+
+    const Scene& scene_;
+    ByteStream& bytes_;
+    std::vector<std::vector<const SceneTrack*>> tracks_;  ///< of every node
+    std::vector<std::optional<std::size_t>> crowd_of_;    ///< of every node
+    std::vector<PrimName> root_names_;                    ///< of nodes
+    std::vector<PrimName> class_names_;                   ///< of crowds
+    std::vector<PrimName> material_names_;
+    std::vector<std::string> material_paths_;
+    std::vector<std::size_t> written_materials_;
+};
+
+void checkCorners(const Scene& scene)
+{
+    constexpr std::size_t kMaxIndices = std::numeric_limits<std::int32_t>::max();
+    for (const SceneMesh& mesh : scene.meshes) {
+        std::size_t triangles = 0;
+        std::size_t vertices = 0;
+        for (const SceneGeometry& geometry : mesh.geometries) {
+            vertices += geometry.positions.size();
+            for (const ScenePart& part : geometry.parts) {
+                triangles += part.triangles.size();
+            }
+        }
+        if (triangles > kMaxIndices / 3 || vertices > kMaxIndices) {
+            throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(triangles) + " triangles and " +
+                                                        std::to_string(vertices) +
+                                                        " vertices; USD allows at most 2147483647 corners");
+        }
+    }
+}
+
+std::uint64_t writeLayer(const Scene& scene, std::ostream& out)
+{
+    ByteStream bytes(out);
+    LayerWriter(scene, bytes).write();
+    return bytes.finish();
+}
+
+/// Stream that keeps only the length and the checksum of its bytes.
+class Checksum : public std::streambuf {
+public:
+    [[nodiscard]] std::uint32_t crc() const { return static_cast<std::uint32_t>(crc_); }
+
+protected:
+    std::streamsize xsputn(const char* bytes, std::streamsize count) override
+    {
+        crc_ = crc32_z(crc_, reinterpret_cast<const Bytef*>(bytes), static_cast<std::size_t>(count));
+        return count;
+    }
+
+private:
+    uLong crc_ = crc32_z(0, nullptr, 0);
+};
+
+/// File of a package.
+struct ZipEntry {
+    std::string_view name;
+    std::function<std::uint64_t(std::ostream&)> write;
+    std::uint64_t begin = 0;    ///< of its header
+    std::uint64_t padding = 0;  ///< bytes of the extra field, which aligns the data
+    std::uint64_t length = 0;
+    std::uint32_t crc = 0;
+};
+
+constexpr std::uint64_t kHeader = 30;
+constexpr std::uint64_t kDirectoryEntry = 46;
+constexpr std::uint64_t kDirectoryEnd = 22;
+
+/// Measures the files and places them one after another.
+/// @return  where the directory begins
+std::uint64_t place(std::vector<ZipEntry>& entries)
+{
+    constexpr std::uint64_t kAlignment = 64;
+    constexpr std::uint64_t kSmallestField = 4;
+    std::uint64_t end = 0;
+    for (ZipEntry& entry : entries) {
+        Checksum checksum;
+        std::ostream counted(&checksum);
+        entry.length = entry.write(counted);
+        entry.crc = checksum.crc();
+        entry.begin = end;
+        const std::uint64_t names_end = end + kHeader + entry.name.size() + kSmallestField;
+        entry.padding = kSmallestField + (kAlignment - names_end % kAlignment) % kAlignment;
+        end += kHeader + entry.name.size() + entry.padding + entry.length;
+    }
+    return end;
+}
+
+/// Fields that both headers of a zip's file share: version 1.0, no flags, stored, 1980-01-01, checksum and length
+/// twice.
+void writeZipFields(ByteStream& zip, const ZipEntry& entry)
+{
+    zip.u16(10, 0, 0, 0, 0x21);
+    zip.u32(entry.crc, entry.length, entry.length);
+    zip.u16(entry.name.size());
+}
+
+/// Writes a package. The text is written twice, so that it is never in memory as a whole: its length and checksum stand
+/// before it.
+std::uint64_t writePackage(const Scene& scene, std::ostream& out)
+{
+    std::vector<ZipEntry> entries{{kLayer, [&](std::ostream& layer) { return writeLayer(scene, layer); }}};
+    if (scene.picture) {
+        entries.push_back({kPicture, [&](std::ostream& picture) {
+                               ByteStream bytes(picture);
+                               bytes.text(scene.picture->png);
+                               return bytes.finish();
+                           }});
+    }
+    const std::uint64_t directory_begin = place(entries);
+    std::uint64_t directory_bytes = 0;
+    for (const ZipEntry& entry : entries) {
+        directory_bytes += kDirectoryEntry + entry.name.size();
+    }
+    const std::uint64_t size = directory_begin + directory_bytes + kDirectoryEnd;
+    if (size > std::numeric_limits<std::uint32_t>::max()) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "the scene would make a USDZ file of " + std::to_string(size) + " bytes; it must stay below 4 GiB");
+    }
+    for (const ZipEntry& entry : entries) {
+        ByteStream header(out);
+        header.text("PK\x03\x04");
+        writeZipFields(header, entry);
+        header.u16(entry.padding);
+        header.text(entry.name);
+        header.u16(0x1986, entry.padding - 4);  // the field's name in OpenUSD's own packages
+        header.text(std::string(entry.padding - 4, '\0'));
+        header.finish();
+        entry.write(out);
+    }
+    ByteStream directory(out);
+    for (const ZipEntry& entry : entries) {
+        directory.text("PK\x01\x02");
+        directory.u16(10);
+        writeZipFields(directory, entry);
+        directory.u16(0, 0, 0, 0);  // no extra field, no comment, first disk, no attributes
+        directory.u32(0, entry.begin);
+        directory.text(entry.name);
+    }
+    directory.text("PK\x05\x06");
+    directory.u16(0, 0, entries.size(), entries.size());
+    directory.u32(directory_bytes, directory_begin);
+    directory.u16(0);
+    directory.finish();
+    return size;
+}
+
+}  // namespace
+
+std::uint64_t writeUsd(const Scene& scene, std::ostream& out, const AnimatedFile& file)
+{
+    if (file.compression != Compression::None) {
+        throw Error(ErrorCode::InvalidArgument,
+                    std::string("options.compression = ") + name(file.compression) + " needs a GLB");
+    }
+    if (scene.picture && !scene.picture->is_colour) {
+        throw Error(ErrorCode::InvalidArgument, "droplets in a texture need glTF: USD has no shader that places them");
+    }
+    checkCorners(scene);
+    if (file.format == Format::Usda && scene.picture) {
+        throw Error(ErrorCode::InvalidArgument, "options.texture has " + std::to_string(scene.picture->png.size()) +
+                                                    " bytes; it must be empty, because only USDZ holds pictures");
+    }
+    return file.format == Format::Usdz ? writePackage(scene, out) : writeLayer(scene, out);
+}
+
+}  // namespace droplet
