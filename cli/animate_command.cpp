@@ -271,7 +271,7 @@ private:
         const PreviewOptions& preview = *options_.preview;
         const droplet::RenderOptions render = cameraOf(preview);
         VideoWriter video(
-            {preview.path, codecFor(preview.path), preview.width, preview.height, report_.frames_per_second});
+            triedVideo(preview.path, {preview.width, preview.height, report_.frames_per_second}, preview.encoding));
         for (const PreviewFrame& frame : preview_frames_) {
             video.add(draw(*frame.surface, render));
         }
@@ -346,7 +346,7 @@ private:
             writePreviewPictures();
         }
         std::vector<OutputFile> files;
-        if (options_.preview && !options_.preview_files) {
+        if (options_.hasVideo()) {
             files.push_back({options_.preview->path, [&](std::ostream& out) { writePreviewVideo(out); }});
         }
         if (!options_.files) {
@@ -523,9 +523,10 @@ RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers)
 
 void makeAnimation(const AnimateOptions& options, Frames& frames)
 {
-    if (options.preview && !options.preview_files) {
-        const std::string& path = options.preview->path;
-        checkCodec(codecFor(path), path);
+    if (options.hasVideo()) {
+        const PreviewOptions& preview = *options.preview;
+        // The rate of the frames is not known yet.
+        triedVideo(preview.path, {preview.width, preview.height}, preview.encoding);
     }
     std::optional<tbb::global_control> threads;
     if (options.run.threads) {

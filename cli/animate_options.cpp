@@ -130,6 +130,7 @@ void declareAnimation(CommandLine& line)
              "Write rendered pictures: out/%04d.png, one for every frame, or a .mp4, .mkv, .mov or .webm video, which "
              "needs ffmpeg");
     declareView(line);
+    declareVideoEncoding(line, "Picture");
     declareFootprint(line);
     declareLiquid(line);
     declareGround(line);
@@ -191,7 +192,12 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     if (inputs.size() > 1 && std::any_of(inputs.begin(), inputs.end(), isStream)) {
         refuse("INPUT: - must stand alone: all frames are on standard input");
     }
-    return readAnimation(line, std::move(inputs), files.back().text);
+    AnimateOptions options = readAnimation(line, std::move(inputs), files.back().text);
+    const VideoEncoding encoding = readVideoEncoding(line, options.hasVideo(), "--preview");
+    if (options.hasVideo()) {
+        options.preview->encoding = encoding;
+    }
+    return options;
 }
 
 }  // namespace cli

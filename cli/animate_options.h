@@ -32,12 +32,15 @@ struct AnimateOptions {
     FootprintOptions footprint;
     DropletSettings settings;
     RunOptions run;
+
+    /// Whether the preview is a video.
+    [[nodiscard]] bool hasVideo() const { return preview && !preview_files; }
 };
 
 /// Declares the options of an animation: all of `animate` but its files.
 void declareAnimation(CommandLine& line);
 
-/// Reads the options of declareAnimation().
+/// Reads the options of declareAnimation(), but those of a video's encoding, which the caller may have another use for.
 /// @param inputs          paths of the frames
 /// @param output          path of the animation
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed

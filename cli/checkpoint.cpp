@@ -2,22 +2,32 @@
 #include "checkpoint.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
 #include <string_view>
+#include <utility>
 
 #include "droplet/error.h"
 #include "droplet/io/output.h"
 #include "files.h"
+#include "option_values.h"
 
 namespace cli {
 namespace {
 
+/// Beginning of a checkpoint of any version.
+std::string signatureOf(const std::string& command)
+{
+    return "droplet-shape " + command + " checkpoint ";
+}
+
 std::string beginningOf(const std::string& command)
 {
-    return "droplet-shape " + command + " checkpoint 2\n";
+    return signatureOf(command) + "3\n";
 }
 
 void put(std::string& bytes, std::uint64_t number)
@@ -63,68 +73,103 @@ private:
 
 }  // namespace
 
+const std::string& Checkpoint::operator[](const std::string& name) const
+{
+    static const std::string none;
+    const auto found = state.find(name);
+    return found == state.end() ? none : found->second;
+}
+
+bool ResumableRun::hasFrame(std::size_t number) const
+{
+    std::error_code ignored;
+    return std::all_of(files.begin(), files.end(),
+                       [&](const NumberedPath& file) { return std::filesystem::exists(file.at(number), ignored); });
+}
+
 std::string checkpointPath(const NumberedPath& frames)
 {
     return std::filesystem::path(frames.with("checkpoint")).replace_extension(".state").string();
 }
 
-void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint)
+CheckpointFile::CheckpointFile(ResumableRun run) : run_(std::move(run)), path_(checkpointPath(run_.files.front())) {}
+
+std::optional<Checkpoint> CheckpointFile::begin(bool resume) const
 {
-    std::string bytes = beginningOf(checkpoint.command);
-    put(bytes, checkpoint.fingerprint);
-    put(bytes, checkpoint.frames);
-    put(bytes, checkpoint.rows);
-    put(bytes, checkpoint.state);
-    put(bytes, checkpoint.planned_frames);
-    put(bytes, checkpoint.wet_picture);
-    put(bytes, checkpoint.wet_maps);
-    droplet::writeAtomically(
-        path, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
+    std::error_code ignored;
+    if (!resume || !std::filesystem::exists(path_, ignored)) {
+        // The checkpoint of another run must not be used for this one.
+        removeOther();
+        return std::nullopt;
+    }
+    const std::string bytes = textOf(path_);
+    const std::string beginning = beginningOf(run_.command);
+    Reader reader(bytes, path_);
+    if (reader.take(std::min(bytes.size(), beginning.size())) != beginning) {
+        throw droplet::Error(droplet::ErrorCode::InvalidInput,
+                             path_ + ": is not a checkpoint of this droplet-shape " + run_.command + "; move it away");
+    }
+    const std::string_view fingerprint = reader.text();
+    Checkpoint checkpoint;
+    checkpoint.frames = reader.number();
+    for (std::uint64_t left = reader.number(); left > 0; --left) {
+        std::string name(reader.text());
+        checkpoint.state[std::move(name)] = reader.text();
+    }
+    if (fingerprint != run_.fingerprint) {
+        refuse("--resume: " + path_ + " belongs to a run with other options or files");
+    }
+    if (checkpoint.frames > run_.frames) {
+        refuse("--resume: " + std::to_string(checkpoint.frames) + " frames exist already, but this run has " +
+               std::to_string(run_.frames));
+    }
+    return checkpoint;
 }
 
-void removeCheckpoint(const std::string& path, const std::string& command, const droplet::OutputOptions& options)
+bool CheckpointFile::isDue(std::size_t frames) const
+{
+    const auto second = static_cast<std::size_t>(std::max(std::llround(run_.frames_per_second), 1LL));
+    return frames % second == 0;
+}
+
+void CheckpointFile::write(const Checkpoint& checkpoint) const
+{
+    std::string bytes = beginningOf(run_.command);
+    put(bytes, run_.fingerprint);
+    put(bytes, checkpoint.frames);
+    put(bytes, checkpoint.state.size());
+    for (const auto& [name, part] : checkpoint.state) {
+        put(bytes, name);
+        put(bytes, part);
+    }
+    droplet::writeAtomically(
+        path_, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
+}
+
+void CheckpointFile::end() const
+{
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+}
+
+void CheckpointFile::removeOther() const
 {
     std::error_code failure;
-    if (!std::filesystem::exists(path, failure)) {
+    if (!std::filesystem::exists(path_, failure)) {
         return;
     }
-    droplet::checkWritable(path, options);
-    std::ifstream file(path, std::ios::binary);
-    const std::string expected = beginningOf(command);
+    droplet::checkWritable(path_, run_.treatment);
+    std::ifstream file(path_, std::ios::binary);
+    const std::string expected = signatureOf(run_.command);
     std::string beginning(expected.size(), '\0');
     file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
     if (beginning != expected) {
         throw droplet::Error(droplet::ErrorCode::OutputFailed,
-                             path + ": is not a checkpoint, and will not be replaced by one; move it away");
+                             path_ + ": is not a checkpoint, and will not be replaced by one; move it away");
     }
-    if (!std::filesystem::remove(path, failure)) {
-        throw droplet::Error(droplet::ErrorCode::OutputFailed, path + ": " + failure.message());
+    if (!std::filesystem::remove(path_, failure)) {
+        throw droplet::Error(droplet::ErrorCode::OutputFailed, path_ + ": " + failure.message());
     }
-}
-
-std::optional<Checkpoint> readCheckpoint(const std::string& path, const std::string& command)
-{
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) {
-        return std::nullopt;
-    }
-    const std::string bytes = textOf(path);
-    const std::string beginning = beginningOf(command);
-    Reader reader(bytes, path);
-    if (reader.take(std::min(bytes.size(), beginning.size())) != beginning) {
-        throw droplet::Error(droplet::ErrorCode::InvalidInput,
-                             path + ": is not a checkpoint of droplet-shape " + command + "; move it away");
-    }
-    Checkpoint checkpoint;
-    checkpoint.command = command;
-    checkpoint.fingerprint = reader.text();
-    checkpoint.frames = reader.number();
-    checkpoint.rows = reader.text();
-    checkpoint.state = reader.text();
-    checkpoint.planned_frames = reader.number();
-    checkpoint.wet_picture = reader.text();
-    checkpoint.wet_maps = reader.text();
-    return checkpoint;
 }
 
 }  // namespace cli

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -13,17 +14,16 @@
 
 namespace cli {
 
+/// Parts of a run's state, by name.
+using Blobs = std::map<std::string, std::string>;
+
 /// State of a run between two frames, from which it can resume exactly.
 struct Checkpoint {
-    std::string command;      ///< whose run it is, such as `windshield`
-    std::string fingerprint;  ///< hash of options and input files
-    std::size_t frames = 0;   ///< number of finished frames
-    std::string rows;         ///< bytes of the report's rows: bytesOfRows()
-    std::string state;        ///< bytes of the simulation's state
-    // What `flow` needs besides.
-    std::size_t planned_frames = 0;  ///< number of frames of the whole run
-    std::string wet_picture = {};    ///< bytes of FlowPainter; empty without one
-    std::string wet_maps = {};       ///< bytes of WetMapper; empty without one
+    std::size_t frames = 0;  ///< number of finished frames
+    Blobs state;
+
+    /// Part of the state; empty if there is none.
+    [[nodiscard]] const std::string& operator[](const std::string& name) const;
 };
 
 /// Bytes of a report's rows, for the same program to read.
@@ -49,17 +49,53 @@ std::vector<Row> rowsFromBytes(const std::string& bytes)
 /// Path of the checkpoint beside a run's frames.
 std::string checkpointPath(const NumberedPath& frames);
 
-/// Writes a checkpoint, completely or not at all.
-/// @throws droplet::Error OutputFailed
-void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint);
+/// Run that can be resumed, since every frame has a file.
+struct ResumableRun {
+    std::string command;                    ///< such as `windshield`
+    std::string fingerprint;                ///< hash of options and input files that decide what the frames show
+    std::size_t frames = 0;                 ///< of the whole run
+    double frames_per_second = 30.0;        ///< a checkpoint is due every second of them
+    std::vector<NumberedPath> files;        ///< of every frame; the checkpoint lies beside the first
+    droplet::OutputOptions treatment = {};  ///< of an existing checkpoint
 
-/// Removes the checkpoint of an earlier run, if there is one.
-/// @throws droplet::Error OutputFailed if the file is not a checkpoint of the command, or must not be replaced
-void removeCheckpoint(const std::string& path, const std::string& command, const droplet::OutputOptions& options);
+    /// Whether all files of a frame exist.
+    [[nodiscard]] bool hasFrame(std::size_t number) const;
+};
 
-/// Reads a checkpoint of a command.
-/// @return                nothing if the file does not exist
-/// @throws droplet::Error InvalidInput if the file is damaged
-std::optional<Checkpoint> readCheckpoint(const std::string& path, const std::string& command);
+/// Checkpoint of a run, beside its frames.
+class CheckpointFile {
+public:
+    explicit CheckpointFile(ResumableRun run);
+
+    /// Path of the file.
+    [[nodiscard]] const std::string& path() const { return path_; }
+    /// Frames that all have their files, from the first on.
+    [[nodiscard]] const ResumableRun& run() const { return run_; }
+
+    /// Begins a run.
+    /// @param resume           whether to go on from the checkpoint; otherwise that of an earlier run is removed
+    /// @return                 the checkpoint, if there is one
+    /// @throws droplet::Error InvalidArgument if it belongs to other options or files, or to a longer run; InvalidInput
+    ///                        if it is damaged; OutputFailed if the file is not a checkpoint of the command, or must
+    ///                        not be replaced
+    [[nodiscard]] std::optional<Checkpoint> begin(bool resume) const;
+
+    /// Whether a checkpoint is due after a frame.
+    /// @param frames  number of finished frames
+    [[nodiscard]] bool isDue(std::size_t frames) const;
+
+    /// Writes a checkpoint, completely or not at all.
+    /// @throws droplet::Error OutputFailed
+    void write(const Checkpoint& checkpoint) const;
+
+    /// Removes it at the end of the run.
+    void end() const;
+
+private:
+    void removeOther() const;
+
+    ResumableRun run_;
+    std::string path_;
+};
 
 }  // namespace cli

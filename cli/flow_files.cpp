@@ -66,13 +66,15 @@ RunFiles filesOf(const FlowOptions& options)
     return files;
 }
 
-bool hasFlowFrame(const FlowOptions& options, std::size_t number)
+std::vector<NumberedPath> flowFrames(const FlowOptions& options)
 {
-    std::error_code ignored;
-    return std::filesystem::exists(options.files->at(number), ignored) &&
-           (!options.maps || std::all_of(kFlowMaps.begin(), kFlowMaps.end(), [&](const char* map) {
-               return std::filesystem::exists(flowMapPath(*options.maps, number, map), ignored);
-           }));
+    std::vector<NumberedPath> frames{*options.files};
+    for (const char* map : kFlowMaps) {
+        if (options.maps) {
+            frames.push_back(*NumberedPath::of(withMap(options.maps->text(), map), "--maps"));
+        }
+    }
+    return frames;
 }
 
 std::string flowFingerprint(const FlowOptions& options)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "flow_options.h"
 #include "run_files.h"
@@ -19,8 +20,8 @@ std::string flowMapPath(const NumberedPath& maps, std::size_t number, const char
 /// All files that a run reads and writes.
 RunFiles filesOf(const FlowOptions& options);
 
-/// Whether all files of a frame exist.
-bool hasFlowFrame(const FlowOptions& options, std::size_t number);
+/// Files of every frame, if each has one: these and the maps.
+std::vector<NumberedPath> flowFrames(const FlowOptions& options);
 
 /// Hash of the options and the files that decide what the frames show.
 std::string flowFingerprint(const FlowOptions& options);

@@ -80,7 +80,7 @@ private:
     droplet::StreakRibbons ribbons_;
     droplet::Surface streaks_;  ///< at the end
     droplet::FlowState state_;
-    std::string fingerprint_;
+    std::optional<CheckpointFile> checkpoint_;  ///< if every frame has a file
     std::size_t done_ = 0;
     droplet::FlowReport report_;
 };
@@ -188,7 +188,8 @@ void FlowRun::preparePainter()
 droplet::FlowReport FlowRun::execute()
 {
     if (options_.files) {
-        fingerprint_ = flowFingerprint(options_);
+        checkpoint_.emplace(ResumableRun{kCommand, flowFingerprint(options_), plan_.frames, options_.frames_per_second,
+                                         flowFrames(options_), options_.output_options});
         resume();
     }
     if (options_.kind == FlowOutput::Video) {
@@ -233,9 +234,8 @@ droplet::FlowReport FlowRun::execute()
                          }});
     }
     writeTogether(files, options_.output_options);
-    if (options_.files) {
-        std::error_code none;
-        std::filesystem::remove(checkpointPath(*options_.files), none);
+    if (checkpoint_) {
+        checkpoint_->end();
     }
     finish();
     return std::move(report_);
@@ -243,45 +243,35 @@ droplet::FlowReport FlowRun::execute()
 
 void FlowRun::resume()
 {
-    const std::string path = checkpointPath(*options_.files);
-    const auto checkpoint = options_.resume ? readCheckpoint(path, kCommand) : std::optional<Checkpoint>();
+    const auto checkpoint = checkpoint_->begin(options_.resume);
     if (!checkpoint) {
-        // The checkpoint of another run must not be used for this one.
-        removeCheckpoint(path, kCommand, options_.output_options);
         return;
-    }
-    if (checkpoint->fingerprint != fingerprint_) {
-        refuse("--resume: " + path + " belongs to a run with other options or files");
-    }
-    if (checkpoint->frames > plan_.frames) {
-        refuse("--resume: " + std::to_string(checkpoint->frames) + " frames exist already, but --time asks for " +
-               std::to_string(plan_.frames));
     }
     // Tables and streaks need every frame to be simulated again, and so do missing files. The camera sees all that an
     // object that moves will reach in --time.
     const bool has_same_camera =
-        !painter_ || plan_.parameters.motion.rests() || checkpoint->planned_frames == plan_.frames;
+        !painter_ || plan_.parameters.motion.rests() || (*checkpoint)["planned frames"] == std::to_string(plan_.frames);
     bool is_whole = !options_.droplets && !options_.streaks && has_same_camera;
     for (std::size_t number = 1; is_whole && number <= checkpoint->frames; ++number) {
-        is_whole = hasFlowFrame(options_, number);
+        is_whole = checkpoint_->run().hasFrame(number);
     }
     if (!is_whole) {
         return;
     }
+    const std::string& path = checkpoint_->path();
     if (painter_) {
-        painter_->restore(checkpoint->wet_picture, path);
+        painter_->restore((*checkpoint)["wet picture"], path);
     }
     if (mapper_) {
-        mapper_->restore(checkpoint->wet_maps, path);
+        mapper_->restore((*checkpoint)["wet maps"], path);
     }
-    state_ = droplet::flowStateFromBytes(checkpoint->state, plan_.scene.surface().faces.size(), path);
-    report_.balance = rowsFromBytes<droplet::FlowBalanceRow>(checkpoint->rows);
+    state_ = droplet::flowStateFromBytes((*checkpoint)["flow"], plan_.scene.surface().faces.size(), path);
+    report_.balance = rowsFromBytes<droplet::FlowBalanceRow>((*checkpoint)["balance"]);
     done_ = checkpoint->frames;
 }
 
 void FlowRun::run()
 {
-    const auto second = static_cast<std::size_t>(std::max(std::llround(options_.frames_per_second), 1LL));
     for (; done_ < plan_.frames; ++done_) {
         advance(static_cast<double>(done_) / options_.frames_per_second);
         const std::vector<droplet::FlowSample> samples = droplet::sampleFlow(state_, plan_.scene, plan_.parameters);
@@ -299,7 +289,7 @@ void FlowRun::run()
         if (mapper_) {
             writeMaps(samples, done_ + 1);
         }
-        if (options_.files && (done_ + 1) % second == 0) {
+        if (checkpoint_ && checkpoint_->isDue(done_ + 1)) {
             saveCheckpoint();
         }
         progress_.reportFrame(done_ + 1, plan_.frames);
@@ -323,15 +313,17 @@ void FlowRun::run()
 
 void FlowRun::saveCheckpoint() const
 {
-    Checkpoint checkpoint{kCommand, fingerprint_, done_ + 1, bytesOfRows(report_.balance), droplet::bytesOf(state_)};
-    checkpoint.planned_frames = plan_.frames;
+    Checkpoint checkpoint{done_ + 1,
+                          {{"balance", bytesOfRows(report_.balance)},
+                           {"flow", droplet::bytesOf(state_)},
+                           {"planned frames", std::to_string(plan_.frames)}}};
     if (painter_) {
-        checkpoint.wet_picture = painter_->bytes();
+        checkpoint.state["wet picture"] = painter_->bytes();
     }
     if (mapper_) {
-        checkpoint.wet_maps = mapper_->bytes();
+        checkpoint.state["wet maps"] = mapper_->bytes();
     }
-    writeCheckpoint(checkpointPath(*options_.files), checkpoint);
+    checkpoint_->write(checkpoint);
 }
 
 void FlowRun::advance(double until)

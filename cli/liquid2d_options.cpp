@@ -108,6 +108,7 @@ void declare(CommandLine& line)
     line.add(kOut, "--masks", "PATH",
              "Masks of all frames, such as masks/%04d.png; - writes them to standard output, for animate");
     declareVideoEncoding(line, kOut);
+    declareVideoAlpha(line, kOut);
     line.add(kOut, "--json", "FILE", "Write a report; - is standard output");
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
@@ -251,6 +252,12 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
         }
     }
     options.encoding = readVideoEncoding(line, options.kind == LiquidOutput::Video, "OUTPUT");
+    if (line.flag("--alpha")) {
+        if (options.kind != LiquidOutput::Video) {
+            refuse("--alpha needs a video as OUTPUT; pictures keep their transparency without it");
+        }
+        keepAlpha(options.encoding, *options.output, "--alpha");
+    }
     options.json = text(line, "--json");
     options.resume = line.flag("--resume");
     const bool has_files =

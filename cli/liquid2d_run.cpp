@@ -67,12 +67,16 @@ std::size_t frameCount(const Liquid2dOptions& options)
     return std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);
 }
 
-/// Pattern that a run's checkpoint is beside, if it can be resumed.
-const std::optional<NumberedPath>& resumableFrames(const Liquid2dOptions& options)
+/// Files of every frame, the drawings first; none if the run cannot be resumed.
+std::vector<NumberedPath> resumableFrames(const Liquid2dOptions& options)
 {
-    static const std::optional<NumberedPath> none;
-    const std::optional<NumberedPath>& frames = options.files ? options.files : options.mask_files;
-    return options.masks && !options.mask_files ? none : frames;
+    std::vector<NumberedPath> frames;
+    for (const std::optional<NumberedPath>* files : {&options.files, &options.mask_files}) {
+        if (*files && !(options.masks && !options.mask_files)) {
+            frames.push_back(**files);
+        }
+    }
+    return frames;
 }
 
 /// Frames of particles, one after another.
@@ -293,9 +297,12 @@ public:
 
     droplet::LiquidReport execute()
     {
-        if (hasCheckpoint()) {
-            fingerprint_ = fingerprintOf({options_.fingerprint, options_.walls ? hashOfFile(*options_.walls) : "",
-                                          isSceneFile(options_) ? hashOfFile(options_.scene) : ""});
+        if (const std::vector<NumberedPath> frames = resumableFrames(options_); !frames.empty()) {
+            checkpoint_.emplace(
+                ResumableRun{kCommand,
+                             fingerprintOf({options_.fingerprint, options_.walls ? hashOfFile(*options_.walls) : "",
+                                            isSceneFile(options_) ? hashOfFile(options_.scene) : ""}),
+                             source_->frames(), options_.frames_per_second, frames, options_.output_options});
             resume();
         }
         if (options_.kind == LiquidOutput::Video) {
@@ -322,62 +329,35 @@ public:
                              }});
         }
         writeTogether(files, options_.output_options);
-        if (hasCheckpoint()) {
-            std::error_code none;
-            std::filesystem::remove(checkpointPath(*resumableFrames(options_)), none);
+        if (checkpoint_) {
+            checkpoint_->end();
         }
         finish();
         return std::move(report_);
     }
 
 private:
-    [[nodiscard]] bool hasCheckpoint() const { return resumableFrames(options_).has_value(); }
-
     void resume()
     {
-        const std::string path = checkpointPath(*resumableFrames(options_));
-        const auto checkpoint = options_.resume ? readCheckpoint(path, kCommand) : std::optional<Checkpoint>();
+        const auto checkpoint = checkpoint_->begin(options_.resume);
         if (!checkpoint) {
-            // The checkpoint of another run must not be used for this one.
-            removeCheckpoint(path, kCommand, options_.output_options);
             return;
         }
-        if (checkpoint->fingerprint != fingerprint_) {
-            refuse("--resume: " + path + " belongs to a run with other options or files");
-        }
-        if (checkpoint->frames > source_->frames()) {
-            refuse(fmt::format("--resume: {} frames exist already, but this run has {}", checkpoint->frames,
-                               source_->frames()));
-        }
         for (std::size_t number = 1; number <= checkpoint->frames; ++number) {
-            for (const auto* files : {&options_.files, &options_.mask_files}) {
-                if (*files && !std::filesystem::exists((*files)->at(number))) {
-                    return;
-                }
+            if (!checkpoint_->run().hasFrame(number)) {
+                return;
             }
         }
-        // The surface's bytes follow those of the particles, whose number is in the first line.
-        const std::string_view state = checkpoint->state;
-        const std::size_t line = state.find('\n');
-        std::size_t size = 0;
-        if (line != std::string_view::npos) {
-            std::from_chars(state.data(), state.data() + line, size);
-        }
-        if (line == std::string_view::npos || size > state.size() - line - 1) {
-            throw Error(ErrorCode::InvalidInput,
-                        path + ": is not a complete checkpoint; remove it to start from the first frame");
-        }
-        source_->restore(state.substr(line + 1, size), path, checkpoint->frames);
-        surface_ = droplet::expressionFromBytes(state.substr(line + 1 + size), path);
-        report_.frames = rowsFromBytes<droplet::LiquidFrameRow>(checkpoint->rows);
+        source_->restore((*checkpoint)["particles"], checkpoint_->path(), checkpoint->frames);
+        surface_ = droplet::expressionFromBytes((*checkpoint)["surface"], checkpoint_->path());
+        report_.frames = rowsFromBytes<droplet::LiquidFrameRow>((*checkpoint)["rows"]);
     }
 
     void saveCheckpoint(std::size_t frames) const
     {
-        const std::string particles = source_->bytes();
-        writeCheckpoint(checkpointPath(*resumableFrames(options_)),
-                        {kCommand, fingerprint_, frames, bytesOfRows(report_.frames),
-                         fmt::format("{}\n", particles.size()) + particles + bytesOf(surface_)});
+        checkpoint_->write(
+            {frames,
+             {{"particles", source_->bytes()}, {"rows", bytesOfRows(report_.frames)}, {"surface", bytesOf(surface_)}}});
     }
 
     void warn(const std::string& warning)
@@ -415,7 +395,6 @@ private:
 
     void run()
     {
-        const auto second = static_cast<std::size_t>(std::max(std::llround(options_.frames_per_second), 1LL));
         const std::size_t count = source_->frames();
         bool is_lost = false;
         for (std::size_t done = report_.frames.size(); done < count; ++done) {
@@ -430,7 +409,7 @@ private:
                                       static_cast<double>(frame.position.size()) * frame.spacing * frame.spacing,
                                       shape_.area(), shape_.liquid.size(), shape_.foam.size(), shape_.droplets.size()});
             write(done + 1);
-            if (hasCheckpoint() && (done + 1) % second == 0) {
+            if (checkpoint_ && checkpoint_->isDue(done + 1)) {
                 saveCheckpoint(done + 1);
             }
             progress_.reportFrame(done + 1, count);
@@ -441,7 +420,8 @@ private:
     void write(std::size_t number)
     {
         if (video_) {
-            video_->add(picture());
+            const std::vector<droplet::Region> walls = source_->walls();
+            video_->add(liquidLayer({shape_, walls}, view_, options_.look));
         } else if (lottie_) {
             const std::vector<droplet::Region> walls = source_->walls();
             lottie_->add({shape_, walls});
@@ -477,13 +457,6 @@ private:
         writePng(liquidLayer({shape_, walls}, view_, options_.look), out, droplet::PngEffort::Fast);
     }
 
-    /// Frame of a video, on white where the look has no background.
-    [[nodiscard]] droplet::Picture picture() const
-    {
-        const std::vector<droplet::Region> walls = source_->walls();
-        return onWhite(liquidLayer({shape_, walls}, view_, options_.look));
-    }
-
     void finish()
     {
         report_.time_total = clock_.total();
@@ -499,7 +472,7 @@ private:
     droplet::LiquidShape shape_;  ///< of the last frame
     std::unique_ptr<VideoWriter> video_;
     std::optional<droplet::LiquidLottie> lottie_;
-    std::string fingerprint_;
+    std::optional<CheckpointFile> checkpoint_;  ///< if every frame has a file
     droplet::LiquidReport report_;
 };
 
@@ -532,8 +505,8 @@ RunFiles filesOf(const Liquid2dOptions& options)
     } else {
         files.writes("--masks", options.masks);
     }
-    if (const auto& frames = resumableFrames(options)) {
-        files.writes("the checkpoint", checkpointPath(*frames));
+    if (const std::vector<NumberedPath> frames = resumableFrames(options); !frames.empty()) {
+        files.writes("the checkpoint", checkpointPath(frames.front()));
     }
     files.writes("--json", options.json);
     return files;

@@ -167,13 +167,9 @@ public:
     MorphFiles(const MorphCommandOptions& options, const droplet::LiquidView& view) : options_(options), view_(view)
     {
         if (options.kind == MorphOutput::Video) {
-            const std::string codec = codecFor(options.output);
-            checkCodec(codec, options.output);
-            const VideoWriterOptions video{
-                options.output, codec, view.width, view.height, options.animation.frames_per_second.value_or(24.0),
-                options.quality};
-            tryVideo(video);
-            video_ = std::make_unique<VideoWriter>(video);
+            video_ = std::make_unique<VideoWriter>(triedVideo(
+                options.output, {view.width, view.height, options.animation.frames_per_second.value_or(24.0)},
+                options.encoding));
         }
     }
 
@@ -206,7 +202,7 @@ public:
                     options_.animation.run.files);
                 break;
             case MorphOutput::Video:
-                video_->add(onWhite(liquidLayer({shape, none}, view_, options_.look)));
+                video_->add(liquidLayer({shape, none}, view_, options_.look));
                 break;
         }
     }

@@ -10,6 +10,7 @@
 #include "files.h"
 #include "option_values.h"
 #include "value_list.h"
+#include "video_writer.h"
 
 namespace cli {
 namespace {
@@ -48,7 +49,7 @@ void declare(CommandLine& line)
     line.add(kMorph, "--mask-width", "N",
              "Width of masks and drawings in pixels, up to 16384 [that of the first picture, or 1024]");
     line.add(kMorph, "--look", "flat|comic|ink|night", "Colours and lines of drawings [flat]");
-    line.add(kMorph, "--quality", "NUMBER", "Quality of a video of drawings, 1 to 100 [65]");
+    declareVideoAlpha(line, kMorph);
     declareAnimation(line);
 }
 
@@ -71,10 +72,10 @@ void readKind(const CommandLine& line, MorphCommandOptions& options)
     }
     // The options of droplets would have no effect; those of reading pictures and of the run have.
     const std::set<std::string> used{
-        "--text",    "--font",       "--frames",     "--particle-count", "--rounding",   "--mask-width", "--look",
-        "--quality", "--width",      "--pixel-size", "--channel",        "--threshold",  "--invert",     "--segment",
-        "--colour",  "--smooth",     "--keep",       "--fill-holes",     "--speck-size", "--fps",        "--threads",
-        "--quiet",   "--no-clobber", "--config",     "--progress",       "--verbose"};
+        "--text",    "--font",    "--frames", "--particle-count", "--rounding",   "--mask-width", "--look",
+        "--quality", "--codec",   "--alpha",  "--width",          "--pixel-size", "--channel",    "--threshold",
+        "--invert",  "--segment", "--colour", "--smooth",         "--keep",       "--fill-holes", "--speck-size",
+        "--fps",     "--threads", "--quiet",  "--no-clobber",     "--config",     "--progress",   "--verbose"};
     for (const auto& [name, value] : line.given()) {
         if (used.count(name) == 0) {
             refuse(name + " needs droplets as OUTPUT, such as out.glb");
@@ -150,11 +151,16 @@ std::variant<MorphCommandOptions, std::string> parseMorph(int argc, const char* 
     if (look && options.kind != MorphOutput::Drawings && options.kind != MorphOutput::Video) {
         refuse("--look needs drawings as OUTPUT, such as out/%04d.svg or out.mp4");
     }
-    if (const auto quality = line.value("--quality")) {
-        if (options.kind != MorphOutput::Video) {
-            refuse("--quality needs a video as OUTPUT");
+    const bool is_video = options.kind == MorphOutput::Video;
+    options.encoding = readVideoEncoding(line, is_video || options.animation.hasVideo(), "OUTPUT or --preview");
+    if (options.animation.hasVideo()) {
+        options.animation.preview->encoding = options.encoding;
+    }
+    if (line.flag("--alpha")) {
+        if (!is_video) {
+            refuse("--alpha needs a video of drawings as OUTPUT");
         }
-        options.quality = number(*quality, {1.0, 100.0, "a number from 1 to 100"});
+        keepAlpha(options.encoding, options.output, "--alpha");
     }
     return options;
 }

@@ -10,7 +10,7 @@
 #include "animate_options.h"
 #include "droplet/liquid2d_io/liquid_drawing.h"
 #include "numbered_path.h"
-#include "video_writer.h"
+#include "video_encoding.h"
 
 namespace cli {
 
@@ -36,7 +36,7 @@ struct MorphCommandOptions {
     double rounding = 1.0;
     std::optional<int> width;  ///< of masks and drawings [px]; empty: that of the first picture
     droplet::LiquidLook look;
-    double quality = kVideoQuality;
+    VideoEncoding encoding;
     AnimateOptions animation;  ///< footprint options for pictures; with Model, all the rest for the droplets
 };
 

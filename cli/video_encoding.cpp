@@ -33,11 +33,32 @@ VideoEncoding readVideoEncoding(const CommandLine& line, bool has_video, const s
     return encoding;
 }
 
+void declareVideoAlpha(CommandLine& line, const char* group)
+{
+    line.addFlag(
+        group, "--alpha",
+        "Keep the transparency of a drawing in a video: VP9 in .webm and .mkv, ProRes 4444 in .mov; also PNG or "
+        "QuickTime Animation in .mov, by --codec png or qtrle");
+}
+
+void keepAlpha(VideoEncoding& encoding, const std::string& path, const std::string& option)
+{
+    if (!encoding.codec) {
+        encoding.codec = alphaCodecFor(path);
+    }
+    if (!encoding.codec || !hasAlpha(*encoding.codec)) {
+        refuse(option + ": " + (encoding.codec ? *encoding.codec : path) +
+               " has no alpha; .webm, .mkv and .mov have it, with the codecs libvpx-vp9, prores_ks, png or qtrle");
+    }
+    encoding.alpha = true;
+}
+
 VideoWriterOptions triedVideo(const std::string& path, const VideoFrames& frames, const VideoEncoding& encoding)
 {
     const std::string codec = encoding.codec.value_or(codecFor(path));
     checkCodec(codec, path);
-    VideoWriterOptions video{path, codec, frames.width, frames.height, frames.per_second, encoding.quality};
+    VideoWriterOptions video{path,          codec, frames.width, frames.height, frames.per_second, encoding.quality,
+                             encoding.alpha};
     tryVideo(video);
     return video;
 }

@@ -17,6 +17,7 @@ inline constexpr double kVideoQuality = 65.0;
 struct VideoEncoding {
     std::optional<std::string> codec;  ///< ffmpeg's name of the encoder; empty: that of the container
     double quality = kVideoQuality;    ///< 1 … 100
+    bool alpha = false;                ///< keeps the transparency of frames
 };
 
 /// Declares --codec and --quality.
@@ -27,6 +28,15 @@ void declareVideoEncoding(CommandLine& line, const char* group);
 /// @param needed          what must be a video, for the message
 /// @throws droplet::Error InvalidArgument
 VideoEncoding readVideoEncoding(const CommandLine& line, bool has_video, const std::string& needed);
+
+/// Declares --alpha.
+void declareVideoAlpha(CommandLine& line, const char* group);
+
+/// Makes an encoding keep the transparency of frames.
+/// @param path            of the video
+/// @param option          that asks for it, for the message
+/// @throws droplet::Error InvalidArgument if the codec, or every codec of the path's container, has no alpha
+void keepAlpha(VideoEncoding& encoding, const std::string& path, const std::string& option);
 
 /// Size and rate of a video.
 struct VideoFrames {

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -27,12 +28,34 @@ struct Container {
     const char* extension;
     const char* format;  ///< ffmpeg's name
     const char* codec;
+    const char* alpha_codec;  ///< null: none that players of it know
 };
 
-constexpr std::array<Container, 4> kContainers{{{".mp4", "mp4", "libx264"},
-                                                {".mkv", "matroska", "libx264"},
-                                                {".mov", "mov", "libx264"},
-                                                {".webm", "webm", "libvpx-vp9"}}};
+constexpr std::array<Container, 4> kContainers{{{".mp4", "mp4", "libx264", nullptr},
+                                                {".mkv", "matroska", "libx264", "libvpx-vp9"},
+                                                {".mov", "mov", "libx264", "prores_ks"},
+                                                {".webm", "webm", "libvpx-vp9", "libvpx-vp9"}}};
+
+/// Codec that keeps transparency.
+struct AlphaCodec {
+    const char* codec;
+    const char* pixels;  ///< ffmpeg's format
+    bool is_rgb;
+    std::array<const char*, 2> option;  ///< that it needs; or null
+};
+
+constexpr std::array<AlphaCodec, 5> kAlphaCodecs{{{"libvpx-vp9", "yuva420p", false, {"-auto-alt-ref", "0"}},
+                                                  {"libvpx", "yuva420p", false, {"-auto-alt-ref", "0"}},
+                                                  {"prores_ks", "yuva444p10le", false, {"-profile:v", "4444"}},
+                                                  {"png", "rgba", true, {}},
+                                                  {"qtrle", "argb", true, {}}}};
+
+const AlphaCodec* alphaCodecNamed(const std::string& codec)
+{
+    const auto found = std::find_if(kAlphaCodecs.begin(), kAlphaCodecs.end(),
+                                    [&](const AlphaCodec& known) { return codec == known.codec; });
+    return found == kAlphaCodecs.end() ? nullptr : &*found;
+}
 
 const Container* containerOf(const std::string& path)
 {
@@ -64,6 +87,42 @@ Process startFfmpeg(const std::vector<std::string>& command, Piped piped, const 
     return started.process;
 }
 
+/// Bytes of a layer in which transparent pixels have the colour of what is drawn in their row, or in the next row with
+/// a drawing.
+std::vector<std::uint8_t> withColoursBesideEdges(const droplet::Layer& layer)
+{
+    std::vector<std::uint8_t> rgba = layer.rgba;
+    const auto width = static_cast<std::size_t>(layer.width);
+    const std::size_t count = rgba.size() / 4;
+    std::vector<bool> has_colour(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        has_colour[i] = rgba[4 * i + 3] != 0;
+    }
+    const auto take = [&](std::size_t to, std::size_t from) {
+        if (!has_colour[to] && has_colour[from]) {
+            std::copy_n(&rgba[4 * from], 3, &rgba[4 * to]);
+            has_colour[to] = true;
+        }
+    };
+    for (std::size_t i = 1; i < count; ++i) {
+        if (i % width != 0) {
+            take(i, i - 1);
+        }
+    }
+    for (std::size_t i = count; i-- > 1;) {
+        if (i % width != 0) {
+            take(i - 1, i);
+        }
+    }
+    for (std::size_t i = width; i < count; ++i) {
+        take(i, i - width);
+    }
+    for (std::size_t i = count; i-- > width;) {
+        take(i - width, i);
+    }
+    return rgba;
+}
+
 /// Options for a quality: 100 is step 0 of the codec's quantiser, 0 its last step.
 std::vector<std::string> qualityOf(const std::string& codec, double quality)
 {
@@ -81,12 +140,26 @@ std::vector<std::string> commandOf(const VideoWriterOptions& options)
 {
     std::vector<std::string> command{"ffmpeg", "-nostdin", "-v", "error"};
     const auto add = [&](std::initializer_list<std::string> words) { command.insert(command.end(), words); };
-    add({"-f", "rawvideo", "-pix_fmt", "rgb24"});
+    // ProRes takes its tags from the frames.
+    constexpr const char* kTagged = ",setparams=colorspace=bt709:color_primaries=bt709:color_trc=bt709:range=tv";
+    const AlphaCodec* const alpha = options.alpha ? alphaCodecNamed(options.codec) : nullptr;
+    add({"-f", "rawvideo", "-pix_fmt", alpha ? "rgba" : "rgb24"});
     add({"-s", std::to_string(options.width) + "x" + std::to_string(options.height)});
     add({"-r", fmt::format("{:.12g}", options.frames_per_second), "-i", "-", "-an"});
-    add({"-vf", "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int,format=yuv420p"});
-    add({"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"});
+    if (alpha && alpha->is_rgb) {
+        add({"-vf", std::string("format=") + alpha->pixels});
+    } else {
+        add({"-vf",
+             std::string(
+                 "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int,format=") +
+                 (alpha ? std::string(alpha->pixels) + kTagged : "yuv420p")});
+        add({"-colorspace", "bt709", "-color_range", "tv"});
+    }
+    add({"-color_primaries", "bt709", "-color_trc", "bt709"});
     add({"-c:v", options.codec});
+    if (alpha && alpha->option[0]) {
+        add({alpha->option[0], alpha->option[1]});
+    }
     const std::vector<std::string> quality = qualityOf(options.codec, options.quality);
     command.insert(command.end(), quality.begin(), quality.end());
     add({"-threads", "2", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"});
@@ -104,6 +177,17 @@ bool isVideo(const std::string& path)
 std::string codecFor(const std::string& path)
 {
     return containerOf(path)->codec;
+}
+
+std::optional<std::string> alphaCodecFor(const std::string& path)
+{
+    const char* const codec = containerOf(path)->alpha_codec;
+    return codec ? std::optional<std::string>(codec) : std::nullopt;
+}
+
+bool hasAlpha(const std::string& codec)
+{
+    return alphaCodecNamed(codec) != nullptr;
 }
 
 void checkCodec(const std::string& codec, const std::string& path)
@@ -138,10 +222,12 @@ droplet::Picture onWhite(const droplet::Layer& layer)
 
 void tryVideo(const VideoWriterOptions& options)
 {
-    const droplet::Picture black = plainPicture(options.width, options.height, 0);
+    const droplet::Layer empty{options.width, options.height,
+                               std::vector<std::uint8_t>(std::size_t{4} * static_cast<std::size_t>(options.width) *
+                                                         static_cast<std::size_t>(options.height))};
     try {
         VideoWriter video(options);
-        video.add(black);
+        video.add(empty);
         std::ostringstream nowhere;
         video.finish(nowhere);
     } catch (const Error& error) {
@@ -149,7 +235,8 @@ void tryVideo(const VideoWriterOptions& options)
     }
 }
 
-VideoWriter::VideoWriter(const VideoWriterOptions& options) : path_(options.path), video_(std::tmpfile())
+VideoWriter::VideoWriter(const VideoWriterOptions& options)
+    : path_(options.path), has_alpha_(options.alpha), video_(std::tmpfile())
 {
     if (video_ == nullptr) {
         throw Error(ErrorCode::OutputFailed, path_ + ": a temporary file cannot be created: " + std::strerror(errno));
@@ -190,11 +277,25 @@ void VideoWriter::throwWriteError()
     throw Error(ErrorCode::OutputFailed, path_ + ": ffmpeg cannot write it" + (line.empty() ? "" : ": " + line));
 }
 
-void VideoWriter::add(const droplet::Picture& frame)
+void VideoWriter::add(const std::vector<std::uint8_t>& bytes)
 {
-    if (std::fwrite(frame.rgb.data(), 1, frame.rgb.size(), process_.input) != frame.rgb.size()) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), process_.input) != bytes.size()) {
         end();
         throwWriteError();
+    }
+}
+
+void VideoWriter::add(const droplet::Picture& frame)
+{
+    add(frame.rgb);
+}
+
+void VideoWriter::add(const droplet::Layer& frame)
+{
+    if (has_alpha_) {
+        add(withColoursBesideEdges(frame));
+    } else {
+        add(onWhite(frame));
     }
 }
 

@@ -52,14 +52,15 @@ RunFiles filesOf(const WindshieldOptions& options)
     return files;
 }
 
-bool hasFrame(const WindshieldOptions& options, std::size_t number)
+std::vector<NumberedPath> framesOf(const WindshieldOptions& options)
 {
-    std::error_code ignored;
-    bool is_there = std::filesystem::exists(options.files->at(number), ignored);
+    std::vector<NumberedPath> frames{*options.files};
     for (const char* map : kMapNames) {
-        is_there = is_there && (!options.maps || std::filesystem::exists(mapPath(*options.maps, number, map), ignored));
+        if (options.maps) {
+            frames.push_back(*NumberedPath::of(beforeExtension(options.maps->text(), map), "--maps"));
+        }
     }
-    return is_there;
+    return frames;
 }
 
 std::string fingerprintOf(const WindshieldOptions& options)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "run_files.h"
 #include "windshield_options.h"
@@ -19,8 +20,8 @@ std::string mapPath(const NumberedPath& maps, std::size_t number, const char* ma
 /// All files that a run reads and writes.
 RunFiles filesOf(const WindshieldOptions& options);
 
-/// Whether all files of a frame exist.
-bool hasFrame(const WindshieldOptions& options, std::size_t number);
+/// Files of every frame, if OUTPUT is frames: these and the maps.
+std::vector<NumberedPath> framesOf(const WindshieldOptions& options);
 
 /// Hash of everything that decides what the frames show: options and input files.
 std::string fingerprintOf(const WindshieldOptions& options);

@@ -16,18 +16,6 @@
 namespace cli {
 namespace {
 
-/// Encoder of the video, empty without a video.
-/// @throws droplet::Error if ffmpeg does not have it
-std::string videoCodec(const WindshieldOptions& options)
-{
-    if (!options.is_video) {
-        return {};
-    }
-    std::string codec = options.encoding.codec.value_or(codecFor(options.output));
-    checkCodec(codec, options.output);
-    return codec;
-}
-
 BackgroundOptions backgroundOf(const WindshieldOptions& options)
 {
     BackgroundOptions background;
@@ -46,11 +34,7 @@ BackgroundOptions backgroundOf(const WindshieldOptions& options)
 }  // namespace
 
 WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const droplet::WindshieldParameters& parameters)
-    : options_(options),
-      glass_(parameters.glass),
-      codec_(videoCodec(options)),
-      background_(backgroundOf(options)),
-      view_options_(options.view)
+    : options_(options), glass_(parameters.glass), background_(backgroundOf(options)), view_options_(options.view)
 {
     view_options_.width = background_.width();
     view_options_.height = background_.height();
@@ -73,11 +57,9 @@ WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const dropl
 void WindshieldFrames::begin()
 {
     if (options_.is_video) {
-        const VideoWriterOptions video{
-            options_.output,          codec_, view_options_.width, view_options_.height, options_.frames_per_second,
-            options_.encoding.quality};
-        tryVideo(video);
-        video_ = std::make_unique<VideoWriter>(video);
+        video_ = std::make_unique<VideoWriter>(
+            triedVideo(options_.output, {view_options_.width, view_options_.height, options_.frames_per_second},
+                       options_.encoding));
     }
 }
 
@@ -93,7 +75,9 @@ void WindshieldFrames::draw(const droplet::WindshieldState& state, std::size_t n
     } else {
         background_.skip(1);
     }
-    if (options_.is_video) {
+    if (options_.is_video && options_.layer) {
+        video_->add(view_->layer());
+    } else if (options_.is_video) {
         video_->add(view_->frame());
     } else if (is_shown) {
         layer_ = options_.layer ? view_->layer() : droplet::Layer();

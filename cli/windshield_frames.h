@@ -56,7 +56,6 @@ private:
 
     const WindshieldOptions& options_;
     droplet::Glass glass_;
-    std::string codec_;
     Background background_;
     droplet::ViewOptions view_options_;
     std::unique_ptr<droplet::DriversView> view_;

@@ -126,7 +126,7 @@ void declare(CommandLine& line)
         "How much brighter lamps are than the background shows them: up to 1 + this, 0 to 4 [3, by daylight less]");
     line.add(kLooks, "--shutter", "OPEN",
              "Motion blur: part of a frame's time that the shutter is open, such as 180deg or 0.5 [0]");
-    line.addFlag(kLooks, "--layer", "Write only the droplets, with alpha");
+    line.addFlag(kLooks, "--layer", "Write only the droplets, with alpha: pictures, or a .webm, .mkv or .mov");
     declareVideoEncoding(line, kLooks);
     constexpr const char* kOut = "Beside the frames";
     line.add(kOut, "--maps", "PATH",
@@ -335,10 +335,10 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
     if (!options.is_video && std::filesystem::path(options.output).extension() != ".png") {
         refuse(output, "frames such as out/%05d.png, a .mp4, .mkv, .mov or .webm, or a .png");
     }
-    if (options.layer && options.is_video) {
-        refuse("--layer and a video exclude each other: frames have alpha, as in out/%05d.png");
-    }
     options.encoding = readVideoEncoding(line, options.is_video, "OUTPUT, not '" + options.output + "'");
+    if (options.layer && options.is_video) {
+        keepAlpha(options.encoding, options.output, "--layer");
+    }
     if (const auto maps = line.value("--maps")) {
         options.maps = NumberedPath::of(maps->text, "--maps");
         if (!options.maps) {

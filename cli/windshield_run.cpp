@@ -53,7 +53,7 @@ private:
     StageClock clock_;
     WindshieldPlan plan_;
     WindshieldFrames frames_;
-    std::string fingerprint_;
+    std::optional<CheckpointFile> checkpoint_;  ///< if every frame has a file
     std::optional<droplet::DropletTable> table_;
     std::optional<droplet::DropletScene> scene_;
     droplet::WindshieldState state_;
@@ -68,7 +68,8 @@ WindshieldRun::WindshieldRun(const WindshieldOptions& options, ProgressDisplay& 
     : options_(options), progress_(progress), plan_(planOf(options)), frames_(options, plan_.parameters)
 {
     if (options_.files) {
-        fingerprint_ = fingerprintOf(options_);
+        checkpoint_.emplace(ResumableRun{kCommand, fingerprintOf(options_), plan_.frames, options_.frames_per_second,
+                                         framesOf(options_), options_.output_options});
     }
     report_.preset = options_.preset;
     report_.drive_cycle = options_.drive_cycle;
@@ -122,9 +123,8 @@ droplet::WindshieldReport WindshieldRun::execute()
                          }});
     }
     writeTogether(files, options_.output_options);
-    if (options_.files) {
-        std::error_code ignored;
-        std::filesystem::remove(checkpointPath(*options_.files), ignored);
+    if (checkpoint_) {
+        checkpoint_->end();
     }
     finish();
     return std::move(report_);
@@ -141,7 +141,7 @@ void WindshieldRun::begin()
         scene_.emplace(plan_.parameters.glass, scene);
     }
     frames_.begin();
-    if (options_.files && resume()) {
+    if (checkpoint_ && resume()) {
         return;
     }
     const auto steps = static_cast<std::size_t>(std::llround(options_.warm_up / plan_.step));
@@ -152,31 +152,21 @@ void WindshieldRun::begin()
 
 bool WindshieldRun::resume()
 {
-    const std::string path = checkpointPath(*options_.files);
-    const auto checkpoint = options_.resume ? readCheckpoint(path, kCommand) : std::optional<Checkpoint>();
+    const auto checkpoint = checkpoint_->begin(options_.resume);
     if (!checkpoint) {
-        // The checkpoint of another run must not be used for this one.
-        removeCheckpoint(path, kCommand, options_.output_options);
         return false;
-    }
-    if (checkpoint->fingerprint != fingerprint_) {
-        refuse("--resume: " + path + " belongs to a run with other options or files");
-    }
-    if (checkpoint->frames > plan_.frames) {
-        refuse("--resume: " + std::to_string(checkpoint->frames) + " frames exist already, but --time asks for " +
-               std::to_string(plan_.frames));
     }
     drawn_before_ = checkpoint->frames;
     bool is_whole = true;
     for (std::size_t number = 1; is_whole && number <= drawn_before_; ++number) {
-        is_whole = hasFrame(options_, number);
+        is_whole = checkpoint_->run().hasFrame(number);
     }
     // Tables and models need every frame to be simulated again, and so do missing files.
     if (options_.droplets || options_.model || !is_whole) {
         return false;
     }
-    state_ = droplet::stateFromBytes(checkpoint->state, path);
-    report_.balance = rowsFromBytes<droplet::BalanceRow>(checkpoint->rows);
+    state_ = droplet::stateFromBytes((*checkpoint)["windshield"], checkpoint_->path());
+    report_.balance = rowsFromBytes<droplet::BalanceRow>((*checkpoint)["balance"]);
     done_ = checkpoint->frames;
     for (std::size_t k = 1; k < done_; ++k) {
         travel();
@@ -210,7 +200,6 @@ void WindshieldRun::travel()
 
 void WindshieldRun::run()
 {
-    const auto second = static_cast<std::size_t>(std::max(std::llround(options_.frames_per_second), 1LL));
     for (; done_ < plan_.frames; ++done_) {
         if (done_ > 0) {
             for (std::size_t k = 0; k < plan_.steps; ++k) {
@@ -225,16 +214,16 @@ void WindshieldRun::run()
         if (scene_) {
             scene_->add(state_);
         }
-        if (done_ >= drawn_before_ || !hasFrame(options_, done_ + 1)) {
+        if (done_ >= drawn_before_ || !checkpoint_->run().hasFrame(done_ + 1)) {
             frames_.draw(state_, done_ + 1, done_ + 1 == plan_.frames,
                          {travelled_, plan_.parameters.vehicle.speedAt(state_.time)});
         } else {
             frames_.skip(1);
         }
-        if (options_.files && done_ + 1 > drawn_before_ && (done_ + 1) % second == 0) {
+        if (checkpoint_ && done_ + 1 > drawn_before_ && checkpoint_->isDue(done_ + 1)) {
             frames_.wait();
-            writeCheckpoint(checkpointPath(*options_.files),
-                            {kCommand, fingerprint_, done_ + 1, bytesOfRows(report_.balance), bytesOf(state_)});
+            checkpoint_->write(
+                {done_ + 1, {{"balance", bytesOfRows(report_.balance)}, {"windshield", bytesOf(state_)}}});
         }
         progress_.reportFrame(done_ + 1, plan_.frames);
     }

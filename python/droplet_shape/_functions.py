@@ -873,7 +873,7 @@ def windshield(
         by daylight less)
       shutter [1 is the whole time]: Motion blur: part of a frame's time that the shutter is open, such as 180deg or
         0.5 (default: 0)
-      layer: Write only the droplets, with alpha
+      layer: Write only the droplets, with alpha: pictures, or a .webm, .mkv or .mov
       codec: Encoder of ffmpeg (default: libx264, libvpx-vp9 for .webm)
       quality: Quality of the video, 1 to 100 (default: 65)
 

@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "droplet/footprint/mask.h"
@@ -95,6 +98,57 @@ TEST_F(MorphCommand, WritesMasksDrawingsAndAStream)
     const CommandResult stream = to("-");
     ASSERT_EQ(stream.exit_code, 0) << stream.error;
     EXPECT_THAT(stream.output, StartsWith(readFile(path("01.png")) + readFile(path("02.png"))));
+}
+
+// Half transparent pixels have the liquid's own colour, also where the codec mixes neighbours. Without --alpha they are
+// mixed with white.
+TEST_F(MorphCommand, VideosKeepTransparency)
+{
+    const auto pixelsOf = [&](const std::string& name, const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{path("square.pgm"), path("square.pgm"), path(name), "--mask-width", "120"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const CommandResult made = flow(arguments);
+        EXPECT_EQ(made.exit_code, 0) << made.error;
+        std::vector<std::string> command{"ffmpeg", "-v", "error"};
+        if (name.ends_with("webm")) {
+            command.insert(command.end(), {"-c:v", "libvpx-vp9"});  // ffmpeg's own decoder of VP9 drops alpha
+        }
+        command.insert(command.end(), {"-i", path(name), "-frames:v", "1", "-pix_fmt", "rgba", "-f", "rawvideo", "-"});
+        const auto decoded = testing::runProgram(command);
+        EXPECT_EQ(decoded.exit_code, 0) << decoded.error;
+        EXPECT_EQ(decoded.output.size(), 4U * 120U * 80U);
+        return decoded.output;
+    };
+    const std::array<int, 3> liquid{58, 134, 200};  // of the look `flat`
+    for (const auto& [name, codec] : {std::pair("a.webm", ""), {"a.mov", ""}, {"p.mov", "png"}, {"q.mov", "qtrle"}}) {
+        SCOPED_TRACE(name + std::string(" ") + codec);
+        std::vector<std::string> options{"--alpha"};
+        if (*codec != '\0') {
+            options.insert(options.end(), {"--codec", codec});
+        }
+        const std::string pixels = pixelsOf(name, options);
+        std::size_t opaque = 0;
+        std::size_t clear = 0;
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i + 3 < pixels.size(); i += 4) {
+            const int alpha = static_cast<unsigned char>(pixels[i + 3]);
+            opaque += alpha > 250 ? 1 : 0;
+            clear += alpha < 5 ? 1 : 0;
+            for (std::size_t k = 0; alpha > 20 && k < 3; ++k) {
+                wrong += std::abs(static_cast<unsigned char>(pixels[i + k]) - liquid.at(k)) > 8 ? 1 : 0;
+            }
+        }
+        EXPECT_NEAR(static_cast<double>(opaque), 40.0 * 40.0, 200.0);
+        EXPECT_NEAR(static_cast<double>(opaque + clear), 120.0 * 80.0, 400.0);
+        EXPECT_EQ(wrong, 0U);
+    }
+    const std::string flat = pixelsOf("flat.mp4", {});
+    EXPECT_GT(static_cast<unsigned char>(flat[0]), 250) << "white";
+    expectRefused({path("square.pgm"), path("disc.svg"), path("a.mp4"), "--alpha"}, 2,
+                  "has no alpha; .webm, .mkv and .mov");
+    expectRefused({path("square.pgm"), path("disc.svg"), path("a.mov"), "--alpha", "--codec", "libx264"}, 2,
+                  "--alpha: libx264 has no alpha");
+    expectRefused({path("square.pgm"), path("disc.svg"), path("a.glb"), "--alpha"}, 2, "--alpha needs a video");
 }
 
 TEST_F(MorphCommand, BeginsWithAText)

@@ -220,7 +220,7 @@ TEST_F(WindshieldCommand, ResumedRunGivesTheSameBytes)
     shorter.emplace_back("--resume");
     const CommandResult beyond = simulate(path("cut/%d.png"), shorter);
     EXPECT_EQ(beyond.exit_code, 2);
-    EXPECT_THAT(beyond.errorLines(), ElementsAre(HasSubstr("frames exist already, but --time asks for 5")));
+    EXPECT_THAT(beyond.errorLines(), ElementsAre(HasSubstr("frames exist already, but this run has 5")));
     // Missing frames are made again, existing ones are not.
     const auto fifth = std::filesystem::last_write_time(path("cut/5.png"));
     for (const bool is_missing : {false, true}) {
