@@ -426,7 +426,6 @@ private:
     template <class Number>
     int addBounded(std::vector<std::array<Number, 4>> vectors, int component_type)
     {
-        std::vector<double> low;
         GltfArray bounds;
         bound(bounds, vectors);
         GltfArray array = arrayOf(std::move(vectors), 3, component_type);
@@ -622,7 +621,7 @@ private:
         animation.name = scene_.animation;
         animation.samplers.resize(scene_.tracks.size());
         for (std::size_t i = 0; i < scene_.tracks.size(); ++i) {
-            arrays.take(arrayOf(scene_.tracks[i]), animation.samplers[i].output);
+            arrays.take(trackArray(scene_.tracks[i]), animation.samplers[i].output);
         }
         arrays.add(buffer_);
         for (std::size_t i = 0; i < scene_.tracks.size(); ++i) {
@@ -638,24 +637,18 @@ private:
         }
     }
 
-    static GltfArray arrayOf(const SceneTrack& track)
+    static GltfArray trackArray(const SceneTrack& track)
     {
         if (!track.is_coarse) {
-            return droplet::arrayOf(track.values, track.change == SceneChange::Weights    ? 1
-                                                  : track.change == SceneChange::Rotation ? 4
-                                                                                          : 3);
+            return arrayOf(track.values, track.change == SceneChange::Weights    ? 1
+                                         : track.change == SceneChange::Rotation ? 4
+                                                                                 : 3);
         }
         std::vector<QuantizedVector> turns(track.values.size() / 4);
         for (std::size_t i = 0; i < track.values.size(); ++i) {
             turns[i / 4][i % 4] = static_cast<std::int16_t>(std::lround(32767.0F * track.values[i]));
         }
-        return droplet::arrayOf(std::move(turns), 4, TINYGLTF_COMPONENT_TYPE_SHORT);
-    }
-
-    template <class... Arguments>
-    static GltfArray arrayOf(Arguments&&... arguments)
-    {
-        return droplet::arrayOf(std::forward<Arguments>(arguments)...);
+        return arrayOf(std::move(turns), 4, TINYGLTF_COMPONENT_TYPE_SHORT);
     }
 
     void addPicture()
