@@ -56,9 +56,9 @@ std::string encoded(const std::string& bytes, std::size_t stride, bool are_indic
 
 std::size_t elementBytes(const GltfArray& array)
 {
-    return static_cast<std::size_t>(
-        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(array.type)) *
-        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(array.component_type)));
+    const int components = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(array.type));
+    const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(array.component_type));
+    return static_cast<std::size_t>(components) * static_cast<std::size_t>(bytes);
 }
 
 }  // namespace

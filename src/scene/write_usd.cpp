@@ -661,7 +661,10 @@ private:
     {
         for (const auto& [name, value] : node.properties) {
             if (const double* const number = std::get_if<double>(&value)) {
-                bytes_.text(indent + "custom double userProperties:" + name + " = ");
+                bytes_.text(indent);
+                bytes_.text("custom double userProperties:");
+                bytes_.text(name);
+                bytes_.text(" = ");
                 bytes_.digits(*number);
                 bytes_.u8('\n');
             }
