@@ -74,6 +74,11 @@ public:
         report_.frames_per_second =
             options.frames_per_second.value_or(frames.framesPerSecond().value_or(report_.frames_per_second));
         report_.warnings = options.settings.warnings;
+        if (options.hasVideo()) {
+            const PreviewOptions& preview = *options.preview;
+            video_ =
+                triedVideo(preview.path, {preview.width, preview.height, report_.frames_per_second}, preview.encoding);
+        }
         if (!options.files || options.html) {
             animation_.emplace(droplet::AnimationOptions{.frames_per_second = report_.frames_per_second,
                                                          .material = options.settings.material,
@@ -270,8 +275,7 @@ private:
     {
         const PreviewOptions& preview = *options_.preview;
         const droplet::RenderOptions render = cameraOf(preview);
-        VideoWriter video(
-            triedVideo(preview.path, {preview.width, preview.height, report_.frames_per_second}, preview.encoding));
+        VideoWriter video(*video_);
         for (const PreviewFrame& frame : preview_frames_) {
             video.add(draw(*frame.surface, render));
         }
@@ -399,6 +403,7 @@ private:
     StageClock clock_;
     Surroundings around_;
     droplet::SequenceOptions sequence_;
+    std::optional<VideoWriterOptions> video_;  ///< of the preview
     std::optional<droplet::Animation> animation_;
     std::optional<Frame> frame_;
     std::vector<std::size_t> disagreeing_;  ///< numbers of frames
@@ -523,11 +528,6 @@ RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers)
 
 void makeAnimation(const AnimateOptions& options, Frames& frames)
 {
-    if (options.hasVideo()) {
-        const PreviewOptions& preview = *options.preview;
-        // The rate of the frames is not known yet.
-        triedVideo(preview.path, {preview.width, preview.height}, preview.encoding);
-    }
     std::optional<tbb::global_control> threads;
     if (options.run.threads) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, *options.run.threads);

@@ -87,6 +87,15 @@ bool ResumableRun::hasFrame(std::size_t number) const
                        [&](const NumberedPath& file) { return std::filesystem::exists(file.at(number), ignored); });
 }
 
+bool ResumableRun::hasFrames(std::size_t count) const
+{
+    std::size_t number = 1;
+    while (number <= count && hasFrame(number)) {
+        ++number;
+    }
+    return number > count;
+}
+
 std::string checkpointPath(const NumberedPath& frames)
 {
     return std::filesystem::path(frames.with("checkpoint")).replace_extension(".state").string();

@@ -60,6 +60,8 @@ struct ResumableRun {
 
     /// Whether all files of a frame exist.
     [[nodiscard]] bool hasFrame(std::size_t number) const;
+    /// Whether all files of the first frames exist.
+    [[nodiscard]] bool hasFrames(std::size_t count) const;
 };
 
 /// Checkpoint of a run, beside its frames.
@@ -69,7 +71,7 @@ public:
 
     /// Path of the file.
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// Frames that all have their files, from the first on.
+    /// The run, with the files of its frames.
     [[nodiscard]] const ResumableRun& run() const { return run_; }
 
     /// Begins a run.

@@ -14,12 +14,6 @@
 namespace cli {
 namespace {
 
-/// Path with the name of a map before its extension.
-std::string withMap(std::string path, const char* map)
-{
-    return path.insert(path.size() - std::string(".png").size(), std::string("-") + map);
-}
-
 /// Files whose content decides what the frames show.
 void addInputs(RunFiles& files, const FlowOptions& options)
 {
@@ -32,11 +26,6 @@ void addInputs(RunFiles& files, const FlowOptions& options)
 }
 
 }  // namespace
-
-std::string flowMapPath(const NumberedPath& maps, std::size_t number, const char* map)
-{
-    return withMap(maps.at(number), map);
-}
 
 RunFiles filesOf(const FlowOptions& options)
 {
@@ -55,7 +44,7 @@ RunFiles filesOf(const FlowOptions& options)
     files.writes("--json", options.json);
     for (const char* map : kFlowMaps) {
         if (options.maps) {
-            files.writesFrames("--maps", *NumberedPath::of(withMap(options.maps->text(), map), "--maps"), numbers);
+            files.writesFrames("--maps", options.maps->beside(map), numbers);
         }
     }
     if (options.has_preview) {
@@ -64,17 +53,6 @@ RunFiles filesOf(const FlowOptions& options)
         }
     }
     return files;
-}
-
-std::vector<NumberedPath> flowFrames(const FlowOptions& options)
-{
-    std::vector<NumberedPath> frames{*options.files};
-    for (const char* map : kFlowMaps) {
-        if (options.maps) {
-            frames.push_back(*NumberedPath::of(withMap(options.maps->text(), map), "--maps"));
-        }
-    }
-    return frames;
 }
 
 std::string flowFingerprint(const FlowOptions& options)

@@ -189,7 +189,7 @@ droplet::FlowReport FlowRun::execute()
 {
     if (options_.files) {
         checkpoint_.emplace(ResumableRun{kCommand, flowFingerprint(options_), plan_.frames, options_.frames_per_second,
-                                         flowFrames(options_), options_.output_options});
+                                         withMaps(*options_.files, options_.maps, kFlowMaps), options_.output_options});
         resume();
     }
     if (options_.kind == FlowOutput::Video) {
@@ -251,11 +251,8 @@ void FlowRun::resume()
     // object that moves will reach in --time.
     const bool has_same_camera =
         !painter_ || plan_.parameters.motion.rests() || (*checkpoint)["planned frames"] == std::to_string(plan_.frames);
-    bool is_whole = !options_.droplets && !options_.streaks && has_same_camera;
-    for (std::size_t number = 1; is_whole && number <= checkpoint->frames; ++number) {
-        is_whole = checkpoint_->run().hasFrame(number);
-    }
-    if (!is_whole) {
+    if (options_.droplets || options_.streaks || !has_same_camera ||
+        !checkpoint_->run().hasFrames(checkpoint->frames)) {
         return;
     }
     const std::string& path = checkpoint_->path();
@@ -402,7 +399,7 @@ void FlowRun::writeMaps(const std::vector<droplet::FlowSample>& samples, std::si
 {
     const droplet::Surface surface = droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time));
     const auto write = [&](std::size_t map, const auto& writer) {
-        droplet::writeAtomically(flowMapPath(*options_.maps, number, kFlowMaps[map]), writer, options_.output_options);
+        droplet::writeAtomically(options_.maps->beside(kFlowMaps[map]).at(number), writer, options_.output_options);
     };
     if (options_.are_maps_exr) {
         const droplet::WetFloatMaps maps = mapper_->floatMaps(state_.time, samples, surface);

@@ -340,13 +340,8 @@ private:
     void resume()
     {
         const auto checkpoint = checkpoint_->begin(options_.resume);
-        if (!checkpoint) {
+        if (!checkpoint || !checkpoint_->run().hasFrames(checkpoint->frames)) {
             return;
-        }
-        for (std::size_t number = 1; number <= checkpoint->frames; ++number) {
-            if (!checkpoint_->run().hasFrame(number)) {
-                return;
-            }
         }
         source_->restore((*checkpoint)["particles"], checkpoint_->path(), checkpoint->frames);
         surface_ = droplet::expressionFromBytes((*checkpoint)["surface"], checkpoint_->path());

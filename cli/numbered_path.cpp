@@ -124,4 +124,25 @@ std::vector<std::pair<std::size_t, std::string>> NumberedPath::existing() const
     return files;
 }
 
+NumberedPath NumberedPath::beside(const std::string& word) const
+{
+    NumberedPath path = *this;
+    for (std::string* const part : {&path.text_, &path.after_}) {
+        part->insert(std::min(part->rfind('.'), part->size()), "-" + word);
+    }
+    return path;
+}
+
+std::vector<NumberedPath> withMaps(const NumberedPath& frames, const std::optional<NumberedPath>& maps,
+                                   std::span<const char* const> names)
+{
+    std::vector<NumberedPath> all{frames};
+    for (const char* const name : names) {
+        if (maps) {
+            all.push_back(maps->beside(name));
+        }
+    }
+    return all;
+}
+
 }  // namespace cli

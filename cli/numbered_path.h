@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,9 @@ public:
     /// Path with a word instead of the number.
     [[nodiscard]] std::string with(const std::string& word) const { return folder_ + before_ + word + after_; }
 
+    /// Pattern of another file for each number, with `-word` before the extension, such as `maps/%04d-normal.png`.
+    [[nodiscard]] NumberedPath beside(const std::string& word) const;
+
     /// Existing files with their consecutive numbers.
     /// @throws droplet::Error InvalidInput if there is none, or a number is missing
     [[nodiscard]] std::vector<std::pair<std::size_t, std::string>> existing() const;
@@ -42,5 +46,11 @@ private:
     std::string after_;       ///< part of the file's name behind the number
     std::size_t digits_ = 0;  ///< minimum number of digits, padded with zeros
 };
+
+/// Patterns of all files of a frame: its own, and one for each of its maps.
+/// @param maps   pattern of the maps, if there are any
+/// @param names  of the maps
+std::vector<NumberedPath> withMaps(const NumberedPath& frames, const std::optional<NumberedPath>& maps,
+                                   std::span<const char* const> names);
 
 }  // namespace cli

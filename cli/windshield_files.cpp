@@ -11,20 +11,6 @@
 #include "windshield_plan.h"
 
 namespace cli {
-namespace {
-
-std::string beforeExtension(std::string path, const char* map)
-{
-    return path.insert(path.size() - std::string(".png").size(), std::string("-") + map);
-}
-
-}  // namespace
-
-std::string mapPath(const NumberedPath& maps, std::size_t number, const char* map)
-{
-    return beforeExtension(maps.at(number), map);
-}
-
 RunFiles filesOf(const WindshieldOptions& options)
 {
     RunFiles files;
@@ -42,25 +28,13 @@ RunFiles filesOf(const WindshieldOptions& options)
     }
     for (const char* map : kMapNames) {
         if (options.maps) {
-            files.writesFrames("--maps", *NumberedPath::of(beforeExtension(options.maps->text(), map), "--maps"),
-                               numbers);
+            files.writesFrames("--maps", options.maps->beside(map), numbers);
         }
     }
     files.writes("--droplets", options.droplets);
     files.writes("--model", options.model);
     files.writes("--json", options.json);
     return files;
-}
-
-std::vector<NumberedPath> framesOf(const WindshieldOptions& options)
-{
-    std::vector<NumberedPath> frames{*options.files};
-    for (const char* map : kMapNames) {
-        if (options.maps) {
-            frames.push_back(*NumberedPath::of(beforeExtension(options.maps->text(), map), "--maps"));
-        }
-    }
-    return frames;
 }
 
 std::string fingerprintOf(const WindshieldOptions& options)

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <string>
-#include <vector>
 
 #include "run_files.h"
 #include "windshield_options.h"
@@ -14,14 +12,8 @@ namespace cli {
 /// Names of the maps of the glass, as parts of their files' names.
 inline constexpr std::array<const char*, 3> kMapNames{"normal", "thickness", "velocity"};
 
-/// Path of one map of a frame, such as `maps/00001-normal.png`.
-std::string mapPath(const NumberedPath& maps, std::size_t number, const char* map);
-
 /// All files that a run reads and writes.
 RunFiles filesOf(const WindshieldOptions& options);
-
-/// Files of every frame, if OUTPUT is frames: these and the maps.
-std::vector<NumberedPath> framesOf(const WindshieldOptions& options);
 
 /// Hash of everything that decides what the frames show: options and input files.
 std::string fingerprintOf(const WindshieldOptions& options);

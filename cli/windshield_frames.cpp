@@ -110,7 +110,7 @@ void WindshieldFrames::writePicture(std::ostream& out, const droplet::Layer& lay
 void WindshieldFrames::writeMaps(const droplet::WindshieldState& state, std::size_t number) const
 {
     const auto write = [&](std::size_t map, const auto& writer) {
-        droplet::writeAtomically(mapPath(*options_.maps, number, kMapNames[map]), writer, options_.output_options);
+        droplet::writeAtomically(options_.maps->beside(kMapNames[map]).at(number), writer, options_.output_options);
     };
     if (options_.are_maps_exr) {
         const droplet::GlassFloatMaps maps = glassFloatMaps(glass_, state, options_.map);

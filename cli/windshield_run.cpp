@@ -69,7 +69,7 @@ WindshieldRun::WindshieldRun(const WindshieldOptions& options, ProgressDisplay& 
 {
     if (options_.files) {
         checkpoint_.emplace(ResumableRun{kCommand, fingerprintOf(options_), plan_.frames, options_.frames_per_second,
-                                         framesOf(options_), options_.output_options});
+                                         withMaps(*options_.files, options_.maps, kMapNames), options_.output_options});
     }
     report_.preset = options_.preset;
     report_.drive_cycle = options_.drive_cycle;
@@ -157,12 +157,8 @@ bool WindshieldRun::resume()
         return false;
     }
     drawn_before_ = checkpoint->frames;
-    bool is_whole = true;
-    for (std::size_t number = 1; is_whole && number <= drawn_before_; ++number) {
-        is_whole = checkpoint_->run().hasFrame(number);
-    }
     // Tables and models need every frame to be simulated again, and so do missing files.
-    if (options_.droplets || options_.model || !is_whole) {
+    if (options_.droplets || options_.model || !checkpoint_->run().hasFrames(drawn_before_)) {
         return false;
     }
     state_ = droplet::stateFromBytes((*checkpoint)["windshield"], checkpoint_->path());

@@ -166,10 +166,8 @@ struct Animation::Content {
     /// Makes all but the meshes.
     void finish()
     {
-        scene.materials.assign(1, {lookOf(options.material)});
-        if (const double mean = thickness / static_cast<double>(surfaces); options.closed && mean > 0.0) {
-            scene.materials.front().thickness = mean;
-        }
+        const double mean = thickness / static_cast<double>(surfaces);
+        scene.materials.assign(1, liquidMaterial(lookOf(options.material), options.closed ? mean : 0.0));
         scene.nodes.clear();
         scene.roots.clear();
         scene.times.clear();

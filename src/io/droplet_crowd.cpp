@@ -236,11 +236,7 @@ public:
     {
         const Spans spans = spansOf(histories);
         scene.animation = options.animation;
-        SceneMaterial material{lookOf(options.material)};
-        if (const double radius = meanRadius(spans); radius > 0.0) {
-            material.thickness = radius;
-        }
-        material_ = scene.addMaterial(std::move(material));
+        material_ = scene.addMaterial(liquidMaterial(lookOf(options.material), meanRadius(spans)));
         const bool moves = !options.poses.empty();
         root_ = scene.addNode({"droplets"}, moves ? std::optional(options.ground) : std::nullopt);
         for (const Vec3& corner : options.corners) {

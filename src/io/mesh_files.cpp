@@ -24,9 +24,9 @@
 #include "droplet/version.h"
 #include "io/dry_surface.h"
 #include "io/length_unit.h"
-#include "io/welded_vertices.h"
 #include "require.h"
 #include "scene/preview_opacity.h"
+#include "scene/welded_vertices.h"
 
 namespace droplet {
 namespace {
@@ -92,7 +92,7 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptio
         requireName("options.looks' name", look.name);
     }
     const NamedUnit& unit = namedUnit(options.unit);
-    const WeldedVertices welded = weldVertices(surface);
+    const WeldedVertices welded = weldVertices(surface.weld);
     ByteStream bytes(out);
     bytes.text("# " + signature() + "\n# unit: " + std::string(unit.name) + ", up: +Y, front: +Z\n");
     if (options.material_file) {
@@ -181,7 +181,7 @@ std::uint64_t writeMtl(const std::vector<Look>& looks, std::ostream& out)
 std::uint64_t writePly(const Surface& surface, std::ostream& out)
 {
     validateUnlessDry(surface);
-    const WeldedVertices welded = weldVertices(surface);
+    const WeldedVertices welded = weldVertices(surface.weld);
     if (welded.first.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
         throw Error(ErrorCode::InvalidArgument,
                     "surface has " + std::to_string(welded.first.size()) + " vertices; PLY allows at most 2147483647");

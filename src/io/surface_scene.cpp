@@ -146,11 +146,8 @@ Scene sceneOf(const Surface& surface, const SurfaceSceneOptions& options)
         const std::optional<Surface> own =
             groups.size() == 1 ? std::nullopt : std::optional(extract(surface, group.parts));
         const Surface& part = own ? *own : surface;
-        SceneMaterial material{group.look};
-        if (options.closed && part.mean_height > 0.0) {
-            material.thickness = part.mean_height;
-        }
-        geometries.push_back(geometryOf(part, scene.addMaterial(std::move(material))));
+        const double thickness = options.closed ? part.mean_height : 0.0;
+        geometries.push_back(geometryOf(part, scene.addMaterial(liquidMaterial(group.look, thickness))));
         if (group.droplet) {
             addNode(scene, std::exchange(geometries, {}), part, group.droplet);
         }

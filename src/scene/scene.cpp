@@ -8,6 +8,11 @@
 
 namespace droplet {
 
+SceneMaterial liquidMaterial(const Look& look, double thickness)
+{
+    return {look, thickness > 0.0 ? std::optional(thickness) : std::nullopt};
+}
+
 std::size_t Scene::addNode(SceneNode node, std::optional<std::size_t> parent)
 {
     const std::size_t index = nodes.size();

@@ -30,6 +30,10 @@ struct SceneMaterial {
     bool both_sides = false;  ///< whether triangles are also seen from behind
 };
 
+/// Material of a liquid.
+/// @param thickness  under a closed surface [m]; 0: no inside
+SceneMaterial liquidMaterial(const Look& look, double thickness);
+
 /// Triangles of one material.
 struct ScenePart {
     std::size_t material = 0;  ///< index

@@ -24,6 +24,7 @@
 #include "droplet/printable.h"
 #include "droplet/version.h"
 #include "scene/preview_opacity.h"
+#include "scene/welded_vertices.h"
 
 namespace droplet {
 namespace {
@@ -173,6 +174,12 @@ double timeCode(float seconds, double frames_per_second)
     return std::round(kParts * static_cast<double>(seconds) * frames_per_second) / kParts;
 }
 
+Float3 unit(const Float3& n)
+{
+    const float size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    return {n[0] / size, n[1] / size, n[2] / size};
+}
+
 /// Samples of an attribute over time.
 struct Samples {
     std::vector<double> codes;
@@ -236,19 +243,14 @@ public:
 
     /// @param weights  track of its targets; null: none
     MeshWriter(const Scene& scene, const SceneMesh& mesh, const SceneTrack* weights, ByteStream& bytes)
-        : scene_(scene), geometry_(joined(mesh)), weights_(weights), bytes_(bytes)
+        : scene_(scene),
+          geometry_(joined(mesh)),
+          weights_(weights),
+          bytes_(bytes),
+          welded_(weldVertices(geometry_.weld))
     {
         for (const ScenePart& part : geometry_.parts) {
             triangles_.insert(triangles_.end(), part.triangles.begin(), part.triangles.end());
-        }
-        number_.resize(geometry_.weld.size());
-        for (std::uint32_t v = 0; v < number_.size(); ++v) {
-            if (geometry_.weld[v] == v) {
-                number_[v] = static_cast<std::uint32_t>(first_.size());
-                first_.push_back(v);
-            } else {
-                number_[v] = number_[geometry_.weld[v]];
-            }
         }
     }
 
@@ -264,31 +266,32 @@ public:
             bytes_.text(indent_ + "uniform bool doubleSided = 1\n");
         }
         bytes_.text(indent_ + "float3[] extent");
-        overTime([&](const SceneGeometry& geometry) { writeExtent(geometry); });
+        overTime(&SceneGeometry::positions, &SceneTarget::positions,
+                 [&](const Vectors& positions) { writeExtent(positions); });
         attribute("int[] faceVertexCounts", triangles_.size(), [](std::size_t) { return std::uint32_t{3}; });
-        attribute("int[] faceVertexIndices", corners(), [&](std::size_t i) { return number_[vertexAt(i)]; });
+        attribute("int[] faceVertexIndices", corners(), [&](std::size_t i) { return welded_.number[vertexAt(i)]; });
         // Subsets go before it; readers that do not know them show it.
         bytes_.text("\n" + indent_ + "rel material:binding = <" +
                     place.material_paths[geometry_.parts.front().material] + ">\n" + indent_ +
                     "uniform token orientation = \"rightHanded\"\n" + indent_ + "point3f[] points");
-        overTime([&](const SceneGeometry& geometry) {
-            writeList(bytes_, first_.size(), [&](std::size_t i) { return geometry.positions[first_[i]]; });
+        overTime(&SceneGeometry::positions, &SceneTarget::positions, [&](const Vectors& positions) {
+            writeList(bytes_, welded_.first.size(), [&](std::size_t i) { return positions[welded_.first[i]]; });
         });
         if (!geometry_.angles.empty()) {
-            attribute("float[] primvars:contact_angle", first_.size(),
-                      [&](std::size_t i) { return geometry_.angles[first_[i]]; });
+            attribute("float[] primvars:contact_angle", welded_.first.size(),
+                      [&](std::size_t i) { return geometry_.angles[welded_.first[i]]; });
             interpolate("vertex");
         }
         bytes_.text("\n" + indent_ + "normal3f[] primvars:normals");
-        const auto write_normals = [&](const SceneGeometry& geometry) {
-            writeList(bytes_, geometry.normals.size(), [&](std::size_t i) { return geometry.normals[i]; });
+        const auto write_normals = [&](const Vectors& normals) {
+            writeList(bytes_, normals.size(), [&](std::size_t i) { return weights_ ? unit(normals[i]) : normals[i]; });
         };
         if (weights_) {
             bytes_.text(" (\n" + indent_ + "    interpolation = \"faceVarying\"\n" + indent_ + ")\n" + indent_ +
                         "normal3f[] primvars:normals");
-            overTime(write_normals);
+            overTime(&SceneGeometry::normals, &SceneTarget::normals, write_normals);
         } else {
-            overTime(write_normals);
+            overTime(&SceneGeometry::normals, &SceneTarget::normals, write_normals);
             interpolate("faceVarying");
         }
         attribute("int[] primvars:normals:indices", corners(), [&](std::size_t i) { return vertexAt(i); });
@@ -329,42 +332,36 @@ private:
         writeList(bytes_, count, value_of);
     }
 
-    /// Writes a value of the vertices, or its samples where weights change.
+    using Vectors = std::vector<Float3>;
+
+    /// Writes a value of the positions or normals, or its samples where weights change.
     template <class WriteValue>
-    void overTime(const WriteValue& write_value)
+    void overTime(Vectors SceneGeometry::*base, Vectors SceneTarget::*change, const WriteValue& write_value)
     {
         if (!weights_) {
             bytes_.text(" = ");
-            write_value(geometry_);
+            write_value(geometry_.*base);
             return;
         }
         writeSamples(bytes_, indent_, samplesOf(*weights_, scene_),
-                     [&](std::size_t key) { write_value(shapeAt(key)); });
+                     [&](std::size_t key) { write_value(vectorsAt(key, base, change)); });
     }
 
-    /// Positions and normals at a key of the weights.
-    [[nodiscard]] SceneGeometry shapeAt(std::size_t key) const
+    /// Positions or normals at a key of the weights.
+    [[nodiscard]] Vectors vectorsAt(std::size_t key, Vectors SceneGeometry::*base, Vectors SceneTarget::*change) const
     {
-        SceneGeometry shape{geometry_.positions, geometry_.normals};
+        Vectors vectors = geometry_.*base;
         const std::size_t targets = geometry_.targets.size();
         for (std::size_t k = 0; k < targets; ++k) {
-            if (const float weight = weights_->values[key * targets + k]; weight != 0.0F) {
-                const auto add = [weight](std::vector<Float3>& to, const std::vector<Float3>& changes) {
-                    for (std::size_t v = 0; v < to.size(); ++v) {
-                        for (std::size_t i = 0; i < 3; ++i) {
-                            to[v][i] += weight * changes[v][i];
-                        }
-                    }
-                };
-                add(shape.positions, geometry_.targets[k].positions);
-                add(shape.normals, geometry_.targets[k].normals);
+            const float weight = weights_->values[key * targets + k];
+            const Vectors& changes = geometry_.targets[k].*change;
+            for (std::size_t v = 0; weight != 0.0F && v < vectors.size(); ++v) {
+                for (std::size_t i = 0; i < 3; ++i) {
+                    vectors[v][i] += weight * changes[v][i];
+                }
             }
         }
-        for (Float3& n : shape.normals) {
-            const float size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-            n = {n[0] / size, n[1] / size, n[2] / size};
-        }
-        return shape;
+        return vectors;
     }
 
     void interpolate(std::string_view kind)
@@ -374,11 +371,11 @@ private:
         bytes_.text("\"\n" + indent_ + ")");
     }
 
-    void writeExtent(const SceneGeometry& geometry)
+    void writeExtent(const Vectors& positions)
     {
-        Float3 low = geometry.positions.front();
+        Float3 low = positions.front();
         Float3 high = low;
-        for (const Float3& point : geometry.positions) {
+        for (const Float3& point : positions) {
             for (std::size_t k = 0; k < point.size(); ++k) {
                 low[k] = std::min(low[k], point[k]);
                 high[k] = std::max(high[k], point[k]);
@@ -418,7 +415,7 @@ private:
         }
         constexpr std::string_view kDeclaration = "texCoord2f[] primvars:st";
         if (is_shared) {
-            attribute(kDeclaration, first_.size(), [&](std::size_t i) { return texture(first_[i]); });
+            attribute(kDeclaration, welded_.first.size(), [&](std::size_t i) { return texture(welded_.first[i]); });
             interpolate("vertex");
         } else {
             attribute(kDeclaration, geometry_.uvs.size(), texture);
@@ -432,9 +429,8 @@ private:
     const SceneTrack* weights_;
     ByteStream& bytes_;
     std::string indent_;
+    WeldedVertices welded_;
     std::vector<Triangle> triangles_;
-    std::vector<std::uint32_t> first_;   ///< for each welded vertex, a vertex
-    std::vector<std::uint32_t> number_;  ///< for each vertex, its welded vertex
 };
 
 /// @param has_picture  whether the colours of the picture multiply that of the look

@@ -97,11 +97,7 @@ public:
     {
         Scene scene;
         addGlass(scene, pane_);
-        SceneMaterial liquid{lookOf(options_.material)};
-        if (mean_radius_ > 0.0) {
-            liquid.thickness = mean_radius_;
-        }
-        const std::size_t material = scene.addMaterial(std::move(liquid));
+        const std::size_t material = scene.addMaterial(liquidMaterial(lookOf(options_.material), mean_radius_));
         SceneNode node{"droplets", scene.addMesh(sceneMesh(cap_, "droplet", material))};
         node.scale = {0.0, 0.0, 0.0};  // invisible without the shader that places the droplets
         node.properties = mapping();

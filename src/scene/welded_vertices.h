@@ -4,27 +4,27 @@
 #include <cstdint>
 #include <vector>
 
-#include "droplet/surface/surface.h"
 #include "droplet/vector.h"
 
 namespace droplet {
 
 /// Welded vertices, numbered in order of first appearance.
 struct WeldedVertices {
-    std::vector<std::uint32_t> first;   ///< for each welded vertex, a vertex of the surface
-    std::vector<std::uint32_t> number;  ///< for each vertex of the surface, its welded vertex
+    std::vector<std::uint32_t> first;   ///< for each welded vertex, a vertex
+    std::vector<std::uint32_t> number;  ///< for each vertex, its welded vertex
 };
 
-inline WeldedVertices weldVertices(const Surface& surface)
+/// @param weld  smallest index of a vertex at the same place
+inline WeldedVertices weldVertices(const std::vector<std::uint32_t>& weld)
 {
     WeldedVertices welded;
-    welded.number.resize(surface.weld.size());
-    for (std::uint32_t i = 0; i < surface.weld.size(); ++i) {
-        if (surface.weld[i] == i) {
+    welded.number.resize(weld.size());
+    for (std::uint32_t i = 0; i < weld.size(); ++i) {
+        if (weld[i] == i) {
             welded.number[i] = static_cast<std::uint32_t>(welded.first.size());
             welded.first.push_back(i);
         } else {
-            welded.number[i] = welded.number[surface.weld[i]];
+            welded.number[i] = welded.number[weld[i]];
         }
     }
     return welded;
