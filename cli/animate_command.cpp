@@ -2,10 +2,10 @@
 #include "animate_command.h"
 
 #include <fmt/core.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -23,6 +23,7 @@
 #include "droplet/units.h"
 #include "droplet_report.h"
 #include "files.h"
+#include "film.h"
 #include "mask_shape.h"
 #include "progress_display.h"
 #include "shape_command.h"
@@ -65,7 +66,12 @@ std::string compactList(const std::vector<std::size_t>& numbers)
 class Sequence {
 public:
     Sequence(const AnimateOptions& options, Frames& frames, ProgressDisplay& display)
-        : options_(options), frames_(frames), display_(display), around_(readSurroundings(options.settings))
+        : options_(options),
+          frames_(frames),
+          count_(frames.count()),
+          display_(display),
+          film_({}, options.run.files, display),
+          around_(readSurroundings(options.settings))
     {
         report_.inputs = options.inputs;
         report_.output = options.output;
@@ -89,18 +95,16 @@ public:
 
     droplet::SequenceReport make()
     {
-        beginFrame();
-        while (const auto picture = frames_.next(options_.footprint.mask)) {
-            try {
-                add(*picture);
-            } catch (const Error& error) {
-                if (error.code() == ErrorCode::InvalidInput || error.code() == ErrorCode::NoSuchDroplet) {
-                    throw Error(error.code(), picture->name + ": " + error.what());
-                }
-                throw;
-            }
-            beginFrame();
-        }
+        film_.write(
+            {}, [this](std::ostream* /*table*/) { run(); }, files());
+        finish();
+        return std::move(report_);
+    }
+
+private:
+    void run()
+    {
+        film_.make(0, {[this](std::size_t number) { return frame(number); }});
         if (report_.dry() == report_.frames.size()) {
             throw Error(
                 ErrorCode::InvalidInput,
@@ -111,21 +115,33 @@ public:
         warnOfDisagreement();
         warnOfFlatFrames();
         progress_(Stage::Write, 0.0);
-        save();
-        return std::move(report_);
+        if (options_.preview_files) {
+            writePreviewPictures();
+        }
     }
 
-private:
-    void beginFrame()
+    std::optional<std::function<void()>> frame(std::size_t number)
     {
-        const std::size_t number = report_.frames.size() + 1;
-        const auto count = frames_.count();
-        display_.restart(count ? fmt::format("frame {} of {}", std::min(number, *count), *count)
-                               : fmt::format("frame {}", number));
+        display_.restart(count_ ? fmt::format("frame {} of {}", std::min(number, *count_), *count_)
+                                : fmt::format("frame {}", number));
         progress_(Stage::Read, 0.0);
+        const auto picture = frames_.next(options_.footprint.mask);
+        if (!picture) {
+            return std::nullopt;
+        }
+        try {
+            return add(*picture);
+        } catch (const Error& error) {
+            if (error.code() == ErrorCode::InvalidInput || error.code() == ErrorCode::NoSuchDroplet) {
+                throw Error(error.code(), picture->name + ": " + error.what());
+            }
+            throw;
+        }
     }
 
-    void add(const FramePicture& picture)
+    /// Makes the droplets of a frame.
+    /// @return what writes and keeps them
+    std::function<void()> add(const FramePicture& picture)
     {
         if (report_.frames.empty()) {
             sequence_ = beginSequence(picture.mask, options_, around_, report_);
@@ -141,62 +157,78 @@ private:
         if (!outline.loops.empty()) {
             refuseTooShortEdge(coveredArea(outline), sequence_.droplet);
         }
-        frame_ = frame_ ? nextFrame(*frame_, std::move(outline), sequence_, progress_)
-                        : firstFrame(std::move(outline), sequence_, progress_);
+        frame_ = std::make_shared<const Frame>(frame_ ? nextFrame(*frame_, std::move(outline), sequence_, progress_)
+                                                      : firstFrame(std::move(outline), sequence_, progress_));
         droplet::FrameReport report = reportOf(*frame_, sequence_);
         report.input = picture.name;
         for (std::size_t i = 0; i < frame_->droplet.warnings.size(); ++i) {
             warn(picture.name, frame_->droplet.warnings[i], i < frame_->droplet.severe_warnings);
         }
+        // Files of leading frames without liquid are written with the first frame that has some, so that a sequence
+        // without liquid writes nothing.
+        std::vector<std::string> dry_files;
+        bool is_written = false;
         if (options_.files) {
-            progress_(Stage::Write, 0.0);
             report.output = options_.files->at(picture.number);
-            writeFrame(*report.output, report.closed);
-        }
-        if (animation_ && frame_->droplets.empty()) {
-            animation_->addDry();
-        } else if (animation_) {
-            animation_->add(frame_->droplet.surface, frame_->continues);
-        }
-        if (options_.contact_sheet || options_.preview) {
-            const auto surface = std::make_shared<const droplet::Surface>(frame_->droplet.surface);
-            bounds_ = droplet::around(*surface, bounds_);
-            if (options_.preview) {
-                preview_frames_.push_back({surface, picture.number});
-            }
-            if (options_.contact_sheet) {
-                keepForSheet(report, surface);
+            const bool is_first_wet = report_.dry() == report_.frames.size();
+            is_written = !is_first_wet || !frame_->droplets.empty();
+            for (const droplet::FrameReport& earlier : report_.frames) {
+                if (is_first_wet && is_written) {
+                    dry_files.push_back(*earlier.output);
+                }
             }
         }
-        report_.frames.push_back(std::move(report));
+        report_.frames.push_back(report);
+        return [this, frame = frame_, report = std::move(report), number = report_.frames.size(),
+                picture_number = picture.number, dry_files = std::move(dry_files), is_written] {
+            // The surface lives as long as the frame.
+            const std::shared_ptr<const droplet::Surface> surface(frame, &frame->droplet.surface);
+            for (const std::string& file : dry_files) {
+                writeFrame(file, std::make_shared<const droplet::Surface>(), report.closed);
+            }
+            if (is_written) {
+                writeFrame(*report.output, surface, report.closed);
+            }
+            keep(*frame, report, number, picture_number);
+        };
     }
 
-    /// Writes a frame's file. Files of leading frames without liquid are written with the first frame that has some, so
-    /// that a sequence without liquid writes nothing.
-    void writeFrame(const std::string& path, bool closed)
+    void writeFrame(const std::string& path, const std::shared_ptr<const droplet::Surface>& surface, bool closed)
     {
-        const auto write = [&](const std::string& file, const droplet::Surface& surface) {
-            std::uint64_t bytes = 0;
-            writeTogether(surfaceFiles(surface,
-                                       {file,
-                                        options_.format,
-                                        {.material = options_.settings.material,
-                                         .closed = closed,
-                                         .unit = options_.settings.unit,
-                                         .compression = options_.compression}},
-                                       bytes),
-                          options_.run.files);
-            report_.bytes += bytes;
+        std::vector<OutputFile> files = surfaceFiles(*surface,
+                                                     {path,
+                                                      options_.format,
+                                                      {.material = options_.settings.material,
+                                                       .closed = closed,
+                                                       .unit = options_.settings.unit,
+                                                       .compression = options_.compression}},
+                                                     bytes_);
+        // The first one is that of the surface, which has to live until it is written.
+        files.front().write = [this, surface, write = std::move(files.front().write)](std::ostream& out) {
+            write(out);
+            report_.bytes += bytes_;
         };
-        if (report_.dry() == report_.frames.size()) {
-            if (frame_->droplets.empty()) {
-                return;
+        film_.save(std::move(files));
+    }
+
+    /// Keeps a frame for the files of the whole run.
+    void keep(const Frame& frame, const droplet::FrameReport& report, std::size_t number, std::size_t picture_number)
+    {
+        if (animation_ && frame.droplets.empty()) {
+            animation_->addDry();
+        } else if (animation_) {
+            animation_->add(frame.droplet.surface, frame.continues);
+        }
+        if (options_.contact_sheet || options_.preview) {
+            const auto surface = std::make_shared<const droplet::Surface>(frame.droplet.surface);
+            bounds_ = droplet::around(*surface, bounds_);
+            if (options_.preview) {
+                preview_frames_.push_back({surface, picture_number});
             }
-            for (const droplet::FrameReport& earlier : report_.frames) {
-                write(*earlier.output, {});
+            if (options_.contact_sheet) {
+                keepForSheet(report, number - 1, surface);
             }
         }
-        write(path, frame_->droplet.surface);
     }
 
     /// Maximum number of frames on the contact sheet.
@@ -210,10 +242,11 @@ private:
 
     /// Keeps a frame's surface until all frames are known, because they share one camera. If the number of frames is
     /// unknown, at most twice the sheet's number is kept, evenly spaced.
-    void keepForSheet(const droplet::FrameReport& report, const std::shared_ptr<const droplet::Surface>& surface)
+    /// @param number  number of frames before
+    void keepForSheet(const droplet::FrameReport& report, std::size_t number,
+                      const std::shared_ptr<const droplet::Surface>& surface)
     {
-        const std::size_t number = report_.frames.size();
-        const std::size_t count = frames_.count().value_or(0);
+        const std::size_t count = count_.value_or(0);
         if (!isChosen(number, count) || number % sheet_step_ != 0) {
             return;
         }
@@ -265,9 +298,9 @@ private:
     {
         const droplet::RenderOptions render = cameraOf(*options_.preview);
         for (const PreviewFrame& frame : preview_frames_) {
-            droplet::writeAtomically(
-                options_.preview_files->at(frame.number),
-                [&](std::ostream& out) { droplet::writePng(draw(*frame.surface, render), out); }, options_.run.files);
+            auto picture = std::make_shared<const droplet::Picture>(draw(*frame.surface, render));
+            film_.save({{options_.preview_files->at(frame.number),
+                         [picture = std::move(picture)](std::ostream& out) { droplet::writePng(*picture, out); }}});
         }
     }
 
@@ -344,34 +377,31 @@ private:
         }
     }
 
-    void save()
+    /// Files of the whole run.
+    std::vector<OutputFile> files()
     {
-        if (options_.preview_files) {
-            writePreviewPictures();
-        }
         std::vector<OutputFile> files;
         if (options_.hasVideo()) {
-            files.push_back({options_.preview->path, [&](std::ostream& out) { writePreviewVideo(out); }});
+            files.push_back({options_.preview->path, [this](std::ostream& out) { writePreviewVideo(out); }});
         }
         if (!options_.files) {
-            files.push_back({options_.output, [&](std::ostream& out) {
+            files.push_back({options_.output, [this](std::ostream& out) {
                                  report_.bytes = animation_->write(out, {options_.format, options_.compression});
                              }});
         }
         if (options_.contact_sheet) {
-            files.push_back({*options_.contact_sheet, [&](std::ostream& out) { droplet::writePng(sheet(), out); }});
+            files.push_back({*options_.contact_sheet, [this](std::ostream& out) { droplet::writePng(sheet(), out); }});
         }
         if (options_.html) {
-            files.push_back({*options_.html, [&](std::ostream& out) { writeHtml(out); }});
+            files.push_back({*options_.html, [this](std::ostream& out) { writeHtml(out); }});
         }
         if (options_.json) {
-            files.push_back({*options_.json, [&](std::ostream& out) {
+            files.push_back({*options_.json, [this](std::ostream& out) {
                                  finish();
                                  writeSequenceReport(out, report_);
                              }});
         }
-        writeTogether(files, options_.run.files);
-        finish();
+        return files;
     }
 
     void writeHtml(std::ostream& out)
@@ -398,14 +428,17 @@ private:
 
     const AnimateOptions& options_;
     Frames& frames_;
+    std::optional<std::size_t> count_;  ///< of the frames, if it is known beforehand
     ProgressDisplay& display_;
     const droplet::Progress progress_ = [this](Stage stage, double share) { display_.begin(stage, share); };
+    Film film_;
     StageClock clock_;
     Surroundings around_;
     droplet::SequenceOptions sequence_;
     std::optional<VideoWriterOptions> video_;  ///< of the preview
     std::optional<droplet::Animation> animation_;
-    std::optional<Frame> frame_;
+    std::shared_ptr<const Frame> frame_;    ///< the last one
+    std::uint64_t bytes_ = 0;               ///< of the file that is written
     std::vector<std::size_t> disagreeing_;  ///< numbers of frames
     std::set<std::string> warned_;          ///< kinds of warnings so far
     struct SheetFrame {
@@ -469,18 +502,6 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
     return text.str();
 }
 
-void printSummary(const droplet::SequenceReport& report, const RunOptions& run)
-{
-    const bool is_quiet = run.verbosity == Verbosity::Quiet;
-    if (!is_quiet && run.progress != ProgressMode::Json) {
-        std::cerr << summaryOf(report, run.verbosity == Verbosity::Verbose) << std::flush;
-    }
-    const std::size_t printed = is_quiet ? report.severe_warnings : report.warnings.size();
-    for (std::size_t i = 0; i < printed; ++i) {
-        printWarning(report.warnings[i], run.progress);
-    }
-}
-
 }  // namespace
 
 droplet::SequenceOptions beginSequence(const droplet::Mask& mask, const AnimateOptions& options,
@@ -526,18 +547,10 @@ RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers)
     return files;
 }
 
-void makeAnimation(const AnimateOptions& options, Frames& frames)
+FilmEnd makeAnimation(const AnimateOptions& options, Frames& frames, ProgressDisplay& progress)
 {
-    std::optional<tbb::global_control> threads;
-    if (options.run.threads) {
-        threads.emplace(tbb::global_control::max_allowed_parallelism, *options.run.threads);
-    }
-    ProgressDisplay progress(options.run.verbosity == Verbosity::Quiet && options.run.progress == ProgressMode::Auto
-                                 ? ProgressMode::None
-                                 : options.run.progress);
     const droplet::SequenceReport report = Sequence(options, frames, progress).make();
-    progress.finish();
-    printSummary(report, options.run);
+    return {summaryOf(report, options.run.verbosity == Verbosity::Verbose), report.warnings, report.severe_warnings};
 }
 
 int runAnimate(int argc, const char* const* argv)
@@ -554,9 +567,8 @@ int runAnimate(int argc, const char* const* argv)
     for (const std::string& file : frames.files()) {
         files.reads("INPUT", file);
     }
-    checkFiles(files, options.run.files);
-    makeAnimation(options, frames);
-    return 0;
+    return runFilm(options.run, files,
+                   [&](ProgressDisplay& progress) { return makeAnimation(options, frames, progress); });
 }
 
 }  // namespace cli

@@ -5,7 +5,9 @@
 #include "droplet/footprint/mask.h"
 #include "droplet/sequence/sequence.h"
 #include "droplet/sequence/sequence_report.h"
+#include "film.h"
 #include "frames.h"
+#include "progress_display.h"
 #include "run_files.h"
 #include "surroundings.h"
 
@@ -27,6 +29,6 @@ RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers);
 
 /// Makes droplets of frames and writes them. The files have been checked.
 /// @throws droplet::Error as runAnimate()
-void makeAnimation(const AnimateOptions& options, Frames& frames);
+FilmEnd makeAnimation(const AnimateOptions& options, Frames& frames, ProgressDisplay& progress);
 
 }  // namespace cli

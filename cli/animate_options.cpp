@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "animate_options.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -78,9 +76,8 @@ void readSequencePreview(const CommandLine& line, AnimateOptions& options)
     if (options.preview_files ? std::filesystem::path(preview.path).extension() != ".png" : !isVideo(preview.path)) {
         refuse(*path, "pictures such as out/%04d.png, or a video: .mp4, .mkv, .mov, .webm");
     }
-    if (!options.preview_files && (preview.width % 2 != 0 || preview.height % 2 != 0)) {
-        refuse(fmt::format("--preview-size: a video's frame must have even sides, not {}x{}", preview.width,
-                           preview.height));
+    if (!options.preview_files) {
+        requireEvenSides("--preview-size", preview.width, preview.height);
     }
     options.preview = preview;
 }

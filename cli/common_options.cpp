@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common_options.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "droplet/version.h"
 #include "option_values.h"
 
@@ -61,6 +65,45 @@ std::optional<std::size_t> readThreads(const CommandLine& line)
     constexpr std::size_t kMaxThreads = 1024;  // more than any machine this runs on
     const auto threads = line.value("--threads");
     return threads ? std::optional(count(*threads, kMaxThreads, "1024")) : std::nullopt;
+}
+
+RunOptions readRun(const CommandLine& line)
+{
+    const auto flag = [&](const char* name) { return line.knows(name) && line.flag(name); };
+    RunOptions options;
+    if (const auto config = line.value("--config")) {
+        options.config = config->text;
+    }
+    options.files.no_clobber = flag("--no-clobber");
+    options.threads = readThreads(line);
+    options.verbosity = line.flag("--quiet") ? Verbosity::Quiet
+                        : flag("--verbose")  ? Verbosity::Verbose
+                                             : Verbosity::Normal;
+    if (const auto progress = line.value("--progress")) {
+        options.progress = choice<ProgressMode>(
+            *progress, {{"auto", ProgressMode::Auto}, {"none", ProgressMode::None}, {"json", ProgressMode::Json}});
+    }
+    return options;
+}
+
+ProgressMode RunOptions::shownProgress() const
+{
+    return verbosity == Verbosity::Quiet && progress == ProgressMode::Auto ? ProgressMode::None : progress;
+}
+
+std::string optionsOfFrames(const CommandLine& line, const std::string& output, const std::vector<std::string>& neutral)
+{
+    constexpr std::array<std::string_view, 8> kRun{"--time",  "--resume", "--no-clobber", "--threads",
+                                                   "--quiet", "--config", "--json",       "--progress"};
+    std::string text = std::string("droplet-shape ") + droplet::kVersion + "\n" + output;
+    for (const auto& [name, value] : line.given()) {
+        const bool is_neutral = std::find(kRun.begin(), kRun.end(), name) != kRun.end() ||
+                                std::find(neutral.begin(), neutral.end(), name) != neutral.end();
+        if (!is_neutral) {
+            text.append("\n").append(name).append(" ").append(value);
+        }
+    }
+    return text;
 }
 
 }  // namespace cli

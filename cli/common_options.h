@@ -4,17 +4,39 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command_line.h"
+#include "droplet/io/output.h"
 #include "droplet/scene/format.h"
 
 namespace cli {
+
+enum class Verbosity { Quiet, Normal, Verbose };
+
+enum class ProgressMode {
+    Auto,  ///< a bar on a terminal, after one second
+    None,
+    Json,  ///< a line of JSON per stage, no summary
+};
+
+/// Options of every run.
+struct RunOptions {
+    std::optional<std::string> config;  ///< path of the configuration file
+    droplet::OutputOptions files;
+    std::optional<std::size_t> threads;
+    Verbosity verbosity = Verbosity::Normal;
+    ProgressMode progress = ProgressMode::Auto;
+
+    /// Progress to show: none of a quiet run that does not ask for it.
+    [[nodiscard]] ProgressMode shownProgress() const;
+};
 
 /// Declares --threads, --quiet, --config, --help and --version.
 /// @param example  line of a configuration file, for the help
 void declareCommon(CommandLine& line, const char* group, const std::string& example);
 
-/// Declares --progress of a command that makes frames; readProgress() reads it.
+/// Declares --progress of a command that makes frames.
 void declareFrameProgress(CommandLine& line, const char* group);
 
 /// Declares --compress; readCompression() reads it.
@@ -31,5 +53,14 @@ std::optional<std::string> requestedText(const CommandLine& line);
 /// Value of --threads; empty for all cores.
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 std::optional<std::size_t> readThreads(const CommandLine& line);
+
+/// Reads --threads, --quiet, --verbose, --progress, --no-clobber and --config, as far as the command has them.
+/// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
+RunOptions readRun(const CommandLine& line);
+
+/// Text of the given options that decide what the frames of a film show: all but those of every run, and `neutral`.
+/// @param output  path of the frames
+std::string optionsOfFrames(const CommandLine& line, const std::string& output,
+                            const std::vector<std::string>& neutral = {});
 
 }  // namespace cli

@@ -555,31 +555,4 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
     }
 }
 
-RunOptions readRun(const CommandLine& line)
-{
-    RunOptions options;
-    constexpr std::size_t kMaxThreads = 1024;  // more than any machine this runs on
-    if (const auto config = line.value("--config")) {
-        options.config = config->text;
-    }
-    options.files.no_clobber = line.flag("--no-clobber");
-    if (const auto threads = line.value("--threads")) {
-        options.threads = count(*threads, kMaxThreads, "1024");
-    }
-    options.verbosity = line.flag("--quiet")     ? Verbosity::Quiet
-                        : line.flag("--verbose") ? Verbosity::Verbose
-                                                 : Verbosity::Normal;
-    options.progress = readProgress(line);
-    return options;
-}
-
-ProgressMode readProgress(const CommandLine& line)
-{
-    const auto progress = line.value("--progress");
-    return progress ? choice<ProgressMode>(
-                          *progress,
-                          {{"auto", ProgressMode::Auto}, {"none", ProgressMode::None}, {"json", ProgressMode::Json}})
-                    : ProgressMode::Auto;
-}
-
 }  // namespace cli

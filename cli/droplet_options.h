@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "common_options.h"
 #include "droplet/droplet.h"
 #include "droplet/footprint/mask.h"
 #include "droplet/io/gltf.h"
@@ -58,23 +59,6 @@ struct DropletSettings {
     std::vector<std::string> warnings;                           ///< options without effect
 };
 
-enum class Verbosity { Quiet, Normal, Verbose };
-
-enum class ProgressMode {
-    Auto,  ///< a bar on a terminal, after one second
-    None,
-    Json,  ///< a line of JSON per stage, no summary
-};
-
-/// Options of every run.
-struct RunOptions {
-    std::optional<std::string> config;  ///< path of the configuration file
-    droplet::OutputOptions files;
-    std::optional<std::size_t> threads;
-    Verbosity verbosity = Verbosity::Normal;
-    ProgressMode progress = ProgressMode::Auto;
-};
-
 // Each command declares its groups of options in the order of its help, and reads them after parsing.
 
 void declareFootprint(CommandLine& line);
@@ -100,11 +84,6 @@ FootprintOptions readFootprint(const CommandLine& line);
 std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector<std::string>& warnings);
 /// Reads the options of liquid, ground and surface.
 DropletSettings readDroplet(const CommandLine& line);
-RunOptions readRun(const CommandLine& line);
-
-/// Reads --progress.
-/// @throws droplet::Error InvalidArgument
-ProgressMode readProgress(const CommandLine& line);
 
 /// Adds warnings about options that have no effect on a format.
 /// @param is_shown  whether another output, such as a preview, shows the material

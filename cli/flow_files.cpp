@@ -31,7 +31,7 @@ RunFiles filesOf(const FlowOptions& options)
 {
     RunFiles files;
     addInputs(files, options);
-    files.reads("--config", options.config);
+    files.reads("--config", options.run.config);
     const FrameNumbers numbers{1, frameCount(options)};
     if (options.files) {
         files.writesFrames("OUTPUT", *options.files, numbers);

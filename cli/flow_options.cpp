@@ -9,7 +9,6 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "droplet/units.h"
-#include "droplet/version.h"
 #include "files.h"
 #include "force_options.h"
 #include "option_values.h"
@@ -499,8 +498,8 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     readView(line, options.view);
     const bool is_video = options.kind == FlowOutput::Video || (options.has_preview && isVideo(options.view.path));
     options.encoding = readVideoEncoding(line, is_video, "OUTPUT or --preview, not '" + options.output + "'");
-    if (is_video && (options.view.width % 2 != 0 || options.view.height % 2 != 0)) {
-        refuse("--preview-size: a video's frame must have even sides");
+    if (is_video) {
+        requireEvenSides("--preview-size", options.view.width, options.view.height);
     }
     if (const auto shape = line.value("--shape")) {
         options.shape = choice<droplet::BodyShape>(*shape, {{"capillary", droplet::BodyShape::Capillary},
@@ -573,22 +572,8 @@ std::variant<FlowOptions, std::string> parseFlow(int argc, const char* const* ar
     if (const auto rate = line.value("--fps")) {
         options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
     }
-    if (const auto config = line.value("--config")) {
-        options.config = config->text;
-    }
-    options.threads = readThreads(line);
-    options.output_options.no_clobber = line.flag("--no-clobber");
-    options.quiet = line.flag("--quiet");
-    options.progress = readProgress(line);
-    // These options do not change what a frame shows.
-    const std::set<std::string> neutral{"--time",   "--resume", "--no-clobber", "--threads", "--quiet",
-                                        "--config", "--json",   "--droplets",   "--progress"};
-    options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output;
-    for (const auto& [name, value] : line.given()) {
-        if (neutral.count(name) == 0) {
-            options.fingerprint.append("\n").append(name).append(" ").append(value);
-        }
-    }
+    options.run = readRun(line);
+    options.fingerprint = optionsOfFrames(line, options.output, {"--droplets"});
     return options;
 }
 

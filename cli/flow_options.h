@@ -8,14 +8,13 @@
 #include <variant>
 #include <vector>
 
+#include "common_options.h"
 #include "droplet/body/droplet_body.h"
 #include "droplet/flow/flow_parameters.h"
 #include "droplet/flow_io/flow_ground.h"
 #include "droplet/flow_io/flow_object.h"
 #include "droplet/flow_io/flow_presets.h"
-#include "droplet/io/output.h"
 #include "droplet/surface/material.h"
-#include "droplet_options.h"
 #include "numbered_path.h"
 #include "preview.h"
 #include "video_encoding.h"
@@ -69,12 +68,8 @@ struct FlowOptions {
     std::optional<double> duration;  ///< [s]; empty: the preset's, or 5 s
     double frames_per_second = 30.0;
     bool resume = false;
-    std::string fingerprint;  ///< all options that decide what the frames show
-    std::optional<std::string> config;
-    std::optional<std::size_t> threads;
-    droplet::OutputOptions output_options;
-    ProgressMode progress = ProgressMode::Auto;
-    bool quiet = false;
+    std::string fingerprint;  ///< all options that decide what the frames show, as of optionsOfFrames()
+    RunOptions run;
 };
 
 /// Reads the command line and the configuration file that it names.

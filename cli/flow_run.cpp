@@ -5,13 +5,14 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "checkpoint.h"
 #include "droplet/body/droplet_body.h"
 #include "droplet/flow_io/droplet_surfaces.h"
 #include "droplet/flow_io/flow_animation.h"
@@ -20,7 +21,7 @@
 #include "droplet/flow_io/streak_ribbons.h"
 #include "droplet/flow_io/wet_maps.h"
 #include "droplet_report.h"
-#include "files.h"
+#include "film.h"
 #include "flow_files.h"
 #include "flow_plan.h"
 #include "option_values.h"
@@ -31,7 +32,22 @@
 namespace cli {
 namespace {
 
-constexpr const char* kCommand = "flow";
+/// Droplets at the time of a frame, and what they have wetted since the frame before.
+struct Moment {
+    std::size_t number = 0;  ///< of the frame
+    double time = 0.0;       ///< [s]
+    std::vector<droplet::FlowSample> samples;
+    std::vector<std::vector<droplet::FlowTrack>> tracks = {};  ///< of every advance
+};
+
+/// Run that can be resumed, if every frame has a file.
+std::optional<ResumableRun> resumableRun(const FlowOptions& options, std::size_t frames)
+{
+    return options.files
+               ? std::optional(ResumableRun{"flow", flowFingerprint(options), frames, options.frames_per_second,
+                                            withMaps(*options.files, options.maps, kFlowMaps), options.run.files})
+               : std::nullopt;
+}
 
 class FlowRun {
 public:
@@ -42,10 +58,13 @@ public:
 private:
     /// Resumes from the checkpoint, if that is possible; otherwise the run starts from the first frame.
     void resume();
-    /// Simulates and writes all remaining frames.
-    void run();
-    /// Saves the state after a frame.
-    void saveCheckpoint() const;
+    /// Simulates a frame.
+    /// @return what draws it
+    std::function<void()> frame(std::size_t number);
+    /// Makes all remaining frames.
+    void run(std::ostream* table);
+    /// State after a frame, for a checkpoint.
+    [[nodiscard]] Blobs state() const;
     /// Advances the state, with a row of the balance at every full second.
     void advance(double until);
     /// Whether a picture of every frame is drawn, or of the last one.
@@ -53,14 +72,18 @@ private:
     void preparePainter();
     /// A video's options, after they were tried.
     [[nodiscard]] VideoWriterOptions videoAt(const std::string& path) const;
-    [[nodiscard]] droplet::Picture picture(const std::vector<droplet::FlowSample>& samples, double azimuth);
+    [[nodiscard]] droplet::Picture picture(const Moment& moment, double azimuth);
     /// Files of the preview, which are drawn when they are written.
     std::vector<OutputFile> previewOutputs();
+    /// Droplets of a moment, without bases.
+    [[nodiscard]] droplet::Surface dropletsOf(const Moment& moment) const;
+    /// Wets the object, and writes the files of a frame.
+    void draw(const Moment& moment);
     /// Draws a frame, and writes it unless it is the picture of the last one.
-    void draw(const std::vector<droplet::FlowSample>& samples, std::size_t number);
-    void writeMaps(const std::vector<droplet::FlowSample>& samples, std::size_t number);
+    void drawPicture(const Moment& moment);
+    void writeMaps(const Moment& moment);
     /// Writes the droplets of a frame.
-    void writeMesh(const std::vector<droplet::FlowSample>& samples, std::size_t number) const;
+    void writeMesh(const Moment& moment) const;
     [[nodiscard]] droplet::Vec3 gravityAt(double time) const;
     void finish();
 
@@ -68,20 +91,21 @@ private:
     ProgressDisplay& progress_;
     StageClock clock_;
     FlowPlan plan_;
+    Film film_;
     droplet::DropletBodies bodies_;
     droplet::Material material_;
     std::optional<droplet::FlowAnimation> animation_;
     std::optional<droplet::FlowPainter> painter_;
     std::optional<droplet::WetMapper> mapper_;
     std::unique_ptr<VideoWriter> video_;
-    droplet::Picture picture_;                ///< of the last frame
-    std::vector<droplet::FlowSample> shown_;  ///< droplets of the preview
+    droplet::Picture picture_;  ///< of the last frame
+    Moment shown_;              ///< of the preview
     std::optional<droplet::FlowTable> table_;
     droplet::StreakRibbons ribbons_;
     droplet::Surface streaks_;  ///< at the end
     droplet::FlowState state_;
-    std::optional<CheckpointFile> checkpoint_;  ///< if every frame has a file
-    std::size_t done_ = 0;
+    std::vector<std::vector<droplet::FlowTrack>> tracks_;  ///< since the last frame, if something is wetted
+    std::size_t done_ = 0;                                 ///< number of frames that an interrupted run simulated
     droplet::FlowReport report_;
 };
 
@@ -113,6 +137,7 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
     : options_(options),
       progress_(progress),
       plan_(planOf(options)),
+      film_(plan_.frames, options.run.files, progress, resumableRun(options, plan_.frames)),
       bodies_(options.shape, plan_.parameters.forces),
       material_(options.material.value_or(droplet::materialOf(plan_.parameters.forces.liquid))),
       ribbons_(ribbonOptions(plan_.parameters))
@@ -187,29 +212,12 @@ void FlowRun::preparePainter()
 
 droplet::FlowReport FlowRun::execute()
 {
-    if (options_.files) {
-        checkpoint_.emplace(ResumableRun{kCommand, flowFingerprint(options_), plan_.frames, options_.frames_per_second,
-                                         withMaps(*options_.files, options_.maps, kFlowMaps), options_.output_options});
-        resume();
-    }
+    resume();
     if (options_.kind == FlowOutput::Video) {
         video_ = std::make_unique<VideoWriter>(videoAt(options_.output));
     }
-    std::vector<OutputFile> previews;
-    if (options_.has_preview) {
-        previews = previewOutputs();
-    }
+    const std::vector<OutputFile> previews = options_.has_preview ? previewOutputs() : std::vector<OutputFile>{};
     std::vector<OutputFile> files;
-    if (options_.droplets) {
-        files.push_back({*options_.droplets, [&](std::ostream& out) {
-                             const bool is_json = std::filesystem::path(*options_.droplets).extension() == ".json";
-                             table_.emplace(out, is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv);
-                             run();
-                             table_->finish();
-                         }});
-    } else {
-        run();
-    }
     if (animation_) {
         files.push_back({options_.output, [&](std::ostream& out) { animation_->write(out, options_.file); }});
     }
@@ -233,17 +241,15 @@ droplet::FlowReport FlowRun::execute()
                              writeFlowReport(out, report_);
                          }});
     }
-    writeTogether(files, options_.output_options);
-    if (checkpoint_) {
-        checkpoint_->end();
-    }
+    film_.write(
+        options_.droplets, [&](std::ostream* table) { run(table); }, files);
     finish();
     return std::move(report_);
 }
 
 void FlowRun::resume()
 {
-    const auto checkpoint = checkpoint_->begin(options_.resume);
+    const auto checkpoint = film_.begin(options_.resume);
     if (!checkpoint) {
         return;
     }
@@ -251,11 +257,13 @@ void FlowRun::resume()
     // object that moves will reach in --time.
     const bool has_same_camera =
         !painter_ || plan_.parameters.motion.rests() || (*checkpoint)["planned frames"] == std::to_string(plan_.frames);
-    if (options_.droplets || options_.streaks || !has_same_camera ||
-        !checkpoint_->run().hasFrames(checkpoint->frames)) {
+    if (!has_same_camera) {
+        film_.writeAgain();
+    }
+    if (options_.droplets || options_.streaks || !has_same_camera || !film_.hasFrames(checkpoint->frames)) {
         return;
     }
-    const std::string& path = checkpoint_->path();
+    const std::string& path = film_.checkpointPath();
     if (painter_) {
         painter_->restore((*checkpoint)["wet picture"], path);
     }
@@ -267,32 +275,32 @@ void FlowRun::resume()
     done_ = checkpoint->frames;
 }
 
-void FlowRun::run()
+std::function<void()> FlowRun::frame(std::size_t number)
 {
-    for (; done_ < plan_.frames; ++done_) {
-        advance(static_cast<double>(done_) / options_.frames_per_second);
-        const std::vector<droplet::FlowSample> samples = droplet::sampleFlow(state_, plan_.scene, plan_.parameters);
-        if (table_) {
-            table_->add(done_ + 1, state_.time, samples, plan_.scene.surface());
-        }
-        if (animation_) {
-            animation_->add(state_.time, samples);
-        }
-        if (options_.kind == FlowOutput::Meshes) {
-            writeMesh(samples, done_ + 1);
-        } else if (isPicture() && (options_.kind != FlowOutput::Picture || done_ + 1 == plan_.frames)) {
-            draw(samples, done_ + 1);
-        }
-        if (mapper_) {
-            writeMaps(samples, done_ + 1);
-        }
-        if (checkpoint_ && checkpoint_->isDue(done_ + 1)) {
-            saveCheckpoint();
-        }
-        progress_.reportFrame(done_ + 1, plan_.frames);
+    advance(static_cast<double>(number - 1) / options_.frames_per_second);
+    Moment moment{number, state_.time, droplet::sampleFlow(state_, plan_.scene, plan_.parameters),
+                  std::exchange(tracks_, {})};
+    if (table_) {
+        table_->add(number, moment.time, moment.samples, plan_.scene.surface());
+    }
+    if (animation_) {
+        animation_->add(moment.time, moment.samples);
+    }
+    return [this, moment = std::move(moment)] { draw(moment); };
+}
+
+void FlowRun::run(std::ostream* table)
+{
+    if (table != nullptr) {
+        const bool is_json = std::filesystem::path(*options_.droplets).extension() == ".json";
+        table_.emplace(*table, is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv);
+    }
+    film_.make(done_, {[this](std::size_t number) { return frame(number); }, [this] { return state(); }});
+    if (table_) {
+        table_->finish();
     }
     if (options_.has_preview) {
-        shown_ = droplet::sampleFlow(state_, plan_.scene, plan_.parameters);
+        shown_ = {plan_.frames, state_.time, droplet::sampleFlow(state_, plan_.scene, plan_.parameters)};
     }
     if (report_.balance.empty() || report_.balance.back().time != state_.time) {
         report_.balance.push_back(flowBalanceRow(state_));
@@ -308,19 +316,18 @@ void FlowRun::run()
     }
 }
 
-void FlowRun::saveCheckpoint() const
+Blobs FlowRun::state() const
 {
-    Checkpoint checkpoint{done_ + 1,
-                          {{"balance", bytesOfRows(report_.balance)},
-                           {"flow", droplet::bytesOf(state_)},
-                           {"planned frames", std::to_string(plan_.frames)}}};
+    Blobs state{{"balance", bytesOfRows(report_.balance)},
+                {"flow", droplet::bytesOf(state_)},
+                {"planned frames", std::to_string(plan_.frames)}};
     if (painter_) {
-        checkpoint.state["wet picture"] = painter_->bytes();
+        state["wet picture"] = painter_->bytes();
     }
     if (mapper_) {
-        checkpoint.state["wet maps"] = mapper_->bytes();
+        state["wet maps"] = mapper_->bytes();
     }
-    checkpoint_->write(checkpoint);
+    return state;
 }
 
 void FlowRun::advance(double until)
@@ -330,11 +337,8 @@ void FlowRun::advance(double until)
         if (options_.streaks) {
             ribbons_.add(state_.tracks, plan_.scene.surface());
         }
-        if (painter_) {
-            painter_->add(state_.tracks);
-        }
-        if (mapper_) {
-            mapper_->add(state_.tracks);
+        if (painter_ || mapper_) {
+            tracks_.push_back(std::move(state_.tracks));
         }
     };
     double second = std::floor(state_.time) + 1.0;
@@ -348,15 +352,43 @@ void FlowRun::advance(double until)
     }
 }
 
+void FlowRun::draw(const Moment& moment)
+{
+    for (const std::vector<droplet::FlowTrack>& tracks : moment.tracks) {
+        if (painter_) {
+            painter_->add(tracks);
+        }
+        if (mapper_) {
+            mapper_->add(tracks);
+        }
+    }
+    if (film_.isWritten(moment.number)) {
+        return;
+    }
+    if (options_.kind == FlowOutput::Meshes) {
+        writeMesh(moment);
+    } else if (isPicture() && (options_.kind != FlowOutput::Picture || moment.number == plan_.frames)) {
+        drawPicture(moment);
+    }
+    if (mapper_) {
+        writeMaps(moment);
+    }
+}
+
 VideoWriterOptions FlowRun::videoAt(const std::string& path) const
 {
     return triedVideo(path, {options_.view.width, options_.view.height, options_.frames_per_second}, options_.encoding);
 }
 
-droplet::Picture FlowRun::picture(const std::vector<droplet::FlowSample>& samples, double azimuth)
+droplet::Surface FlowRun::dropletsOf(const Moment& moment) const
 {
-    const droplet::FlowMoment moment{state_.time, plan_.parameters.motion.at(state_.time), azimuth};
-    return painter_->picture(moment, samples, droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time)));
+    return droplet::dropletSurfaces(moment.samples, bodies_, gravityAt(moment.time));
+}
+
+droplet::Picture FlowRun::picture(const Moment& moment, double azimuth)
+{
+    const droplet::FlowMoment seen{moment.time, plan_.parameters.motion.at(moment.time), azimuth};
+    return painter_->picture(seen, moment.samples, dropletsOf(moment));
 }
 
 std::vector<OutputFile> FlowRun::previewOutputs()
@@ -382,27 +414,26 @@ std::vector<OutputFile> FlowRun::previewOutputs()
     return files;
 }
 
-void FlowRun::draw(const std::vector<droplet::FlowSample>& samples, std::size_t number)
+void FlowRun::drawPicture(const Moment& moment)
 {
-    picture_ = picture(samples, 0.0);
+    picture_ = picture(moment, 0.0);
     if (video_) {
         video_->add(picture_);
     } else if (options_.files) {
-        droplet::writeAtomically(
-            options_.files->at(number),
-            [&](std::ostream& out) { droplet::writePng(picture_, out, droplet::PngEffort::Fast); },
-            options_.output_options);
+        film_.save({{options_.files->at(moment.number), [picture = std::move(picture_)](std::ostream& out) {
+                         droplet::writePng(picture, out, droplet::PngEffort::Fast);
+                     }}});
     }
 }
 
-void FlowRun::writeMaps(const std::vector<droplet::FlowSample>& samples, std::size_t number)
+void FlowRun::writeMaps(const Moment& moment)
 {
-    const droplet::Surface surface = droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time));
+    const droplet::Surface surface = dropletsOf(moment);
     const auto write = [&](std::size_t map, const auto& writer) {
-        droplet::writeAtomically(options_.maps->beside(kFlowMaps[map]).at(number), writer, options_.output_options);
+        droplet::writeAtomically(options_.maps->beside(kFlowMaps[map]).at(moment.number), writer, options_.run.files);
     };
     if (options_.are_maps_exr) {
-        const droplet::WetFloatMaps maps = mapper_->floatMaps(state_.time, samples, surface);
+        const droplet::WetFloatMaps maps = mapper_->floatMaps(moment.time, moment.samples, surface);
         const std::array<const droplet::FloatPicture*, kFlowMaps.size()> all{&maps.normal, &maps.thickness, &maps.age,
                                                                              &maps.wet};
         for (std::size_t k = 0; k < all.size(); ++k) {
@@ -410,7 +441,7 @@ void FlowRun::writeMaps(const std::vector<droplet::FlowSample>& samples, std::si
         }
         return;
     }
-    const droplet::WetMaps maps = mapper_->maps(state_.time, samples, surface);
+    const droplet::WetMaps maps = mapper_->maps(moment.time, moment.samples, surface);
     const std::array<const droplet::DeepPicture*, kFlowMaps.size()> all{&maps.normal, &maps.thickness, &maps.age,
                                                                         &maps.wet};
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -418,16 +449,15 @@ void FlowRun::writeMaps(const std::vector<droplet::FlowSample>& samples, std::si
     }
 }
 
-void FlowRun::writeMesh(const std::vector<droplet::FlowSample>& samples, std::size_t number) const
+void FlowRun::writeMesh(const Moment& moment) const
 {
-    droplet::Surface surface =
-        droplet::withBases(droplet::dropletSurfaces(samples, bodies_, gravityAt(state_.time)), bodies_);
-    SurfaceTarget target{options_.files->at(number), options_.file.format, {}};
+    droplet::Surface surface = droplet::withBases(dropletsOf(moment), bodies_);
+    SurfaceTarget target{options_.files->at(moment.number), options_.file.format, {}};
     target.options.material = material_;
     target.options.compression = options_.file.compression;
     turnToFile(surface, target.format, options_.reading);
     std::uint64_t bytes = 0;
-    writeTogether(surfaceFiles(surface, target, bytes), options_.output_options);
+    writeTogether(surfaceFiles(surface, target, bytes), options_.run.files);
 }
 
 droplet::Vec3 FlowRun::gravityAt(double time) const

@@ -2,13 +2,11 @@
 #include "liquid2d_options.h"
 
 #include <filesystem>
-#include <set>
 
 #include "command_line.h"
 #include "common_options.h"
 #include "droplet/liquid2d_io/fluid_presets.h"
 #include "droplet/units.h"
-#include "droplet/version.h"
 #include "files.h"
 #include "option_values.h"
 #include "value_list.h"
@@ -287,22 +285,8 @@ std::variant<Liquid2dOptions, std::string> parseLiquid2d(int argc, const char* c
     if (const auto rate = line.value("--fps")) {
         options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
     }
-    if (const auto config = line.value("--config")) {
-        options.config = config->text;
-    }
-    options.threads = readThreads(line);
-    options.output_options.no_clobber = line.flag("--no-clobber");
-    options.quiet = line.flag("--quiet");
-    options.progress = readProgress(line);
-    // These options do not change what a frame shows.
-    const std::set<std::string> neutral{"--time",  "--resume", "--no-clobber", "--threads",
-                                        "--quiet", "--config", "--json",       "--progress"};
-    options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output.value_or("");
-    for (const auto& [name, value] : line.given()) {
-        if (neutral.count(name) == 0) {
-            options.fingerprint.append("\n").append(name).append(" ").append(value);
-        }
-    }
+    options.run = readRun(line);
+    options.fingerprint = optionsOfFrames(line, options.output.value_or(""));
     return options;
 }
 

@@ -6,11 +6,10 @@
 #include <string>
 #include <variant>
 
+#include "common_options.h"
 #include "droplet/expression/expression.h"
-#include "droplet/io/output.h"
 #include "droplet/liquid2d_io/liquid_drawing.h"
 #include "droplet/liquid2d_io/particle_file.h"
-#include "droplet_options.h"
 #include "numbered_path.h"
 #include "video_encoding.h"
 
@@ -49,12 +48,8 @@ struct Liquid2dOptions {
     double frames_per_second = 24.0;
     std::optional<std::string> json;
     bool resume = false;
-    std::string fingerprint;  ///< all options that decide what the frames show
-    std::optional<std::string> config;
-    std::optional<std::size_t> threads;
-    droplet::OutputOptions output_options;
-    ProgressMode progress = ProgressMode::Auto;
-    bool quiet = false;
+    std::string fingerprint;  ///< all options that decide what the frames show, as of optionsOfFrames()
+    RunOptions run;
 };
 
 /// Reads the command line and the configuration file that it names.

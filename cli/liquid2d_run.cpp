@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <memory>
@@ -14,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include "checkpoint.h"
 #include "content_hash.h"
 #include "droplet/error.h"
 #include "droplet/footprint/mask.h"
@@ -25,9 +25,8 @@
 #include "droplet/liquid2d_io/liquid_lottie.h"
 #include "droplet/liquid2d_io/read_scene.h"
 #include "droplet_report.h"
-#include "files.h"
+#include "film.h"
 #include "option_values.h"
-#include "run_files.h"
 #include "stage_clock.h"
 #include "video_writer.h"
 
@@ -39,8 +38,6 @@ using droplet::ErrorCode;
 using droplet::FluidScene;
 using droplet::ParticleFrame;
 using droplet::Vec2;
-
-constexpr const char* kCommand = "liquid2d";
 
 /// Whether the scene is a file, not a preset.
 bool isSceneFile(const Liquid2dOptions& options)
@@ -264,22 +261,45 @@ private:
     std::size_t done_ = 0;
 };
 
+std::unique_ptr<ParticleSource> sourceOf(const Liquid2dOptions& options)
+{
+    if (options.particles) {
+        return std::make_unique<FileParticles>(options);
+    }
+    return std::make_unique<SimulatedParticles>(options);
+}
+
+/// Run that can be resumed, if every frame has a file.
+std::optional<ResumableRun> resumableRun(const Liquid2dOptions& options, std::size_t frames)
+{
+    const std::vector<NumberedPath> files = resumableFrames(options);
+    if (files.empty()) {
+        return std::nullopt;
+    }
+    return ResumableRun{"liquid2d",
+                        fingerprintOf({options.fingerprint, options.walls ? hashOfFile(*options.walls) : "",
+                                       isSceneFile(options) ? hashOfFile(options.scene) : ""}),
+                        frames,
+                        options.frames_per_second,
+                        files,
+                        options.run.files};
+}
+
 class LiquidRun {
 public:
-    LiquidRun(const Liquid2dOptions& options, ProgressDisplay& progress) : options_(options), progress_(progress)
+    LiquidRun(const Liquid2dOptions& options, ProgressDisplay& progress)
+        : options_(options),
+          progress_(progress),
+          source_(sourceOf(options)),
+          film_(source_->frames(), options.run.files, progress, resumableRun(options, source_->frames()))
     {
-        if (options.particles) {
-            source_ = std::make_unique<FileParticles>(options);
-        } else {
-            source_ = std::make_unique<SimulatedParticles>(options);
-        }
         view_.size = source_->size();
         view_.width = options.width;
         view_.height = std::max(static_cast<int>(std::lround(options.width * view_.size.y / view_.size.x)), 1);
         if (options.kind == LiquidOutput::Video) {
-            // Encoders need even sides.
-            view_.width += view_.width % 2;
-            view_.height += view_.height % 2;
+            const VideoFrames frames = evenSides({view_.width, view_.height, options.frames_per_second});
+            view_.width = frames.width;
+            view_.height = frames.height;
         }
         if (view_.height > 32767) {
             refuse(fmt::format("--width: at {} pixels the drawing is {} pixels high; at most 32767 are allowed",
@@ -297,14 +317,7 @@ public:
 
     droplet::LiquidReport execute()
     {
-        if (const std::vector<NumberedPath> frames = resumableFrames(options_); !frames.empty()) {
-            checkpoint_.emplace(
-                ResumableRun{kCommand,
-                             fingerprintOf({options_.fingerprint, options_.walls ? hashOfFile(*options_.walls) : "",
-                                            isSceneFile(options_) ? hashOfFile(options_.scene) : ""}),
-                             source_->frames(), options_.frames_per_second, frames, options_.output_options});
-            resume();
-        }
+        resume();
         if (options_.kind == LiquidOutput::Video) {
             video_ = std::make_unique<VideoWriter>(triedVideo(
                 *options_.output, {view_.width, view_.height, options_.frames_per_second}, options_.encoding));
@@ -313,14 +326,13 @@ public:
             lottie_.emplace(view_, options_.look, options_.frames_per_second);
         }
         warnOfShortSteps();
-        run();
         std::vector<OutputFile> files;
         if (video_) {
             files.push_back({*options_.output, [&](std::ostream& out) { video_->finish(out); }});
         } else if (lottie_) {
             files.push_back({*options_.output, [&](std::ostream& out) { lottie_->write(out); }});
         } else if (options_.kind == LiquidOutput::Drawing) {
-            files.push_back({*options_.output, [&](std::ostream& out) { draw(*options_.output, out); }});
+            files.push_back({*options_.output, [&](std::ostream& out) { write(*shown_, *options_.output, out); }});
         }
         if (options_.json) {
             files.push_back({*options_.json, [&](std::ostream& out) {
@@ -328,37 +340,40 @@ public:
                                  writeLiquidReport(out, report_);
                              }});
         }
-        writeTogether(files, options_.output_options);
-        if (checkpoint_) {
-            checkpoint_->end();
-        }
+        film_.write(
+            {}, [&](std::ostream* /*table*/) { run(); }, files);
         finish();
         return std::move(report_);
     }
 
 private:
+    /// What of a frame is drawn.
+    struct Drawing {
+        droplet::LiquidShape shape;
+        std::vector<droplet::Region> walls;
+    };
+
     void resume()
     {
-        const auto checkpoint = checkpoint_->begin(options_.resume);
-        if (!checkpoint || !checkpoint_->run().hasFrames(checkpoint->frames)) {
+        const auto checkpoint = film_.begin(options_.resume);
+        if (!checkpoint || !film_.hasFrames(checkpoint->frames)) {
             return;
         }
-        source_->restore((*checkpoint)["particles"], checkpoint_->path(), checkpoint->frames);
-        surface_ = droplet::expressionFromBytes((*checkpoint)["surface"], checkpoint_->path());
+        const std::string& path = film_.checkpointPath();
+        source_->restore((*checkpoint)["particles"], path, checkpoint->frames);
+        surface_ = droplet::expressionFromBytes((*checkpoint)["surface"], path);
         report_.frames = rowsFromBytes<droplet::LiquidFrameRow>((*checkpoint)["rows"]);
     }
 
-    void saveCheckpoint(std::size_t frames) const
+    [[nodiscard]] Blobs state() const
     {
-        checkpoint_->write(
-            {frames,
-             {{"particles", source_->bytes()}, {"rows", bytesOfRows(report_.frames)}, {"surface", bytesOf(surface_)}}});
+        return {{"particles", source_->bytes()}, {"rows", bytesOfRows(report_.frames)}, {"surface", bytesOf(surface_)}};
     }
 
     void warn(const std::string& warning)
     {
         report_.warnings.push_back(warning);
-        if (!options_.quiet) {
+        if (options_.run.verbosity != Verbosity::Quiet) {
             progress_.warn(warning);
         }
     }
@@ -390,66 +405,74 @@ private:
 
     void run()
     {
-        const std::size_t count = source_->frames();
-        bool is_lost = false;
-        for (std::size_t done = report_.frames.size(); done < count; ++done) {
-            const ParticleFrame frame = source_->next();
-            if (source_->isLost() && !std::exchange(is_lost, true)) {
-                tellLoss(done + 1, frame.time);
-            }
-            report_.spacing = frame.spacing;
-            surface_ = advanceExpression(std::move(surface_), frame, options_.controls);
-            shape_ = liquidShape(surface_, frame, options_.controls);
-            report_.frames.push_back({frame.time, frame.position.size(), source_->steps(),
-                                      static_cast<double>(frame.position.size()) * frame.spacing * frame.spacing,
-                                      shape_.area(), shape_.liquid.size(), shape_.foam.size(), shape_.droplets.size()});
-            write(done + 1);
-            if (checkpoint_ && checkpoint_->isDue(done + 1)) {
-                saveCheckpoint(done + 1);
-            }
-            progress_.reportFrame(done + 1, count);
-        }
+        film_.make(report_.frames.size(),
+                   {[this](std::size_t number) { return frame(number); }, [this] { return state(); }});
         report_.removed = source_->removed();
     }
 
-    void write(std::size_t number)
+    std::function<void()> frame(std::size_t number)
+    {
+        ParticleFrame particles = source_->next();
+        if (source_->isLost() && !std::exchange(is_lost_, true)) {
+            tellLoss(number, particles.time);
+        }
+        return [this, number, particles = std::move(particles), walls = source_->walls(),
+                steps = source_->steps()]() mutable { draw(number, particles, std::move(walls), steps); };
+    }
+
+    void draw(std::size_t number, const ParticleFrame& particles, std::vector<droplet::Region> walls,
+              std::uint64_t steps)
+    {
+        report_.spacing = particles.spacing;
+        surface_ = advanceExpression(std::move(surface_), particles, options_.controls);
+        shown_ = std::make_shared<const Drawing>(
+            Drawing{liquidShape(surface_, particles, options_.controls), std::move(walls)});
+        const droplet::LiquidShape& shape = shown_->shape;
+        report_.frames.push_back(
+            {particles.time, particles.position.size(), steps,
+             static_cast<double>(particles.position.size()) * particles.spacing * particles.spacing, shape.area(),
+             shape.liquid.size(), shape.foam.size(), shape.droplets.size()});
+        if (!film_.isWritten(number)) {
+            save(number);
+        }
+    }
+
+    void save(std::size_t number)
     {
         if (video_) {
-            const std::vector<droplet::Region> walls = source_->walls();
-            video_->add(liquidLayer({shape_, walls}, view_, options_.look));
+            video_->add(liquidLayer({shown_->shape, shown_->walls}, view_, options_.look));
         } else if (lottie_) {
-            const std::vector<droplet::Region> walls = source_->walls();
-            lottie_->add({shape_, walls});
-        } else if (options_.files) {
+            lottie_->add({shown_->shape, shown_->walls});
+        }
+        std::vector<OutputFile> files;
+        if (options_.files) {
             const std::string path = options_.files->at(number);
-            droplet::writeAtomically(
-                path, [&](std::ostream& out) { draw(path, out); }, options_.output_options);
+            files.push_back({path, [this, path, drawing = shown_](std::ostream& out) { write(*drawing, path, out); }});
         }
-        if (!options_.masks) {
-            return;
-        }
-        const auto write_mask = [&](std::ostream& out) {
-            writePng(liquidMask(shape_, view_), out, droplet::PngEffort::Fast);
+        const auto write_mask = [this, drawing = shown_](std::ostream& out) {
+            writePng(liquidMask(drawing->shape, view_), out, droplet::PngEffort::Fast);
         };
         if (options_.mask_files) {
-            droplet::writeAtomically(options_.mask_files->at(number), write_mask, options_.output_options);
-        } else {
+            files.push_back({options_.mask_files->at(number), write_mask});
+        } else if (options_.masks) {
             write_mask(std::cout);
             std::cout.flush();
             if (!std::cout) {
                 throw Error(ErrorCode::OutputFailed, "--masks: standard output cannot be written");
             }
         }
+        if (!files.empty()) {
+            film_.save(std::move(files));
+        }
     }
 
-    void draw(const std::string& path, std::ostream& out) const
+    void write(const Drawing& drawing, const std::string& path, std::ostream& out) const
     {
-        const std::vector<droplet::Region> walls = source_->walls();
         if (std::filesystem::path(path).extension() == ".svg") {
-            writeLiquidSvg({shape_, walls}, view_, options_.look, out);
+            writeLiquidSvg({drawing.shape, drawing.walls}, view_, options_.look, out);
             return;
         }
-        writePng(liquidLayer({shape_, walls}, view_, options_.look), out, droplet::PngEffort::Fast);
+        writePng(liquidLayer({drawing.shape, drawing.walls}, view_, options_.look), out, droplet::PngEffort::Fast);
     }
 
     void finish()
@@ -462,20 +485,22 @@ private:
     ProgressDisplay& progress_;
     StageClock clock_;
     std::unique_ptr<ParticleSource> source_;
+    Film film_;
     droplet::LiquidView view_;
+    bool is_lost_ = false;  ///< whether the loss of all liquid was told
     droplet::ExpressionState surface_;
-    droplet::LiquidShape shape_;  ///< of the last frame
+    std::shared_ptr<const Drawing> shown_;  ///< the last frame
     std::unique_ptr<VideoWriter> video_;
     std::optional<droplet::LiquidLottie> lottie_;
-    std::optional<CheckpointFile> checkpoint_;  ///< if every frame has a file
     droplet::LiquidReport report_;
 };
 
-/// All files that a run reads and writes.
+}  // namespace
+
 RunFiles filesOf(const Liquid2dOptions& options)
 {
     RunFiles files;
-    files.reads("--config", options.config);
+    files.reads("--config", options.run.config);
     files.reads("--walls", options.walls);
     if (options.particle_files) {
         for (const std::size_t number : options.particle_files->numbers()) {
@@ -507,11 +532,8 @@ RunFiles filesOf(const Liquid2dOptions& options)
     return files;
 }
 
-}  // namespace
-
 droplet::LiquidReport drawLiquid2d(const Liquid2dOptions& options, ProgressDisplay& progress)
 {
-    checkFiles(filesOf(options), options.output_options);
     return LiquidRun(options, progress).execute();
 }
 

@@ -2,7 +2,6 @@
 #include "morph_command.h"
 
 #include <fmt/core.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,11 +22,10 @@
 #include "droplet/footprint/outline.h"
 #include "droplet/liquid2d_io/read_scene.h"
 #include "droplet/morph/morph.h"
-#include "files.h"
+#include "film.h"
 #include "frames.h"
 #include "morph_options.h"
 #include "progress_display.h"
-#include "shape_command.h"
 #include "video_writer.h"
 
 namespace cli {
@@ -161,21 +159,51 @@ Footprints readFootprints(const MorphCommandOptions& options)
     return all;
 }
 
-/// Where the frames go.
-class MorphFiles {
+/// Lets the liquid flow, and writes its frames.
+class Morph {
 public:
-    MorphFiles(const MorphCommandOptions& options, const droplet::LiquidView& view) : options_(options), view_(view)
+    Morph(const MorphCommandOptions& options, ProgressDisplay& progress)
+        : options_(options),
+          progress_(progress),
+          footprints_(readFootprints(options)),
+          film_(options.frames, options.animation.run.files, progress)
     {
+        view_.size = footprints_.size;
+        view_.width = options.width.value_or(footprints_.width);
+        view_.height = std::max(static_cast<int>(std::lround(view_.width * view_.size.y / view_.size.x)), 1);
         if (options.kind == MorphOutput::Video) {
-            video_ = std::make_unique<VideoWriter>(triedVideo(
-                options.output, {view.width, view.height, options.animation.frames_per_second.value_or(24.0)},
-                options.encoding));
+            const double rate = options.animation.frames_per_second.value_or(24.0);
+            const VideoFrames frames = evenSides({view_.width, view_.height, rate});
+            view_.width = frames.width;
+            view_.height = frames.height;
+            video_ = std::make_unique<VideoWriter>(triedVideo(options.output, frames, options.encoding));
         }
     }
 
-    void add(std::size_t frame, const LiquidShape& shape)
+    FilmEnd make()
     {
-        const auto write_mask = [&](std::ostream& out) {
+        std::vector<OutputFile> files;
+        if (video_) {
+            files.push_back({options_.output, [&](std::ostream& out) { video_->finish(out); }});
+        }
+        film_.write(
+            {}, [this](std::ostream* /*table*/) { run(); }, files);
+        return options_.kind == MorphOutput::Model ? makeDroplets()
+                                                   : FilmEnd{fmt::format("{} frames\n", options_.frames)};
+    }
+
+private:
+    void run()
+    {
+        const droplet::MorphOptions flow{footprints_.size, options_.frames, options_.particles, options_.rounding};
+        droplet::morph(footprints_.regions, flow, [&](std::size_t frame, const LiquidShape& shape) {
+            film_.add(frame + 1, [this, number = frame + 1, shape] { draw(number, shape); });
+        });
+    }
+
+    void draw(std::size_t number, const LiquidShape& shape)
+    {
+        const auto write_mask = [this, shape](std::ostream& out) {
             writePng(liquidMask(shape, view_), out, droplet::PngEffort::Fast);
         };
         const std::vector<Region> none;
@@ -191,15 +219,12 @@ public:
                 }
                 break;
             case MorphOutput::Masks:
-                droplet::writeAtomically(options_.files->at(frame + 1), write_mask, options_.animation.run.files);
+                film_.save({{options_.files->at(number), write_mask}});
                 break;
             case MorphOutput::Drawings:
-                droplet::writeAtomically(
-                    options_.files->at(frame + 1),
-                    [&](std::ostream& out) {
-                        writeLiquidSvg({shape, none}, view_, options_.look, out);
-                    },
-                    options_.animation.run.files);
+                film_.save({{options_.files->at(number), [this, shape](std::ostream& out) {
+                                 writeLiquidSvg({shape, {}}, view_, options_.look, out);
+                             }}});
                 break;
             case MorphOutput::Video:
                 video_->add(liquidLayer({shape, none}, view_, options_.look));
@@ -207,19 +232,26 @@ public:
         }
     }
 
-    void finish()
+    /// Makes droplets of the masks.
+    FilmEnd makeDroplets()
     {
-        if (video_) {
-            writeTogether({{options_.output, [&](std::ostream& out) { video_->finish(out); }}},
-                          options_.animation.run.files);
-        }
+        // The masks are coverage as it is; all choices of how to read pictures have been made.
+        AnimateOptions animation = options_.animation;
+        animation.footprint = {};
+        animation.footprint.mask.channel = droplet::Channel::Luma;
+        animation.footprint.mask.allow_dry = true;
+        animation.footprint.trace.allow_dry = true;
+        animation.footprint.trace.width = footprints_.size.x;
+        animation.footprint.sized = true;
+        Frames frames(masks_, "morph");
+        return makeAnimation(animation, frames, progress_);
     }
 
-    std::istream& masks() { return masks_; }
-
-private:
     const MorphCommandOptions& options_;
-    const droplet::LiquidView& view_;
+    ProgressDisplay& progress_;
+    Footprints footprints_;
+    Film film_;
+    droplet::LiquidView view_;
     std::unique_ptr<VideoWriter> video_;
     std::stringstream masks_;  ///< for droplets
 };
@@ -255,50 +287,8 @@ int runMorph(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<MorphCommandOptions>(parsed);
-    const RunOptions& run = options.animation.run;
-    checkFiles(filesOf(options), run.files);
-    std::optional<tbb::global_control> threads;
-    if (run.threads) {
-        threads.emplace(tbb::global_control::max_allowed_parallelism, *run.threads);
-    }
-    const Footprints footprints = readFootprints(options);
-    droplet::LiquidView view;
-    view.size = footprints.size;
-    view.width = options.width.value_or(footprints.width);
-    view.height = std::max(static_cast<int>(std::lround(view.width * view.size.y / view.size.x)), 1);
-    if (options.kind == MorphOutput::Video) {
-        // Encoders need even sides.
-        view.width += view.width % 2;
-        view.height += view.height % 2;
-    }
-    MorphFiles files(options, view);
-    const droplet::MorphOptions flow{footprints.size, options.frames, options.particles, options.rounding};
-    ProgressDisplay progress(
-        run.verbosity == Verbosity::Quiet && run.progress == ProgressMode::Auto ? ProgressMode::None : run.progress);
-    droplet::morph(footprints.regions, flow, [&](std::size_t frame, const LiquidShape& shape) {
-        files.add(frame, shape);
-        progress.reportFrame(frame + 1, options.frames);
-    });
-    files.finish();
-    progress.finish();
-    if (options.kind != MorphOutput::Model) {
-        if (run.verbosity != Verbosity::Quiet && run.progress != ProgressMode::Json) {
-            std::cerr << fmt::format("{} frames\n", options.frames);
-        }
-        return 0;
-    }
-    // The masks are coverage as it is; all choices of how to read pictures have been made.
-    AnimateOptions animation = options.animation;
-    animation.footprint = {};
-    animation.footprint.mask.channel = droplet::Channel::Luma;
-    animation.footprint.mask.allow_dry = true;
-    animation.footprint.trace.allow_dry = true;
-    animation.footprint.trace.width = footprints.size.x;
-    animation.footprint.sized = true;
-    animation.run.threads.reset();
-    Frames frames(files.masks(), "morph");
-    makeAnimation(animation, frames);
-    return 0;
+    return runFilm(options.animation.run, filesOf(options),
+                   [&](ProgressDisplay& progress) { return Morph(options, progress).make(); });
 }
 
 }  // namespace cli

@@ -278,8 +278,8 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
         }
         return std::nullopt;
     }
-    if (showsVideo(options) && (options.width % 2 != 0 || options.height % 2 != 0)) {
-        refuse("--preview-size: a video's frame must have even sides");
+    if (showsVideo(options)) {
+        requireEvenSides("--preview-size", options.width, options.height);
     }
     if (options.cut_out && ground && !line.value("--onto")) {
         refuse("--background none and --ground exclude each other, give one of them");

@@ -68,6 +68,7 @@ void ProgressDisplay::restart(std::string item)
     const std::lock_guard lock(mutex_);
     stage_.reset();
     share_ = 0.0;
+    count_ = 0;
     item_ = std::move(item);
 }
 

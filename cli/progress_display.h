@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "common_options.h"
 #include "droplet/progress.h"
-#include "droplet_options.h"
 #include "seconds.h"
 
 namespace cli {

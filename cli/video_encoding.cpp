@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "video_encoding.h"
 
+#include <fmt/core.h>
+
 #include "option_values.h"
 #include "video_writer.h"
 
@@ -51,6 +53,20 @@ void keepAlpha(VideoEncoding& encoding, const std::string& path, const std::stri
                " has no alpha; .webm, .mkv and .mov have it, with the codecs libvpx-vp9, prores_ks, png or qtrle");
     }
     encoding.alpha = true;
+}
+
+VideoFrames evenSides(VideoFrames frames)
+{
+    frames.width += frames.width % 2;
+    frames.height += frames.height % 2;
+    return frames;
+}
+
+void requireEvenSides(const std::string& option, int width, int height)
+{
+    if (width % 2 != 0 || height % 2 != 0) {
+        refuse(fmt::format("{}: a video's frame must have even sides, not {}x{}", option, width, height));
+    }
 }
 
 VideoWriterOptions triedVideo(const std::string& path, const VideoFrames& frames, const VideoEncoding& encoding)

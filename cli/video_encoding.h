@@ -45,6 +45,14 @@ struct VideoFrames {
     double per_second = 24.0;
 };
 
+/// Frames with even sides, as encoders need them, at most a pixel larger.
+VideoFrames evenSides(VideoFrames frames);
+
+/// Requires even sides of a size that was asked for.
+/// @param option          that asks for it, for the message
+/// @throws droplet::Error InvalidArgument
+void requireEvenSides(const std::string& option, int width, int height);
+
 /// Options of a video, after ffmpeg tried them.
 /// @throws droplet::Error InvalidArgument: the encoder does not exist, or does not fit; OutputFailed: no ffmpeg
 VideoWriterOptions triedVideo(const std::string& path, const VideoFrames& frames, const VideoEncoding& encoding);

@@ -2,16 +2,12 @@
 #include "windshield_command.h"
 
 #include <fmt/core.h>
-#include <tbb/global_control.h>
 
-#include <iostream>
-#include <optional>
 #include <string>
 #include <variant>
 
 #include "files.h"
-#include "progress_display.h"
-#include "shape_command.h"
+#include "film.h"
 #include "terminal.h"
 #include "windshield_files.h"
 #include "windshield_options.h"
@@ -25,17 +21,15 @@ std::string litres(double volume)
     return fmt::format("{:.4g} mL", volume / 1e-6);
 }
 
-void printSummary(const droplet::WindshieldReport& report)
+std::string summaryOf(const droplet::WindshieldReport& report)
 {
     const droplet::BalanceRow& last = report.balance.back();
     const droplet::WaterBalance& water = last.balance;
-    std::cerr << fmt::format("{} frame{}; at {:.4g} s {} still droplets, {} larger, of which {} move\n", report.frames,
-                             report.frames == 1 ? "" : "s", last.time, last.still, last.running, last.moving)
-              << fmt::format("water: {} rained = {} on the glass + {} run off + {} wiped off\n", litres(water.rained),
-                             litres(water.on_glass_still + water.on_glass_running), litres(water.left),
-                             litres(water.wiped))
-              << oneLine(report.output) << "\n";
-    std::cerr << std::flush;
+    return fmt::format("{} frame{}; at {:.4g} s {} still droplets, {} larger, of which {} move\n", report.frames,
+                       report.frames == 1 ? "" : "s", last.time, last.still, last.running, last.moving) +
+           fmt::format("water: {} rained = {} on the glass + {} run off + {} wiped off\n", litres(water.rained),
+                       litres(water.on_glass_still + water.on_glass_running), litres(water.left), litres(water.wiped)) +
+           oneLine(report.output) + "\n";
 }
 
 }  // namespace
@@ -48,25 +42,10 @@ int runWindshield(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<WindshieldOptions>(parsed);
-    checkFiles(filesOf(options), options.output_options);
-    std::optional<tbb::global_control> threads;
-    if (options.threads) {
-        threads.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);
-    }
-    const bool is_silent = options.quiet && options.progress == ProgressMode::Auto;
-    ProgressDisplay progress(is_silent ? ProgressMode::None : options.progress);
-    const droplet::WindshieldReport report = simulateWindshield(options, progress);
-    progress.finish();
-    if (options.quiet) {
-        return 0;
-    }
-    if (options.progress != ProgressMode::Json) {
-        printSummary(report);
-    }
-    for (const std::string& warning : report.warnings) {
-        printWarning(warning, options.progress);
-    }
-    return 0;
+    return runFilm(options.run, filesOf(options), [&](ProgressDisplay& progress) {
+        const droplet::WindshieldReport report = simulateWindshield(options, progress);
+        return FilmEnd{summaryOf(report), report.warnings};
+    });
 }
 
 }  // namespace cli

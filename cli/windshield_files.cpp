@@ -18,7 +18,7 @@ RunFiles filesOf(const WindshieldOptions& options)
     files.reads("--environment", options.environment);
     files.reads("--drive-cycle", options.drive_cycle);
     files.reads("--surface", options.surface);
-    files.reads("--config", options.config);
+    files.reads("--config", options.run.config);
     const FrameNumbers numbers{1, frameCount(options)};
     if (options.files) {
         files.writesFrames("OUTPUT", *options.files, numbers);

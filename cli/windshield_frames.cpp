@@ -33,15 +33,19 @@ BackgroundOptions backgroundOf(const WindshieldOptions& options)
 
 }  // namespace
 
-WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const droplet::WindshieldParameters& parameters)
-    : options_(options), glass_(parameters.glass), background_(backgroundOf(options)), view_options_(options.view)
+WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const droplet::WindshieldParameters& parameters,
+                                   Film& film)
+    : options_(options),
+      film_(film),
+      glass_(parameters.glass),
+      background_(backgroundOf(options)),
+      view_options_(options.view)
 {
     view_options_.width = background_.width();
     view_options_.height = background_.height();
     view_options_.wipers = parameters.wipers;
-    if (options_.is_video && (view_options_.width % 2 != 0 || view_options_.height % 2 != 0)) {
-        refuse("--size: a video's frame must have even sides, not " + std::to_string(view_options_.width) + "x" +
-               std::to_string(view_options_.height));
+    if (options_.is_video) {
+        requireEvenSides("--size", view_options_.width, view_options_.height);
     }
     forGlass(options_, [&] { view_ = std::make_unique<droplet::DriversView>(glass_, view_options_); });
     if (options_.are_maps_exr) {
@@ -84,13 +88,10 @@ void WindshieldFrames::draw(const droplet::WindshieldState& state, std::size_t n
         picture_ = options_.layer ? droplet::Picture() : view_->frame();
     }
     if (options_.files) {
-        saving_.wait();
-        saving_.run(
-            [layer = std::move(layer_), picture = std::move(picture_), path = options_.files->at(number), this] {
-                droplet::writeAtomically(
-                    path, [&](std::ostream& out) { writePicture(out, layer, picture, droplet::PngEffort::Fast); },
-                    options_.output_options);
-            });
+        film_.save({{options_.files->at(number),
+                     [layer = std::move(layer_), picture = std::move(picture_), this](std::ostream& out) {
+                         writePicture(out, layer, picture, droplet::PngEffort::Fast);
+                     }}});
     }
     if (options_.maps) {
         writeMaps(state, number);
@@ -110,7 +111,7 @@ void WindshieldFrames::writePicture(std::ostream& out, const droplet::Layer& lay
 void WindshieldFrames::writeMaps(const droplet::WindshieldState& state, std::size_t number) const
 {
     const auto write = [&](std::size_t map, const auto& writer) {
-        droplet::writeAtomically(options_.maps->beside(kMapNames[map]).at(number), writer, options_.output_options);
+        droplet::writeAtomically(options_.maps->beside(kMapNames[map]).at(number), writer, options_.run.files);
     };
     if (options_.are_maps_exr) {
         const droplet::GlassFloatMaps maps = glassFloatMaps(glass_, state, options_.map);

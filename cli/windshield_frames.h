@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <tbb/task_group.h>
-
 #include <cstddef>
 #include <iosfwd>
 #include <memory>
@@ -11,6 +9,7 @@
 #include "background.h"
 #include "droplet/picture/picture.h"
 #include "droplet/view/view.h"
+#include "film.h"
 #include "video_writer.h"
 #include "windshield_options.h"
 
@@ -25,9 +24,9 @@ struct CarState {
 /// Draws and writes the frames and maps of a windshield.
 class WindshieldFrames {
 public:
-    /// @param options         must outlive this
+    /// @param options         must outlive this, as film
     /// @throws droplet::Error InvalidArgument, InvalidInput, OutputFailed
-    WindshieldFrames(const WindshieldOptions& options, const droplet::WindshieldParameters& parameters);
+    WindshieldFrames(const WindshieldOptions& options, const droplet::WindshieldParameters& parameters, Film& film);
 
     /// Driver's view, with the frame's size.
     [[nodiscard]] const droplet::ViewOptions& view() const { return view_options_; }
@@ -43,9 +42,6 @@ public:
     /// @param number     number of the frame, from 1
     void draw(const droplet::WindshieldState& state, std::size_t number, bool is_last, const CarState& car);
 
-    /// Waits until every frame drawn so far is written.
-    void wait() { saving_.wait(); }
-
     /// Writes the video, or the picture of the last frame.
     void write(std::ostream& out);
 
@@ -55,6 +51,7 @@ private:
     void writeMaps(const droplet::WindshieldState& state, std::size_t number) const;
 
     const WindshieldOptions& options_;
+    Film& film_;
     droplet::Glass glass_;
     Background background_;
     droplet::ViewOptions view_options_;
@@ -62,7 +59,6 @@ private:
     std::unique_ptr<VideoWriter> video_;
     droplet::Picture picture_;
     droplet::Layer layer_;
-    tbb::task_group saving_;  ///< writes a frame while the next one is computed
 };
 
 }  // namespace cli

@@ -10,7 +10,6 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "droplet/units.h"
-#include "droplet/version.h"
 #include "droplet/windshield/presets.h"
 #include "files.h"
 #include "force_options.h"
@@ -423,23 +422,9 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
         options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
     }
     readShutter(line, options);
-    if (const auto config = line.value("--config")) {
-        options.config = config->text;
-    }
-    options.threads = readThreads(line);
-    options.output_options.no_clobber = line.flag("--no-clobber");
-    options.quiet = line.flag("--quiet");
-    options.progress = readProgress(line);
-    // These options do not change what a frame shows.
-    const std::set<std::string> neutral{
-        "--time",     "--resume", "--no-clobber",  "--threads",         "--quiet",    "--config",  "--json",
-        "--droplets", "--model",  "--moving-only", "--model-animation", "--progress", "--compress"};
-    options.fingerprint = std::string("droplet-shape ") + droplet::kVersion + "\n" + options.output;
-    for (const auto& [name, value] : line.given()) {
-        if (neutral.count(name) == 0) {
-            options.fingerprint.append("\n").append(name).append(" ").append(value);
-        }
-    }
+    options.run = readRun(line);
+    options.fingerprint = optionsOfFrames(
+        line, options.output, {"--droplets", "--model", "--moving-only", "--model-animation", "--compress"});
     return options;
 }
 

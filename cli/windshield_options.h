@@ -6,12 +6,11 @@
 #include <string>
 #include <variant>
 
-#include "droplet/io/output.h"
+#include "common_options.h"
 #include "droplet/view/glass_maps.h"
 #include "droplet/view/view.h"
 #include "droplet/wind_io/droplet_scene.h"
 #include "droplet/windshield/windshield.h"
-#include "droplet_options.h"
 #include "numbered_path.h"
 #include "video_encoding.h"
 
@@ -48,12 +47,8 @@ struct WindshieldOptions {
     droplet::SceneAnimation model_animation = droplet::SceneAnimation::Nodes;
     std::optional<std::string> json;  ///< path or kStandardStream
     bool resume = false;
-    std::string fingerprint;  ///< all options that decide what the frames show
-    std::optional<std::string> config;
-    std::optional<std::size_t> threads;
-    droplet::OutputOptions output_options;
-    ProgressMode progress = ProgressMode::Auto;
-    bool quiet = false;
+    std::string fingerprint;  ///< all options that decide what the frames show, as of optionsOfFrames()
+    RunOptions run;
 };
 
 /// Reads the command line and the configuration file that it names.

@@ -5,17 +5,18 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "checkpoint.h"
 #include "droplet/wind_io/droplet_scene.h"
 #include "droplet/wind_io/droplet_table.h"
 #include "droplet/windshield/state_bytes.h"
 #include "droplet_report.h"
-#include "files.h"
+#include "film.h"
 #include "option_values.h"
 #include "stage_clock.h"
 #include "windshield_files.h"
@@ -25,7 +26,14 @@
 namespace cli {
 namespace {
 
-constexpr const char* kCommand = "windshield";
+/// Run that can be resumed, if every frame has a file.
+std::optional<ResumableRun> resumableRun(const WindshieldOptions& options, std::size_t frames)
+{
+    return options.files
+               ? std::optional(ResumableRun{"windshield", fingerprintOf(options), frames, options.frames_per_second,
+                                            withMaps(*options.files, options.maps, kMapNames), options.run.files})
+               : std::nullopt;
+}
 
 class WindshieldRun {
 public:
@@ -44,33 +52,33 @@ private:
     void recordBalance();
     /// Moves the car by one frame.
     void travel();
-    /// Simulates and draws all remaining frames.
-    void run();
+    /// Simulates a frame.
+    /// @return what draws it
+    std::function<void()> frame(std::size_t number);
+    /// Makes all remaining frames.
+    void run(std::ostream* table);
     void finish();
 
     const WindshieldOptions& options_;
-    ProgressDisplay& progress_;
     StageClock clock_;
     WindshieldPlan plan_;
+    Film film_;
     WindshieldFrames frames_;
-    std::optional<CheckpointFile> checkpoint_;  ///< if every frame has a file
     std::optional<droplet::DropletTable> table_;
     std::optional<droplet::DropletScene> scene_;
     droplet::WindshieldState state_;
-    std::size_t done_ = 0;          ///< number of simulated frames
-    std::size_t drawn_before_ = 0;  ///< number of frames drawn by an interrupted run
+    std::size_t done_ = 0;  ///< number of frames that an interrupted run simulated
     std::size_t travelled_frames_ = 0;
     double travelled_ = 0.0;  ///< distance since the first frame [m]
     droplet::WindshieldReport report_;
 };
 
 WindshieldRun::WindshieldRun(const WindshieldOptions& options, ProgressDisplay& progress)
-    : options_(options), progress_(progress), plan_(planOf(options)), frames_(options, plan_.parameters)
+    : options_(options),
+      plan_(planOf(options)),
+      film_(plan_.frames, options.run.files, progress, resumableRun(options, plan_.frames)),
+      frames_(options, plan_.parameters, film_)
 {
-    if (options_.files) {
-        checkpoint_.emplace(ResumableRun{kCommand, fingerprintOf(options_), plan_.frames, options_.frames_per_second,
-                                         withMaps(*options_.files, options_.maps, kMapNames), options_.output_options});
-    }
     report_.preset = options_.preset;
     report_.drive_cycle = options_.drive_cycle;
     report_.surface = options_.surface;
@@ -93,25 +101,8 @@ droplet::WindshieldReport WindshieldRun::execute()
 {
     begin();
     std::vector<OutputFile> files;
-    if (options_.droplets) {
-        files.push_back({*options_.droplets, {}});
-    }
     if (!options_.files) {
-        files.push_back({options_.output, {}});
-    }
-    if (options_.droplets) {
-        // Rows are written at once, so the table is open during the whole run.
-        files.front().write = [&](std::ostream& out) {
-            const bool is_json = std::filesystem::path(*options_.droplets).extension() == ".json";
-            table_.emplace(out, is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv, report_.view.shape);
-            run();
-            table_->finish();
-        };
-    } else {
-        run();
-    }
-    if (!options_.files) {
-        files.back().write = [&](std::ostream& out) { frames_.write(out); };
+        files.push_back({options_.output, [&](std::ostream& out) { frames_.write(out); }});
     }
     if (options_.model) {
         files.push_back({*options_.model, [&](std::ostream& out) { scene_->write(out, options_.model_file); }});
@@ -122,10 +113,8 @@ droplet::WindshieldReport WindshieldRun::execute()
                              writeWindshieldReport(out, report_);
                          }});
     }
-    writeTogether(files, options_.output_options);
-    if (checkpoint_) {
-        checkpoint_->end();
-    }
+    film_.write(
+        options_.droplets, [&](std::ostream* table) { run(table); }, files);
     finish();
     return std::move(report_);
 }
@@ -141,7 +130,7 @@ void WindshieldRun::begin()
         scene_.emplace(plan_.parameters.glass, scene);
     }
     frames_.begin();
-    if (checkpoint_ && resume()) {
+    if (resume()) {
         return;
     }
     const auto steps = static_cast<std::size_t>(std::llround(options_.warm_up / plan_.step));
@@ -152,16 +141,12 @@ void WindshieldRun::begin()
 
 bool WindshieldRun::resume()
 {
-    const auto checkpoint = checkpoint_->begin(options_.resume);
-    if (!checkpoint) {
-        return false;
-    }
-    drawn_before_ = checkpoint->frames;
+    const auto checkpoint = film_.begin(options_.resume);
     // Tables and models need every frame to be simulated again, and so do missing files.
-    if (options_.droplets || options_.model || !checkpoint_->run().hasFrames(drawn_before_)) {
+    if (!checkpoint || options_.droplets || options_.model || !film_.hasFrames(checkpoint->frames)) {
         return false;
     }
-    state_ = droplet::stateFromBytes((*checkpoint)["windshield"], checkpoint_->path());
+    state_ = droplet::stateFromBytes((*checkpoint)["windshield"], film_.checkpointPath());
     report_.balance = rowsFromBytes<droplet::BalanceRow>((*checkpoint)["balance"]);
     done_ = checkpoint->frames;
     for (std::size_t k = 1; k < done_; ++k) {
@@ -194,36 +179,41 @@ void WindshieldRun::travel()
     travelled_ += plan_.parameters.vehicle.speedAt(time) / options_.frames_per_second;
 }
 
-void WindshieldRun::run()
+std::function<void()> WindshieldRun::frame(std::size_t number)
 {
-    for (; done_ < plan_.frames; ++done_) {
-        if (done_ > 0) {
-            for (std::size_t k = 0; k < plan_.steps; ++k) {
-                advance();
-            }
-            travel();
+    if (number > 1) {
+        for (std::size_t k = 0; k < plan_.steps; ++k) {
+            advance();
         }
-        if (table_) {
-            table_->add(done_ + 1, state_,
-                        options_.moving_only ? droplet::DropletRows::Moving : droplet::DropletRows::All);
-        }
-        if (scene_) {
-            scene_->add(state_);
-        }
-        if (done_ >= drawn_before_ || !checkpoint_->run().hasFrame(done_ + 1)) {
-            frames_.draw(state_, done_ + 1, done_ + 1 == plan_.frames,
-                         {travelled_, plan_.parameters.vehicle.speedAt(state_.time)});
-        } else {
-            frames_.skip(1);
-        }
-        if (checkpoint_ && done_ + 1 > drawn_before_ && checkpoint_->isDue(done_ + 1)) {
-            frames_.wait();
-            checkpoint_->write(
-                {done_ + 1, {{"balance", bytesOfRows(report_.balance)}, {"windshield", bytesOf(state_)}}});
-        }
-        progress_.reportFrame(done_ + 1, plan_.frames);
+        travel();
     }
-    frames_.wait();
+    if (table_) {
+        table_->add(number, state_, options_.moving_only ? droplet::DropletRows::Moving : droplet::DropletRows::All);
+    }
+    if (scene_) {
+        scene_->add(state_);
+    }
+    if (film_.isWritten(number)) {
+        return [this] { frames_.skip(1); };
+    }
+    return [this, number, state = state_, car = CarState{travelled_, plan_.parameters.vehicle.speedAt(state_.time)}] {
+        frames_.draw(state, number, number == plan_.frames, car);
+    };
+}
+
+void WindshieldRun::run(std::ostream* table)
+{
+    if (table != nullptr) {
+        const bool is_json = std::filesystem::path(*options_.droplets).extension() == ".json";
+        table_.emplace(*table, is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv, report_.view.shape);
+    }
+    film_.make(done_, {[this](std::size_t number) { return frame(number); },
+                       [this] {
+                           return Blobs{{"balance", bytesOfRows(report_.balance)}, {"windshield", bytesOf(state_)}};
+                       }});
+    if (table_) {
+        table_->finish();
+    }
     if (report_.balance.empty() || report_.balance.back().time != state_.time) {
         recordBalance();
     }
