@@ -33,8 +33,6 @@ constexpr double kPathPart = 0.15;
 /// Most triangles of the coarsest level of nested iteration: with fewer than 3000 a star and a g failed at the first
 /// motion of their rims.
 constexpr double kCoarsest = 12'000.0;
-/// Triangles of a footprint up to which a refusal is confirmed on edges half as long.
-constexpr std::size_t kConfirmed = 10'000;
 /// Radius of corners that point inward, over the same: with half of it all slits of drawings were filled, with none a
 /// third of them failed.
 constexpr double kInnerRadius = 0.5;
@@ -167,56 +165,57 @@ double workOf(double triangles, SheetEffort effort, std::optional<double> most)
     return most ? std::min(own, kSheetUnits * *most) : own;
 }
 
-/// Length of edges at a level of nested iteration.
-struct LevelEdges {
-    double scale = 1.0;  ///< over those of the finest level
-    double share = 1.0;  ///< of the finest level over those of the footprints, for shapes; not for their final number
-};
-
-/// Footprints with their corners rounded, and what a sheet over them takes, but for the work.
+/// Footprints with their corners rounded, and what a sheet over them takes at a level, but for the work.
+/// @param scale      of edges over those of the finest level
 /// @param may_round  otherwise they stay as they are
-SheetLevel levelOf(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, const LevelEdges& edges,
-                   bool may_round)
+SheetLevel levelOf(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, double scale, bool may_round)
 {
     const std::optional<double> layer = bendingLayer(options);
     std::vector<PlanarMesh> rounded;
     double covered = 0.0;
     double triangles = 0.0;
-    double wanted = 0.0;
     double path_edge = 0.0;
     for (const PlanarMesh& footprint : footprints) {
         const double size = area(footprint);
-        const double own_edge = edges.scale * edgeOf(footprint);
-        const double edge = edges.share * own_edge;
+        const double edge = scale * edgeOf(footprint);
         // In wide puddles edges are shorter along the rim, where alone the surface bends.
-        const double own_rim_edge =
-            edges.scale * edges.share * rimLength(footprint) / static_cast<double>(footprint.rimVertexCount());
+        const double own_rim_edge = scale * rimLength(footprint) / static_cast<double>(footprint.rimVertexCount());
         const double rim_edge = layer ? std::min(edge, std::max(own_rim_edge, *layer / kEdgesPerLayer)) : edge;
         std::optional<PlanarMesh> changed =
             may_round ? roundInward(footprint, kInnerRadius * rim_edge, rim_edge) : std::nullopt;
         rounded.push_back(changed ? *std::move(changed) : footprint);
         covered += size;
         triangles += trianglesOf(size, edge);
-        wanted += std::round(trianglesOf(size, own_edge));
         path_edge = std::max(path_edge, std::min(kPathEdge * edge, kPathPart * std::sqrt(size)));
     }
     return {rounded.size() == 1 ? std::move(rounded.front()) : join(rounded),
             {.weight = weightOf(options),
              .edge = kFinalEdge * meanEdge(covered, triangles),
              .path_edge = path_edge,
-             .triangles = static_cast<std::size_t>(wanted),
+             .triangles = static_cast<std::size_t>(std::lround(triangles)),
              .ground = options.ground}};
 }
 
-/// @param share  of the triangles' edges over those of the footprints
-SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, double share,
-                      SheetEffort effort, const std::function<void(double)>& reached)
+}  // namespace
+
+SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options, SheetEffort effort)
 {
+    return solveSheet(std::vector<PlanarMesh>{footprint}, options, effort);
+}
+
+SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, SheetEffort effort,
+                       const std::function<void(double)>& reached)
+{
+    options.liquid.validate();
+    options.fill.validate();
+    for (const PlanarMesh& footprint : footprints) {
+        options.ground.requireAt({footprint.vertices.data(), footprint.rimVertexCount()});
+    }
     double triangles = 0.0;
     double rounding = 0.0;
     std::vector<const PlanarMesh*> all;
     for (const PlanarMesh& footprint : footprints) {
-        triangles += trianglesOf(area(footprint), share * edgeOf(footprint));
+        triangles += trianglesOf(area(footprint), edgeOf(footprint));
         rounding += hasInnerCorner(footprint) ? kRoundingWork * std::pow(footprint.rimVertexCount(), 2.0) : 0.0;
         all.push_back(&footprint);
     }
@@ -230,7 +229,7 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
     std::vector<SheetLevel> levels;
     double scale = 1.0;
     do {
-        levels.insert(levels.begin(), levelOf(footprints, options, {scale, share}, may_round));
+        levels.insert(levels.begin(), levelOf(footprints, options, scale, may_round));
         SheetOptions& own = levels.front().options;
         own.is_end_confirmed = effort == SheetEffort::Full;
         own.is_end_wanted = effort != SheetEffort::Trial;
@@ -246,41 +245,6 @@ SheetResult solveWith(const std::vector<PlanarMesh>& footprints, const SolveOpti
         filled->work += work;
     }
     return resultOf(*std::move(filled), std::move(levels.back().footprint), options);
-}
-
-}  // namespace
-
-SheetResult solveSheet(const PlanarMesh& footprint, const SolveOptions& options, SheetEffort effort)
-{
-    return solveSheet(std::vector<PlanarMesh>{footprint}, options, effort);
-}
-
-SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOptions& options, SheetEffort effort,
-                       const std::function<void(double)>& reached)
-{
-    options.liquid.validate();
-    options.fill.validate();
-    std::size_t triangles = 0;
-    for (const PlanarMesh& footprint : footprints) {
-        options.ground.requireAt({footprint.vertices.data(), footprint.rimVertexCount()});
-        triangles += footprint.triangles.size();
-    }
-    SheetResult result = solveWith(footprints, options, 1.0, effort, reached);
-    const bool is_open = result.end != SheetEnd::Reached && result.end != SheetEnd::OutOfWork;
-    const bool has_work = !options.max_work || result.work < *options.max_work;
-    if (is_open && effort == SheetEffort::Full && triangles <= kConfirmed && has_work) {
-        SolveOptions rest = options;
-        if (rest.max_work) {
-            *rest.max_work -= result.work;
-        }
-        SheetResult finer = solveWith(footprints, rest, 0.5, effort, reached);
-        const double work = result.work + finer.work;
-        if (finer.end == SheetEnd::Reached || finer.volume > result.volume) {
-            result = std::move(finer);
-        }
-        result.work = work;
-    }
-    return result;
 }
 
 SheetResult refill(const CapillarySurface& sheet, double volume, const SolveOptions& options)

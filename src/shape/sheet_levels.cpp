@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "shape/sheet_divide.h"
+#include "shape/sheet_limits.h"
 
 namespace droplet {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 /// Most work on the coarsest mesh, for each of its triangles. Of 150 silhouettes of 40 000 triangles, whose coarsest
 /// meshes have 10 000, 135 reached their angle there, half of them with 7000 and 127 with less than 15 000.
 constexpr double kCoarsestWork = 15'000.0;
-/// Relative residual there, below what a finer mesh changes.
-constexpr double kCoarsestTolerance = 1e-4;
 
 }  // namespace
 
@@ -27,7 +26,7 @@ std::optional<FilledSheet> fillByLevels(const std::vector<SheetLevel>& levels, c
     first.max_work = std::min(first.max_work, kCoarsestWork * static_cast<double>(first.triangles));
     first.is_end_wanted = false;
     first.mends = true;
-    first.tolerance = kCoarsestTolerance;
+    first.tolerance = kOnTheWay;
     FilledSheet filled = fillSheet(levels.front().footprint, target, first);
     work = filled.work;
     double change = 0.0;  // of the volume, by the last level

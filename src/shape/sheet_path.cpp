@@ -34,8 +34,9 @@ constexpr double kRefused = 0.4;
 constexpr double kGrowth = 1.25;
 /// First step of the volume, in cubes of the radius of a disc as large as the footprint.
 constexpr double kFirstPart = 0.02;
-/// Cost of new triangles, for each of them, measured from 5000 to 400 000; twice that for a given number of them.
+/// Cost of new triangles, for each of them, measured from 5000 to 400 000, and of divided ones that are mended.
 constexpr double kRemeshWork = 3000.0;
+constexpr double kMendWork = 600.0;
 /// Factorisations that a sheet on new triangles is worth at least: one with too many for its work is not solved.
 constexpr double kLeastFactorisations = 30.0;
 /// Work on the final triangles, in factorisations, whatever the way there took.
@@ -48,13 +49,11 @@ constexpr std::size_t kFirm = 6;
 constexpr double kKeptWorn = 0.1;
 /// Growth of the most work to confirm the end of a path.
 constexpr double kConfirmWork = 1.5;
-/// Most times that a sheet gets new triangles until it is in equilibrium. Liquid that rolls over dry ground between the
-/// teeth of a comb took 10; with 4, sheets ended there at half of what they hold.
-constexpr int kRenewals = 12;
-/// The same while liquid rolls, as along a slit that it closes, and the relative residual up to which it does: it was
-/// 0.03 to 0.3 there, and 1 to 100 where triangles crumpled. With 12, 221 of 255 silhouettes were made at 90°, with
-/// 40 231.
-constexpr int kRollingRenewals = 40;
+/// Most times that a sheet gets new triangles until it is in equilibrium, while liquid rolls, as over dry ground
+/// between the teeth of a comb, or along a slit that it closes, and the relative residual up to which it does: it was
+/// 0.03 to 0.3 there, and 1 to 100 where triangles crumpled, which get new ones but once. With 12, 221 of 255
+/// silhouettes were made at 90°, with 40 231.
+constexpr int kRenewals = 40;
 constexpr double kRolling = 1.0;
 /// Doublings of the first volume, until it wets the ground: on a ball, little liquid leaves the top dry.
 constexpr int kWetter = 8;
@@ -70,8 +69,6 @@ constexpr double kLaid = 0.95;
 constexpr double kFallen = std::numbers::pi / 180.0;
 /// Height over its maximum that proves the maximum.
 constexpr double kLower = 0.99;
-/// Error of the share of a target that is met before the final triangles.
-constexpr double kNear = 1e-4;
 /// Relative residual, and error of the share, of sheets that are a start for finer triangles, which change them by
 /// more.
 constexpr double kLoose = 1e-3;
@@ -140,7 +137,7 @@ public:
             now_.volume = volume;
             now_.pressure = is_level ? 0.0 : liftingPressure(dry);
             now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, within(kSettling));
-            count(now_, k == 0);
+            count(now_, k == 0 ? kRemeshWork : 0.0);
             if (now_.newton.converged || is_level || volume == most) {
                 break;
             }
@@ -161,7 +158,7 @@ public:
         options_.max_work = kKeptWork * factorWork(sheet.triangles.size());
         use(solverOf(now_.sheet), now_.sheet);
         now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, kSettling);
-        count(now_, false);
+        count(now_);
         firm_ = {now_};
     }
 
@@ -343,7 +340,7 @@ private:
         }
         const double missing = 1.0 - shareOf(now_.sheet, now_.pressure);
         // On the way to the final triangles a target need not be met better than they change it.
-        if (std::abs(missing) <= (is_final_ ? options_.tolerance : kNear)) {
+        if (std::abs(missing) <= (is_final_ ? options_.tolerance : kOnTheWay)) {
             return 0.0;
         }
         const double slope = slopeOfShare();
@@ -384,7 +381,7 @@ private:
         next.sheet.vertices = movedPlaces(now_, size);
         base_.lift(next.sheet.vertices, next.sheet.rimVertexCount());
         next.newton = solver_->solve(next.sheet, next.volume, next.pressure, within({}));
-        count(next, false);
+        count(next);
         if (!next.newton.converged) {
             return false;
         }
@@ -449,7 +446,7 @@ private:
             state.sheet = relax(state.sheet, kRelaxations, base_.ground.flat());
             base_.lift(state.sheet.vertices, state.sheet.rimVertexCount());
             state.newton = solver_->solve(state.sheet, state.volume, state.pressure, within(kSettling));
-            count(state, false);
+            count(state);
         }
         return state.newton.converged && !isWorn(meshed_angles_, state.sheet, kKeptWorn);
     }
@@ -523,10 +520,10 @@ private:
                 std::max(options_.max_work, work_) + kFinalFactorisations * factorWork(options_.triangles);
         }
         const State coarse = now_;
+        is_final_ = true;
         const auto stands = [&](const RemeshOptions& triangles) {
             now_ = coarse;
-            is_final_ = renew(now_, triangles, {.is_last = true});
-            return is_final_ && (!has_target || settle()) && isFree();
+            return renew(now_, triangles, {.is_last = true}) && (!has_target || settle()) && isFree();
         };
         RemeshOptions finest = trianglesOf(options_.edge);
         finest.triangles = options_.triangles;
@@ -580,7 +577,7 @@ private:
         std::unique_ptr<SheetSolver> solver;
         // At inner corners liquid may have far to roll; there triangles wear out on the way.
         const auto may_go_on = [&](int round) {
-            return round < kRenewals || (round < kRollingRenewals && next.newton.residual < kRolling);
+            return round < 2 || (round < kRenewals && next.newton.residual < kRolling);
         };
         for (int round = 0; may_go_on(round) && hasWork(); ++round) {
             next.sheet = newTriangles(next.sheet, triangles);
@@ -590,7 +587,7 @@ private:
             }
             solver = solverOf(next.sheet);
             next.newton = solver->solve(next.sheet, next.volume, next.pressure, within(renewal.limits));
-            count(next, true);
+            count(next, triangles.rounds > 0 ? kRemeshWork : kMendWork);
             if (std::abs(next.pressure - state.pressure) > kSamePressure * std::abs(state.pressure)) {
                 return false;
             }
@@ -640,20 +637,18 @@ private:
         return pressure;
     }
 
-    /// Counts the work of Newton's method on new triangles or the same ones: a factorisation costs the power 3/2 of the
-    /// triangles.
-    void count(const State& state, bool is_remeshed)
+    /// Counts the work of Newton's method, and that of new triangles, for each of them.
+    void count(const State& state, double remeshing = 0.0)
     {
         newton_steps_ += state.newton.steps;
-        work_ +=
-            state.newton.work + (is_remeshed ? kRemeshWork * static_cast<double>(state.sheet.triangles.size()) : 0.0);
+        work_ += state.newton.work + remeshing * static_cast<double>(state.sheet.triangles.size());
     }
 
     /// Limits of Newton's method, with the work that is left.
     [[nodiscard]] NewtonLimits within(NewtonLimits limits) const
     {
         limits.max_work = options_.max_work - work_;
-        limits.tolerance = std::max(limits.tolerance, options_.tolerance);
+        limits.tolerance = std::max({limits.tolerance, options_.tolerance, is_final_ ? 0.0 : kOnTheWay});
         limits.chord = chord_;
         return limits;
     }

@@ -496,10 +496,11 @@ TEST(SheetLimits, ShortRectanglesHoldAnyVolume)
 TEST(Sheet, EndsAtAnEquilibriumWhenItsWorkIsDone)
 {
     const PlanarMesh mesh = discMeshes(0.1).front();
-    SheetOptions options{{}, 0.1, 0.3};
+    const SheetOptions options_of_whole{{}, 0.1, 0.3, mesh.triangles.size()};
+    SheetOptions options = options_of_whole;
     const FilledSheet whole = fillSheet(mesh, {FillBy::Volume, 4.0}, options);
     ASSERT_EQ(whole.end, SheetEnd::Reached);
-    options.max_work = 1e6;
+    options.max_work = 3e6;
     const FilledSheet part = fillSheet(mesh, {FillBy::Volume, 4.0}, options);
     ASSERT_EQ(part.end, SheetEnd::OutOfWork);
     EXPECT_GT(part.volume, 0.0);
@@ -507,7 +508,7 @@ TEST(Sheet, EndsAtAnEquilibriumWhenItsWorkIsDone)
     EXPECT_NEAR(integrate(part.mesh, {}).volume, part.volume, 1e-10);
     EXPECT_LT(part.newton_steps, whole.newton_steps);
     // It is the cap of its volume.
-    const FilledSheet cap = fillSheet(mesh, {FillBy::Volume, part.volume}, {{}, 0.1, 0.3});
+    const FilledSheet cap = fillSheet(mesh, {FillBy::Volume, part.volume}, options_of_whole);
     EXPECT_NEAR(part.pressure, cap.pressure, 1e-3 * cap.pressure);
 }
 

@@ -55,8 +55,7 @@ struct SheetResult {
 /// one. The sheet has as many triangles as the footprint's mesh, to 10 %, but for droplets of less than 361. The work
 /// is limited, to about half a minute at 40 000 triangles and one and a half at any number, or to max_work of the
 /// options, but for the final triangles. Work is counted, not timed: the same input ends at the same place. An end is
-/// confirmed on edges one and a half times those of the footprint, that of a footprint of up to 10 000 triangles on
-/// edges half as long, too.
+/// confirmed on edges one and a half times those of the footprint.
 ///
 /// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground, and does not cross itself; the same
 /// input gives the same bits.
