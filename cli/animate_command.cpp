@@ -2,18 +2,21 @@
 #include "animate_command.h"
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <utility>
 
+#include "content_hash.h"
 #include "droplet/error.h"
 #include "droplet/io/animation.h"
 #include "droplet/io/page.h"
@@ -62,6 +65,39 @@ std::string compactList(const std::vector<std::size_t>& numbers)
     return text;
 }
 
+/// Run that can be resumed, if every frame has a file, and the frames are in files.
+std::optional<ResumableRun> resumableRun(const AnimateOptions& options, const Frames& frames)
+{
+    if (!options.files || options.fingerprint.empty()) {
+        return std::nullopt;
+    }
+    const std::vector<std::size_t> numbers = frames.numbers();
+    return ResumableRun{"animate",
+                        options.fingerprint,
+                        frames.count().value_or(std::numeric_limits<std::size_t>::max()),
+                        options.frames_per_second.value_or(droplet::SequenceReport{}.frames_per_second),
+                        {*options.files},
+                        numbers.empty() ? 1 : numbers.front(),
+                        options.run.files};
+}
+
+std::string joined(const auto& lines)
+{
+    return fmt::format("{}\n", fmt::join(lines, "\n"));
+}
+
+std::vector<std::string> linesOf(const std::string& text)
+{
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) {
+        if (!line.empty()) {
+            lines.push_back(line);
+        }
+    }
+    return lines;
+}
+
 /// Makes the droplets of all frames, their files and the report.
 class Sequence {
 public:
@@ -70,7 +106,7 @@ public:
           frames_(frames),
           count_(frames.count()),
           display_(display),
-          film_({}, options.run.files, display),
+          film_({}, options.run.files, display, resumableRun(options, frames)),
           around_(readSurroundings(options.settings))
     {
         report_.inputs = options.inputs;
@@ -104,7 +140,7 @@ public:
 private:
     void run()
     {
-        film_.make(0, {[this](std::size_t number) { return frame(number); }});
+        film_.make(resume(), {[this](std::size_t number) { return frame(number); }, [this] { return state(); }});
         if (report_.dry() == report_.frames.size()) {
             throw Error(
                 ErrorCode::InvalidInput,
@@ -118,6 +154,45 @@ private:
         if (options_.preview_files) {
             writePreviewPictures();
         }
+    }
+
+    /// Goes on from a checkpoint, if that is possible.
+    /// @return number of frames before
+    std::size_t resume()
+    {
+        const auto checkpoint = film_.begin(options_.resume);
+        // Pictures of all frames, and a page, need every surface, and missing files need theirs.
+        if (!checkpoint || options_.preview || options_.contact_sheet || options_.html ||
+            !film_.hasFrames(checkpoint->frames)) {
+            return 0;
+        }
+        const std::string& path = film_.checkpointPath();
+        for (std::size_t k = 0; k < checkpoint->frames; ++k) {
+            const auto picture = frames_.next(options_.footprint.mask);
+            if (!picture) {
+                refuse("--resume: " + std::to_string(checkpoint->frames) + " frames exist already, but this run has " +
+                       std::to_string(k));
+            }
+            take(*picture);
+        }
+        frame_ = std::make_shared<const Frame>(droplet::frameFromBytes((*checkpoint)["frame"], path));
+        report_.frames = droplet::frameReportsFromBytes((*checkpoint)["reports"], path);
+        report_.bytes = std::stoull((*checkpoint)["bytes"]);
+        report_.warnings = linesOf((*checkpoint)["warnings"]);
+        report_.severe_warnings = std::stoull((*checkpoint)["severe warnings"]);
+        const std::vector<std::string> warned = linesOf((*checkpoint)["warned"]);
+        warned_ = {warned.begin(), warned.end()};
+        return checkpoint->frames;
+    }
+
+    [[nodiscard]] Blobs state() const
+    {
+        return {{"frame", bytesOf(*frame_)},
+                {"reports", bytesOf(report_.frames)},
+                {"bytes", std::to_string(report_.bytes)},
+                {"warnings", joined(report_.warnings)},
+                {"severe warnings", std::to_string(report_.severe_warnings)},
+                {"warned", joined(warned_)}};
     }
 
     std::optional<std::function<void()>> frame(std::size_t number)
@@ -139,11 +214,10 @@ private:
         }
     }
 
-    /// Makes the droplets of a frame.
-    /// @return what writes and keeps them
-    std::function<void()> add(const FramePicture& picture)
+    /// Notes what a picture tells of itself. The first one begins the sequence.
+    void take(const FramePicture& picture)
     {
-        if (report_.frames.empty()) {
+        if (report_.width_px == 0) {
             sequence_ = beginSequence(picture.mask, options_, around_, report_);
         }
         if (picture.disagrees) {
@@ -152,6 +226,13 @@ private:
         if (const auto warning = drawingWarning(picture.mask)) {
             warn(picture.name, *warning, false);
         }
+    }
+
+    /// Makes the droplets of a frame.
+    /// @return what writes and keeps them
+    std::function<void()> add(const FramePicture& picture)
+    {
+        take(picture);
         progress_(Stage::Trace, 0.0);
         droplet::Outline outline = droplet::trace(picture.mask, sequence_.droplet.trace);
         if (!outline.loops.empty()) {
@@ -186,7 +267,10 @@ private:
             for (const std::string& file : dry_files) {
                 writeFrame(file, std::make_shared<const droplet::Surface>(), report.closed);
             }
-            if (is_written) {
+            if (is_written && film_.isWritten(number)) {
+                std::error_code failure;
+                report_.bytes += std::filesystem::file_size(*report.output, failure);
+            } else if (is_written) {
                 writeFrame(*report.output, surface, report.closed);
             }
             keep(*frame, report, number, picture_number);
@@ -524,12 +608,27 @@ droplet::SequenceOptions beginSequence(const droplet::Mask& mask, const AnimateO
     return sequence;
 }
 
+std::string fingerprintOf(const AnimateOptions& options, const std::vector<std::string>& files)
+{
+    std::vector<std::string> parts{options.fingerprint};
+    for (const std::string& file : files) {
+        parts.push_back(hashOfFile(file));
+    }
+    RunFiles settings;
+    addSettings(settings, options.settings, {});
+    for (const NamedFile& file : settings.read) {
+        parts.push_back(hashOfFile(file.path));
+    }
+    return fingerprintOf(parts);
+}
+
 RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers)
 {
     RunFiles files;
     addSettings(files, options.settings, options.run);
     if (options.files) {
         files.writesFrames("OUTPUT", *options.files, numbers);
+        files.writes("OUTPUT's checkpoint", checkpointPath(*options.files));
     } else {
         files.writes("OUTPUT", options.output);
     }
@@ -560,8 +659,10 @@ int runAnimate(int argc, const char* const* argv)
         print(*text);
         return 0;
     }
-    const auto& options = std::get<AnimateOptions>(parsed);
+    AnimateOptions options = std::get<AnimateOptions>(parsed);
     Frames frames(options.inputs);
+    const bool is_resumable = options.files && !isStream(options.inputs.front());
+    options.fingerprint = is_resumable ? fingerprintOf(options, frames.files()) : "";
     const std::vector<std::size_t> numbers = frames.numbers();
     RunFiles files = filesOf(options, numbers.empty() ? FrameNumbers{} : FrameNumbers{numbers.front(), numbers.back()});
     for (const std::string& file : frames.files()) {

@@ -23,6 +23,10 @@ droplet::SequenceOptions beginSequence(const droplet::Mask& mask, const AnimateO
 /// @throws droplet::Error with the code that stands for the exit code in the manual page
 int runAnimate(int argc, const char* const* argv);
 
+/// Hash of the options and the files that decide what the frames show.
+/// @param files  that the frames are made from
+std::string fingerprintOf(const AnimateOptions& options, const std::vector<std::string>& files);
+
 /// Files that an animation reads and writes, without its frames.
 /// @param numbers  of the frames
 RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers);

@@ -135,7 +135,9 @@ void declareAnimation(CommandLine& line)
     declareCompression(line, "Surface");
     declareHtml(line);
     line.add("Run", "--json", "FILE", "Write a report; - is standard output");
+    line.addFlag("Run", "--resume", "Continue an interrupted run of the same options");
     declareRun(line);
+    line.exclude({"--resume", "--no-clobber"});
 }
 
 AnimateOptions readAnimation(const CommandLine& line, std::vector<std::string> inputs, std::string output)
@@ -161,6 +163,10 @@ AnimateOptions readAnimation(const CommandLine& line, std::vector<std::string> i
     readSequence(line, options);
     readSequencePreview(line, options);
     readOutput(line, options);
+    options.resume = line.flag("--resume");
+    options.fingerprint = optionsOfFrames(line, options.output,
+                                          {"--verbose", "--html", "--contact-sheet", "--preview", "--preview-size",
+                                           "--view", "--camera", "--codec", "--quality"});
     return options;
 }
 
@@ -190,6 +196,9 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
         refuse("INPUT: - must stand alone: all frames are on standard input");
     }
     AnimateOptions options = readAnimation(line, std::move(inputs), files.back().text);
+    if (options.resume && (!options.files || isStream(options.inputs.front()))) {
+        refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.glb, and INPUT in files");
+    }
     const VideoEncoding encoding = readVideoEncoding(line, options.hasVideo(), "--preview");
     if (options.hasVideo()) {
         options.preview->encoding = encoding;

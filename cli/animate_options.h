@@ -29,6 +29,8 @@ struct AnimateOptions {
     std::optional<PreviewOptions> preview;      ///< its path is that of a video or of preview_files
     std::optional<NumberedPath> preview_files;  ///< set if the preview is one picture per frame
     std::optional<std::string> html;            ///< path or kStandardStream
+    bool resume = false;
+    std::string fingerprint;  ///< all options that decide what the frames show, as of optionsOfFrames()
     FootprintOptions footprint;
     DropletSettings settings;
     RunOptions run;

@@ -83,8 +83,9 @@ const std::string& Checkpoint::operator[](const std::string& name) const
 bool ResumableRun::hasFrame(std::size_t number) const
 {
     std::error_code ignored;
-    return std::all_of(files.begin(), files.end(),
-                       [&](const NumberedPath& file) { return std::filesystem::exists(file.at(number), ignored); });
+    return std::all_of(files.begin(), files.end(), [&](const NumberedPath& file) {
+        return std::filesystem::exists(file.at(first + number - 1), ignored);
+    });
 }
 
 bool ResumableRun::hasFrames(std::size_t count) const

@@ -56,9 +56,10 @@ struct ResumableRun {
     std::size_t frames = 0;                 ///< of the whole run
     double frames_per_second = 30.0;        ///< a checkpoint is due every second of them
     std::vector<NumberedPath> files;        ///< of every frame; the checkpoint lies beside the first
+    std::size_t first = 1;                  ///< number of the first frame in their names
     droplet::OutputOptions treatment = {};  ///< of an existing checkpoint
 
-    /// Whether all files of a frame exist.
+    /// Whether all files of a frame exist, counted from 1.
     [[nodiscard]] bool hasFrame(std::size_t number) const;
     /// Whether all files of the first frames exist.
     [[nodiscard]] bool hasFrames(std::size_t count) const;

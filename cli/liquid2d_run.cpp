@@ -282,6 +282,7 @@ std::optional<ResumableRun> resumableRun(const Liquid2dOptions& options, std::si
                         frames,
                         options.frames_per_second,
                         files,
+                        1,
                         options.run.files};
 }
 

@@ -159,6 +159,19 @@ Footprints readFootprints(const MorphCommandOptions& options)
     return all;
 }
 
+/// Run that can be resumed, if every frame has a mask or drawing. The flow is simulated again, and not drawn.
+std::optional<ResumableRun> resumableRun(const MorphCommandOptions& options)
+{
+    return options.files ? std::optional(ResumableRun{"morph",
+                                                      fingerprintOf(options.animation, options.inputs),
+                                                      options.frames,
+                                                      options.animation.frames_per_second.value_or(24.0),
+                                                      {*options.files},
+                                                      1,
+                                                      options.animation.run.files})
+                         : std::nullopt;
+}
+
 /// Lets the liquid flow, and writes its frames.
 class Morph {
 public:
@@ -166,7 +179,7 @@ public:
         : options_(options),
           progress_(progress),
           footprints_(readFootprints(options)),
-          film_(options.frames, options.animation.run.files, progress)
+          film_(options.frames, options.animation.run.files, progress, resumableRun(options))
     {
         view_.size = footprints_.size;
         view_.width = options.width.value_or(footprints_.width);
@@ -195,9 +208,14 @@ public:
 private:
     void run()
     {
+        (void)film_.begin(options_.animation.resume);
         const droplet::MorphOptions flow{footprints_.size, options_.frames, options_.particles, options_.rounding};
         droplet::morph(footprints_.regions, flow, [&](std::size_t frame, const LiquidShape& shape) {
-            film_.add(frame + 1, [this, number = frame + 1, shape] { draw(number, shape); });
+            film_.add(frame + 1, [this, number = frame + 1, shape] {
+                if (!film_.isWritten(number)) {
+                    draw(number, shape);
+                }
+            });
         });
     }
 
@@ -243,6 +261,7 @@ private:
         animation.footprint.trace.allow_dry = true;
         animation.footprint.trace.width = footprints_.size.x;
         animation.footprint.sized = true;
+        animation.fingerprint = fingerprintOf(animation, options_.inputs);
         Frames frames(masks_, "morph");
         return makeAnimation(animation, frames, progress_);
     }
@@ -267,6 +286,7 @@ RunFiles filesOf(const MorphCommandOptions& options)
         files.reads("--config", options.animation.run.config);
         if (options.files) {
             files.writesFrames("OUTPUT", *options.files, numbers);
+            files.writes("OUTPUT's checkpoint", checkpointPath(*options.files));
         } else {
             files.writes("OUTPUT", options.output);
         }

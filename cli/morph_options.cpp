@@ -71,11 +71,12 @@ void readKind(const CommandLine& line, MorphCommandOptions& options)
         return;
     }
     // The options of droplets would have no effect; those of reading pictures and of the run have.
-    const std::set<std::string> used{
-        "--text",    "--font",    "--frames", "--particle-count", "--rounding",   "--mask-width", "--look",
-        "--quality", "--codec",   "--alpha",  "--width",          "--pixel-size", "--channel",    "--threshold",
-        "--invert",  "--segment", "--colour", "--smooth",         "--keep",       "--fill-holes", "--speck-size",
-        "--fps",     "--threads", "--quiet",  "--no-clobber",     "--config",     "--progress",   "--verbose"};
+    const std::set<std::string> used{"--text",       "--font",       "--frames",  "--particle-count", "--rounding",
+                                     "--mask-width", "--look",       "--quality", "--codec",          "--alpha",
+                                     "--width",      "--pixel-size", "--channel", "--threshold",      "--invert",
+                                     "--segment",    "--colour",     "--smooth",  "--keep",           "--fill-holes",
+                                     "--speck-size", "--fps",        "--threads", "--quiet",          "--no-clobber",
+                                     "--config",     "--progress",   "--verbose", "--resume"};
     for (const auto& [name, value] : line.given()) {
         if (used.count(name) == 0) {
             refuse(name + " needs droplets as OUTPUT, such as out.glb");
@@ -122,6 +123,9 @@ std::variant<MorphCommandOptions, std::string> parseMorph(int argc, const char* 
     readKind(line, options);
     const std::string model = options.kind == MorphOutput::Model ? options.output : "frames.glb";
     options.animation = readAnimation(line, {kStandardStream}, model);
+    if (options.animation.resume && !options.files && !options.animation.files) {
+        refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.svg");
+    }
     if (const auto frames = line.value("--frames")) {
         options.frames = count(*frames, 100'000, "100k");
     }

@@ -270,6 +270,43 @@ TEST_F(AnimateTest, ReadsAFolderInTheOrderOfItsNumbers)
     EXPECT_EQ(bytesOf("loose.glb"), bytesOf("frames.glb"));
 }
 
+/// An interrupted run goes on from its checkpoint, with the same files and the same report.
+TEST_F(AnimateTest, ResumesAnInterruptedRun)
+{
+    const auto run_in = [&](const std::string& folder, std::vector<std::string> more) {
+        more.insert(more.begin(),
+                    {"frames", folder + "/%d.glb", "--fps", "2", "--volume-mode", "track", "--json", folder + ".json"});
+        return run(more);
+    };
+    for (const char* folder : {"whole", "cut"}) {
+        fs::create_directory(directory() / folder);
+    }
+    ASSERT_EQ(run_in("whole", {}).exit_code, 0);
+    // A folder in the place of a frame interrupts the run.
+    fs::create_directories(directory() / "cut/5.glb/x");
+    ASSERT_EQ(run_in("cut", {}).exit_code, 4);
+    EXPECT_TRUE(fs::exists(directory() / "cut/checkpoint.state"));
+    fs::remove_all(directory() / "cut/5.glb");
+    EXPECT_THAT(run_in("cut", {"--resume", "--contact-angle", "50deg"}).error, HasSubstr("other options or files"));
+    writeFile(directory() / "cut/2.glb", std::string(bytesOf("whole/2.glb").size(), 'x'));
+    ASSERT_EQ(run_in("cut", {"--resume"}).exit_code, 0);
+    EXPECT_EQ(bytesOf("cut/2.glb").front(), 'x') << "frames that exist are not made again";
+    EXPECT_FALSE(fs::exists(directory() / "cut/checkpoint.state"));
+    for (const char* name : {"/1.glb", "/3.glb", "/4.glb", "/5.glb"}) {
+        EXPECT_EQ(bytesOf(std::string("cut") + name), bytesOf(std::string("whole") + name)) << name;
+    }
+    json whole = json::parse(bytesOf("whole.json"));
+    json cut = json::parse(bytesOf("cut.json"));
+    for (std::size_t k = 0; k < 5; ++k) {
+        whole["frames"][k].erase("output");
+        cut["frames"][k].erase("output");
+    }
+    EXPECT_EQ(whole["frames"], cut["frames"]);
+    EXPECT_EQ(whole["output"]["bytes"], cut["output"]["bytes"]);
+    expectFailure({"frames", "old.glb", "--resume"}, 2, {"--resume needs a file for every frame"});
+    expectFailure({"-", "f%d.glb", "--resume"}, 2, {"INPUT in files"});
+}
+
 TEST_F(AnimateTest, WritesOneFilePerFrame)
 {
     // The folder is made.

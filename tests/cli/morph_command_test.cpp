@@ -193,5 +193,37 @@ TEST_F(MorphCommand, RefusesWhatCannotFlow)
     EXPECT_FALSE(fs::exists(out));
 }
 
+/// Masks and droplets of an interrupted run are not made again.
+TEST_F(MorphCommand, ResumesAnInterruptedRun)
+{
+    for (const char* extension : {".png", ".obj"}) {
+        SCOPED_TRACE(extension);
+        const auto run_in = [&](const std::string& folder, std::vector<std::string> more) {
+            fs::create_directory(path(folder));
+            more.insert(more.begin(),
+                        {path("square.pgm"), path("disc.svg"), path(folder + "/%d") + extension, "--fps", "2"});
+            return flow(more);
+        };
+        ASSERT_EQ(run_in("whole", {}).exit_code, 0);
+        fs::create_directories(path(std::string("cut/4") + extension) + "/x");
+        ASSERT_EQ(run_in("cut", {}).exit_code, 4);
+        ASSERT_TRUE(fs::exists(path("cut/checkpoint.state")));
+        fs::remove_all(path(std::string("cut/4") + extension));
+        writeFile(path(std::string("cut/1") + extension), "kept");
+        const CommandResult resumed = run_in("cut", {"--resume"});
+        ASSERT_EQ(resumed.exit_code, 0) << resumed.error;
+        EXPECT_EQ(readFile(path(std::string("cut/1") + extension)), "kept");
+        for (const char* name : {"2", "3", "4", "5"}) {
+            EXPECT_EQ(readFile(path(std::string("cut/") + name + extension)),
+                      readFile(path(std::string("whole/") + name + extension)))
+                << name;
+        }
+        fs::remove_all(path("cut"));
+        fs::remove_all(path("whole"));
+    }
+    expectRefused({path("square.pgm"), path("disc.svg"), path("a.glb"), "--resume"}, 2,
+                  "--resume needs a file for every frame");
+}
+
 }  // namespace
 }  // namespace droplet

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "droplet/droplet.h"
@@ -88,5 +90,17 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
 /// @param progress  called at every stage; may be empty
 /// @throws Error    as makeDroplet; InvalidInput if the extent differs; InvalidArgument if `before` has no lineage
 Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress = {});
+
+/// Exact bytes of what nextFrame() needs of the frame before, so that an interrupted sequence can go on.
+/// @param frame  made by firstFrame() or nextFrame()
+std::string bytesOf(const Frame& frame);
+
+/// Frame from its bytes, for nextFrame() alone: it has no surface, figures and warnings.
+///
+/// Guarantees: the next frame is the same as with the frame itself, to the last bit.
+/// @param bytes   of bytesOf()
+/// @param name    of their source, for messages
+/// @throws Error  InvalidInput if they are damaged, or those of another version
+Frame frameFromBytes(std::string_view bytes, const std::string& name);
 
 }  // namespace droplet

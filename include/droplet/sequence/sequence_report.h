@@ -6,6 +6,7 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "droplet/io/output.h"
@@ -33,6 +34,16 @@ struct FrameReport {
 
 /// Measures the figures of a frame for its report; input and output stay empty.
 FrameReport reportOf(const Frame& frame, const SequenceOptions& options);
+
+/// Exact bytes of reports, so that an interrupted sequence can go on.
+/// @param frames  any number
+std::string bytesOf(const std::vector<FrameReport>& frames);
+
+/// Reports from their bytes.
+/// @param bytes   of bytesOf()
+/// @param name    of their source, for messages
+/// @throws Error  InvalidInput if they are damaged, or those of another version
+std::vector<FrameReport> frameReportsFromBytes(std::string_view bytes, const std::string& name);
 
 /// Report on a sequence: its inputs, options and results.
 struct SequenceReport {
