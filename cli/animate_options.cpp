@@ -120,7 +120,7 @@ void declareAnimation(CommandLine& line)
              "Volume that stays the same: total, of all droplets together at one pressure; track, of every droplet, "
              "through merging and splitting; fill, none, every frame has the --contact-angle, --volume or --height "
              "[total]");
-    line.add("Sequence", "--fps", "N", "Frames per second [24, or the video's]");
+    line.add("Sequence", "--fps", "RATE", "Frames per second [24, or the video's]");
     line.add("Sequence", "--contact-sheet", "FILE",
              "Write a PNG of up to 60 frames side by side, seen by one camera; - is standard output");
     line.add("Picture", "--preview", "FILE",

@@ -3,8 +3,12 @@
 // CLI11 splits the command line and formats the help. This file parses values and words the error messages.
 #include "command_line.h"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 #include <unordered_map>
@@ -13,6 +17,7 @@
 
 #include "config_file.h"
 #include "droplet/version.h"
+#include "value_kind.h"
 
 namespace cli {
 namespace {
@@ -66,6 +71,31 @@ std::string nameOf(const CLI::Option* option)
     return "--" + option->get_lnames().front();
 }
 
+/// Description of an option, without its default value.
+struct Described {
+    std::string text;
+    std::string usual;  ///< default value; empty if there is none
+};
+
+Described described(const std::string& description)
+{
+    const std::size_t begin = description.rfind(" [");
+    if (begin == std::string::npos || description.back() != ']') {
+        return {description, ""};
+    }
+    return {description.substr(0, begin), description.substr(begin + 2, description.size() - begin - 3)};
+}
+
+/// Lines of a help's list of commands.
+std::string listOf(const std::vector<std::pair<std::string, std::string>>& commands)
+{
+    std::string text;
+    for (const auto& [name, title] : commands) {
+        text += fmt::format("  {:<13}{}\n", name, title);
+    }
+    return text.empty() ? text : "Commands, each with a --help of its own:\n" + text + "\n";
+}
+
 class HelpFormatter : public CLI::Formatter {
 public:
     explicit HelpFormatter(const CommandText& text) : usage_("\nUsage: " + text.name + " " + text.usage + "\n")
@@ -115,12 +145,13 @@ public:
         app_.formatter(std::make_shared<HelpFormatter>(text));
         app_.set_help_flag();
         app_.allow_extras();
-        app_.footer(text.footer);
+        app_.footer(listOf(text.commands) + text.footer);
     }
 
     void add(const char* group, const char* names, const char* type, const std::string& description)
     {
         app_.add_option(names)->description(wrapped(description))->type_name(type)->group(group)->take_all();
+        descriptions_[app_.get_options().back()] = description;
     }
 
     void addList(const char* group, const char* names, const char* type, const std::string& description)
@@ -132,11 +163,13 @@ public:
     void addFlag(const char* group, const char* names, const std::string& description)
     {
         app_.add_flag(names)->description(wrapped(description))->group(group);
+        descriptions_[app_.get_options().back()] = description;
     }
 
     void addArgument(const char* name, const std::string& description)
     {
         app_.add_option(name)->description(wrapped(description));
+        descriptions_[app_.get_options().back()] = description;
         arguments_ += (arguments_.empty() ? "" : " and ") + std::string(name);
     }
 
@@ -144,6 +177,7 @@ public:
     {
         // CLI11 needs a maximum, and demands the minimum number unless extra arguments are allowed.
         app_.add_option(name)->description(wrapped(description))->expected(0, 1 << 29)->allow_extra_args()->take_all();
+        descriptions_[app_.get_options().back()] = description;
     }
 
     void exclude(const std::vector<std::string>& names) { exclusive_.push_back(names); }
@@ -227,13 +261,75 @@ public:
         return all;
     }
 
+    /// `text`, `json`, or nothing without --help.
+    [[nodiscard]] std::string helpForm() const
+    {
+        const CLI::Option* help = app_.get_option("--help");
+        const std::string form = help->count() == 0 ? "false" : help->results().back();
+        return form == "true" ? "text" : form == "false" ? "" : form;
+    }
+
     [[nodiscard]] std::string help() const { return app_.help(); }
+
+    [[nodiscard]] std::string helpJson() const
+    {
+        nlohmann::ordered_json json{{"schema", "droplet-shape.help/1"},
+                                    {"version", droplet::kVersion},
+                                    {"command", text_.name},
+                                    {"title", text_.title},
+                                    {"usage", text_.name + " " + text_.usage},
+                                    {"arguments", nlohmann::ordered_json::array()},
+                                    {"options", nlohmann::ordered_json::array()},
+                                    {"exclusive", exclusive_},
+                                    {"commands", nlohmann::ordered_json::array()},
+                                    {"footer", text_.footer}};
+        for (const CLI::Option* option : app_.get_options()) {
+            if (option->get_positional()) {
+                json["arguments"].push_back({{"name", option->get_name()}, {"text", descriptions_.at(option)}});
+            } else {
+                json["options"].push_back(jsonOf(option));
+            }
+        }
+        for (const auto& [name, title] : text_.commands) {
+            json["commands"].push_back({{"name", name}, {"title", title}});
+        }
+        return json.dump(2) + "\n";
+    }
 
 private:
     /// Whether --help or --version is given, so that other options do not matter.
     [[nodiscard]] bool asksForText() const
     {
-        return (has("--help") && flag("--help")) || (has("--version") && flag("--version"));
+        return (has("--help") && !helpForm().empty()) || (has("--version") && flag("--version"));
+    }
+
+    [[nodiscard]] nlohmann::ordered_json jsonOf(const CLI::Option* option) const
+    {
+        const Described description = described(descriptions_.at(option));
+        const std::string value = isFlag(option) ? "" : option->get_type_name();
+        const ValueKind kind = isFlag(option) ? ValueKind{"flag"} : valueKind(value).value_or(ValueKind{"unknown"});
+        std::vector<std::string> words;
+        std::istringstream parts(value.find('|') == std::string::npos ? "" : value);
+        for (std::string part; std::getline(parts, part, '|');) {
+            if (std::isupper(static_cast<unsigned char>(part.front())) == 0) {
+                words.push_back(part);
+            }
+        }
+        std::vector<std::string> former;
+        for (std::size_t k = 1; k < option->get_lnames().size(); ++k) {
+            former.push_back("--" + option->get_lnames()[k]);
+        }
+        return {{"name", nameOf(option)},
+                {"short", option->get_snames().empty() ? "" : "-" + option->get_snames().front()},
+                {"former", former},
+                {"group", option->get_group()},
+                {"value", value},
+                {"kind", kind.kind},
+                {"unit", kind.unit},
+                {"words", words},
+                {"several", isList(option)},
+                {"default", description.usual},
+                {"text", description.text}};
     }
 
     [[nodiscard]] bool isList(const CLI::Option* option) const { return lists_.count(option) > 0; }
@@ -297,7 +393,12 @@ private:
             }
             const std::string name = nameOf(option);
             if (isFlag(option)) {
-                requireBoolean({option->results().back(), name});
+                const Given given{option->results().back(), name};
+                if (name == "--help" && given.text != "json" && given.text != "true" && given.text != "false") {
+                    refuse(given, "true, false or json");
+                } else if (name != "--help") {
+                    requireBoolean(given);
+                }
             } else if (option->count() > 1 && !isList(option)) {
                 refuse(name + ": given " + std::to_string(option->count()) + " times, must be given once");
             }
@@ -369,7 +470,8 @@ private:
     std::string arguments_;  ///< names of the arguments, for messages
     std::vector<std::vector<std::string>> exclusive_;
     std::unordered_set<const CLI::Option*> lists_;
-    std::unordered_map<std::string, std::string> origins_;  ///< places of options in the configuration file
+    std::unordered_map<const CLI::Option*, std::string> descriptions_;  ///< as declared
+    std::unordered_map<std::string, std::string> origins_;              ///< places of options in the configuration file
 };
 
 CommandLine::CommandLine(const CommandText& text) : parser_(std::make_unique<Parser>(text)) {}
@@ -444,6 +546,20 @@ std::vector<std::pair<std::string, std::string>> CommandLine::given() const
 std::string CommandLine::help() const
 {
     return parser_->help();
+}
+
+std::string CommandLine::helpJson() const
+{
+    return parser_->helpJson();
+}
+
+std::optional<std::string> CommandLine::requestedHelp() const
+{
+    const std::string form = parser_->helpForm();
+    if (form.empty()) {
+        return std::nullopt;
+    }
+    return form == "json" ? helpJson() : help();
 }
 
 }  // namespace cli

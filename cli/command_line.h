@@ -17,6 +17,8 @@ struct CommandText {
     std::string title;   ///< one line on what the command does
     std::string usage;   ///< arguments: `[OPTIONS] INPUT OUTPUT`
     std::string footer;  ///< units, examples, exit codes
+    /// Commands of the program and what they do, before the footer.
+    std::vector<std::pair<std::string, std::string>> commands = {};
 };
 
 /// Options from the command line and the configuration file; the command line takes precedence.
@@ -67,6 +69,10 @@ public:
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> given() const;
     /// Text that --help prints.
     [[nodiscard]] std::string help() const;
+    /// The same for programs, as JSON, schema `droplet-shape.help/1`: names, kinds of values, units, words, defaults.
+    [[nodiscard]] std::string helpJson() const;
+    /// Text of --help or --help=json; none if neither is given.
+    [[nodiscard]] std::optional<std::string> requestedHelp() const;
 
 private:
     class Parser;

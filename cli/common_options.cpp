@@ -16,7 +16,7 @@ void declareCommon(CommandLine& line, const char* group, const std::string& exam
     line.addFlag(group, "-q,--quiet", "Print only errors");
     line.add(group, "--config", "FILE",
              "Read options from a TOML file with lines such as " + example + "; the command line takes precedence");
-    line.addFlag(group, "-h,--help", "Print this help");
+    line.addFlag(group, "-h,--help", "Print this help; --help=json prints it for programs");
     line.addFlag(group, "--version", "Print the version");
 }
 
@@ -51,8 +51,8 @@ droplet::Compression readCompression(const CommandLine& line, droplet::Format fo
 
 std::optional<std::string> requestedText(const CommandLine& line)
 {
-    if (line.flag("--help")) {
-        return line.help();
+    if (auto help = line.requestedHelp()) {
+        return help;
     }
     if (line.flag("--version")) {
         return "droplet-shape " + std::string(droplet::kVersion) + "\n";

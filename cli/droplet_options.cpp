@@ -450,7 +450,7 @@ void declareRun(CommandLine& line)
         "solve, instead of the summary [auto]");
     line.add(kGroup, "--config", "FILE",
              "Read options from a TOML file with lines such as width = \"8cm\"; the command line takes precedence");
-    line.addFlag(kGroup, "-h,--help", "Print this help");
+    line.addFlag(kGroup, "-h,--help", "Print this help; --help=json prints it for programs");
     line.addFlag(kGroup, "--version", "Print the version");
     line.exclude({"--quiet", "--verbose"});
 }

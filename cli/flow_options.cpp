@@ -102,7 +102,8 @@ void declare(CommandLine& line)
              "velocity_x_m_per_s, velocity_y_m_per_s, velocity_z_m_per_s");
     line.addList(kSources, "--emitter", "X,Y,Z,RATE", "Release droplets at a place, such as 0,0.1,0,50uL/s");
     line.add(kSources, "--rain", "RAINFALL", "Rain, with the drop sizes of Marshall and Palmer [0mm/h]");
-    line.add(kSources, "--condensation", "RATE", "Dew: growth of the water's mean thickness, such as 5mm/h [0mm/h]");
+    line.add(kSources, "--condensation", "RAINFALL",
+             "Dew: growth of the water's mean thickness, such as 5mm/h [0mm/h]");
     line.add(kSources, "--dew-spacing", "LENGTH", "Mean distance of new droplets of dew on a dry surface [3mm]");
     constexpr const char* kMotion = "Motion";
     line.add(kMotion, "--model", "capillary|paper",

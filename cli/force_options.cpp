@@ -77,7 +77,7 @@ void declareForces(CommandLine& line)
     constexpr const char* kAir = "Air";
     line.add(kAir, "--drag-coefficient", "C", "Drag coefficient of droplets in the wind [1]");
     line.add(kAir, "--boundary-layer", "L", "Thickness of the layer in which the wind is slower [by preset]");
-    line.add(kAir, "--profile-exponent", "N",
+    line.add(kAir, "--profile-exponent", "NUMBER",
              "Exponent of the wind's growth with height in that layer; 0.143 for a turbulent one [0.5]");
     line.add(kAir, "--air-density", "D", "Density of the air [1.204kg/m3]");
     constexpr const char* kLiquid = "Liquid";

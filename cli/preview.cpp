@@ -213,7 +213,7 @@ void declareView(CommandLine& line, PreviewOf subject)
     line.add(
         "Picture", "--view", "three-quarter|top|side",
         std::string("Direction of the preview's view ") + (is_text ? "[the front, from above]" : "[three-quarter]"));
-    line.add("Picture", "--camera", "PLACE",
+    line.add("Picture", "--camera", "DIRECTION",
              "Camera position, instead of --view: azimuth, counter-clockwise from the picture's right, and elevation, "
              "such as -60deg,30deg");
     line.exclude({"--view", "--camera"});

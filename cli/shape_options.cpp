@@ -14,20 +14,10 @@ namespace {
 const CommandText& commandText()
 {
     static const CommandText text{
-        "droplet-shape", "make 3D droplets of liquid from the picture of a footprint", "[OPTIONS] INPUT OUTPUT",
-        "Commands, each with a --help of its own:\n"
-        "  animate      Make animated droplets from frames or a video\n"
-        "  batch        Make droplets from many pictures\n"
-        "  compare      Measure the difference of two surfaces\n"
-        "  flow         Let droplets run over a mesh\n"
-        "  glyphs       Make droplets from type\n"
-        "  liquid2d     Draw an animation of liquid in the plane\n"
-        "  morph        Let liquid flow from one footprint to the next\n"
-        "  studio       Draw footprints in a browser and see their droplets\n"
-        "  wind-tunnel  Compute how droplets move in the wind\n"
-        "  windshield   Show rain on the windshield of a moving car\n"
-        "\n" +
-            std::string(kUnitsText) +
+        "droplet-shape",
+        "make 3D droplets of liquid from the picture of a footprint",
+        "[OPTIONS] INPUT OUTPUT",
+        std::string(kUnitsText) +
             "\n"
             "Examples:\n"
             "  droplet-shape logo.png logo.glb\n"
@@ -44,7 +34,17 @@ const CommandText& commandText()
             "Exit codes:\n"
             "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
             "  4 output cannot be written; 5 no such droplet exists;\n"
-            "  6 some of many failed"};
+            "  6 some of many failed",
+        {{"animate", "Make animated droplets from frames or a video"},
+         {"batch", "Make droplets from many pictures"},
+         {"compare", "Measure the difference of two surfaces"},
+         {"flow", "Let droplets run over a mesh"},
+         {"glyphs", "Make droplets from type"},
+         {"liquid2d", "Draw an animation of liquid in the plane"},
+         {"morph", "Let liquid flow from one footprint to the next"},
+         {"studio", "Draw footprints in a browser and see their droplets"},
+         {"wind-tunnel", "Compute how droplets move in the wind"},
+         {"windshield", "Show rain on the windshield of a moving car"}}};
     return text;
 }
 

@@ -80,10 +80,10 @@ int runStudio(int argc, const char* const* argv)
     CommandLine line(commandText());
     line.addArguments("FILE", "Write the page here instead of opening it; - is standard output");
     line.addFlag("Run", "--no-clobber", "Do not replace an existing file");
-    line.addFlag("Run", "-h,--help", "Print this help");
+    line.addFlag("Run", "-h,--help", "Print this help; --help=json prints it for programs");
     line.parse(argc, argv);
-    if (line.flag("--help")) {
-        print(line.help());
+    if (const auto help = line.requestedHelp()) {
+        print(*help);
         return 0;
     }
     const std::vector<Given> paths = line.values("FILE");

@@ -56,10 +56,10 @@ void declare(CommandLine& line)
     line.add(kSweep, "--preset", "hashimoto|thesis|thesis,hashimoto",
              "Named set of default values: hashimoto, a measured plane; thesis, fitted to it; or both side by side "
              "[hashimoto]");
-    line.add(kSweep, "--volume", "LIST", "Volumes of the droplets [by preset]");
-    line.add(kSweep, "--wind", "LIST", "Wind speeds, up the slope and along it [0..16m/s:0.25]");
-    line.add(kSweep, "--slope", "LIST", "Slopes of the ground, from horizontal [35deg]");
-    line.add(kSweep, "--hysteresis", "LIST",
+    line.add(kSweep, "--volume", "VOLUMES", "Volumes of the droplets [by preset]");
+    line.add(kSweep, "--wind", "SPEEDS", "Wind speeds, up the slope and along it [0..16m/s:0.25]");
+    line.add(kSweep, "--slope", "ANGLES", "Slopes of the ground, from horizontal [35deg]");
+    line.add(kSweep, "--hysteresis", "NUMBERS",
              "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]");
     line.add(kSweep, "--sliding-angle,--falling-angle", "ANGLE",
              "Hysteresis, by the slope at which a droplet begins to run");

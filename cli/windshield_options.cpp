@@ -89,7 +89,7 @@ void declare(CommandLine& line)
     constexpr const char* kDroplets = "Droplets";
     line.add(kDroplets, "--hysteresis", "NUMBER",
              "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]");
-    line.add(kDroplets, "--still-diameter", "D", "Raindrops smaller than this never move [1mm]");
+    line.add(kDroplets, "--still-diameter", "LENGTH", "Raindrops smaller than this never move [1mm]");
     line.add(kDroplets, "--film", "LENGTH", "Thickness of the film that running droplets leave behind [0mm]");
     declareForces(line);
     line.add(kDroplets, "--shape", "capillary|capsule",

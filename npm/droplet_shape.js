@@ -25,30 +25,15 @@ const inScript = (text) => text.replace(/--([a-z][a-z-]*)/g, (_, name) => camelC
 const withDegrees = (message) => message.replace(/'(-?[\d.e+-]+)rad' must be .*/,
     (refusal, number) => `${refusal}; a number is in radians: write '${Number(number)}deg'`);
 
-/** Units of numbers, by the name that the help gives an option's value. */
-const kUnits = { LENGTH: 'm', AREA: 'm2', VOLUME: 'm3', ANGLE: 'rad', S: 'N/m', G: 'm/s2', D: 'kg/m3' };
 /** Options of files, of the terminal, of the threads, and of colours, which are not a mask's. */
 const kNotHere = new Set(['format', 'config', 'help', 'version', 'quiet', 'verbose', 'progress', 'threads', 'no-clobber', 'onto',
     'surface-depth', 'by-colour', 'colours', 'gap', 'colour-map', 'nodes', 'materials', 'compress', 'sink']);
 
-/** Options in the command's help: the heading, an option with its value, and its text in lines after column 26. */
+/** Options of the command's --help=json that the solver has, with their names in JavaScript. */
 function optionsOf(help) {
-    const options = [];
-    let group = '';
-    for (const line of help.split('\n')) {
-        const head = /^  (?:-\w, )?--([a-z-]+)(?: (\S+))? *(.*)/.exec(line);
-        if (/^[A-Z].*:$/.test(line)) {
-            group = line.slice(0, -1);
-        } else if (head) {
-            options.push({ name: head[1], group, value: head[2] ?? '', text: head[3] });
-        } else if (line.startsWith(' '.repeat(26)) && options.length > 0) {
-            options.at(-1).text = `${options.at(-1).text} ${line.trim()}`.trim();
-        }
-    }
-    return options.filter(({ name }) => !kNotHere.has(name)).map((option) => {
-        const [, text, value] = /^(.*?)(?: \[([^[\]]*)\])?$/.exec(option.text);
-        return { ...option, name: camelCase(option.name), unit: kUnits[option.value] ?? '', text: inScript(text), default: value ?? '' };
-    });
+    return JSON.parse(help).options.filter(({ name }) => !kNotHere.has(name.slice(2)))
+        .map(({ name, group, value, kind, unit, words, text, default: usual }) =>
+            ({ name: camelCase(name.slice(2)), group, value, kind, unit, words, text: inScript(text), default: usual }));
 }
 
 function textOf(option, value) {
@@ -59,7 +44,7 @@ function textOf(option, value) {
     if (typeof value === 'string') {
         return value === '' || value.includes('\0') ? refuse('a text that is not empty') : value;
     }
-    if (option.value === 'RANGE' && Array.isArray(value)) {
+    if (option.kind === 'range' && Array.isArray(value)) {
         return value.join('..');
     }
     if (typeof value !== 'number') {
@@ -78,7 +63,7 @@ function argumentsOf(options, known) {
         if (value === undefined || value === null || value === false) {
             continue;
         }
-        if (option.value === '') {
+        if (option.kind === 'flag') {
             if (value !== true) {
                 throw new DropletError('InvalidArgument', `${name}: ${JSON.stringify(value)} must be true or false`);
             }

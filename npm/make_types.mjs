@@ -5,23 +5,13 @@ import { loadSolver } from './droplet_shape.js';
 
 const { options } = await loadSolver(readFileSync(process.argv[2]));
 
-function typeOf({ value, unit }) {
-    if (value === '') {
-        return 'boolean';
+const kTypes = { flag: 'boolean', count: 'string | number', number: 'number', range: 'string | [number, number]' };
+
+function typeOf({ kind, unit, words }) {
+    if (kind === 'words') {
+        return words.map((word) => /^\d/.test(word) ? word : `'${word}'`).join(' | ');
     }
-    if (unit !== '' || value === 'N') {
-        return 'string | number';
-    }
-    if (value === 'RANGE') {
-        return 'string | [number, number]';
-    }
-    if (value === 'F') {
-        return 'number';
-    }
-    const words = value.split('|');
-    return words.every((word) => /^([a-z]+|\d+)$/.test(word))
-        ? words.map((word) => /^\d/.test(word) ? word : `'${word}'`).join(' | ')
-        : 'string';
+    return kTypes[kind] ?? (unit === '' ? 'string' : 'string | number');
 }
 const lines = options.map((option) => {
     // With superscripts, as in texts.
@@ -74,6 +64,10 @@ export interface Option {
     group: string;
     /** name of the value in the help, or the allowed words; empty for a flag */
     value: string;
+    /** what the value is: 'flag', 'words', 'length', 'count', … */
+    kind: string;
+    /** allowed words, or words that may stand instead of a value */
+    words: string[];
     /** of a number; empty if it has none */
     unit: string;
     text: string;

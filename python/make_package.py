@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the functions and reports of the package from the command's help and the reports' schemas.
+"""Writes the functions and reports of the package from the command's --help=json and the reports' schemas.
 
     python/make_package.py [--check] [PROGRAM]
 
@@ -22,7 +22,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-COLUMN = 26  # column of the descriptions in the help
 MADE_BY = "# SPDX-License-Identifier: GPL-3.0-or-later\n# Made by python/make_package.py.\n"
 
 
@@ -34,38 +33,21 @@ class Option:
     name: str  # in Python
     group: str
     value: str  # name of the value in the help, or the allowed words; empty for a flag
+    kind: str  # as of --help=json
+    words: list  # those that are allowed, or may stand instead of a value
     text: str
     default: str
 
 
 def read_options(program, command):
-    """Options of a command, from its help."""
-    words = [program, command, "--help"] if command else [program, "--help"]
-    help_text = subprocess.run(words, check=True, capture_output=True, text=True).stdout
-    entries = []
-    group = ""
-    for line in help_text.splitlines():
-        head = re.match(r"  (?:-\w, )?--([a-z-]+)(?: (\S+))? *(.*)", line)
-        if re.fullmatch(r"[A-Z].*:", line):
-            group = line[:-1]
-        elif head:
-            entries.append([group, *head.groups()])
-        elif line.startswith(" " * COLUMN) and entries:
-            entries[-1][3] = (entries[-1][3] + " " + line.strip()).strip()
-        elif not line:
-            group = ""
-    options = {}
-    for group, name, value, text in entries:
-        default = re.search(r" \[([^\[\]]*)\]$", text)
-        name = name.replace("-", "_")
-        options[name] = Option(
-            name,
-            group,
-            value or "",
-            text[: default.start()] if default else text,
-            default.group(1) if default else "",
-        )
-    return options
+    """Options of a command, from its --help=json."""
+    words = [program, *([command] if command else []), "--help=json"]
+    told = json.loads(subprocess.run(words, check=True, capture_output=True, text=True).stdout)
+    names = [option["name"][2:].replace("-", "_") for option in told["options"]]
+    return {
+        name: Option(name, **{key: option[key] for key in ("group", "value", "kind", "words", "text", "default")})
+        for name, option in zip(names, told["options"])
+    }
 
 
 @dataclass
@@ -82,6 +64,7 @@ KINDS = {
     "flag": Kind("flag", "bool"),
     "text": Kind("text", "str"),
     "path": Kind("path", "Path"),
+    "ground": Kind("text", "str"),  # a path or a surface
     "count": Kind("number", "str | int", ""),
     "number": Kind("number", "float", ""),
     "length": Kind("m", QUANTITY, "m"),
@@ -111,77 +94,13 @@ KINDS = {
     "lengths_of_place": Kind("list m", "str | Sequence[float]", "m"),
     "open": Kind("number", QUANTITY, "1 is the whole time"),
 }
-KIND_OF_VALUE = {
-    "LENGTH": "length",
-    "L": "length",
-    "AREA": "area",
-    "VOLUME": "volume",
-    "ANGLE": "angle",
-    "S": "tension",
-    "G": "acceleration",
-    "ACCELERATION": "acceleration",
-    "SPEED": "speed",
-    "DURATION": "duration",
-    "TIME": "duration",
-    "RAINFALL": "rainfall",
-    "SHARE": "share",
-    "V|artistic|wedge": "viscosity",
-    "V|every": "volume",
-    "N": "count",
-    "N|FILE": "count",
-    "K|auto": "count",
-    "F": "number",
-    "C": "number",
-    "NUMBER": "number",
-    "STOPS": "number",
-    "P": "number",
-    "RATE": "number",
-    "FILE": "path",
-    "OBJECT": "path",
-    "PATH": "path",
-    "GROUND": "text",
-    "COLOUR": "text",
-    "NAME": "text",
-    "RANGE": "range",
-    "X,Y,Z": "vector",
-    "X,Y,Z,RATE": "texts",
-    "NAME:VALUES": "texts",
-    "AXIS": "axes",
-    "SIZE": "size",
-    "ANGLE/s": "spin",
-    "BAND": "band",
-    "OPEN": "open",
-}
-KIND_OF_OPTION = {
-    "density": "density",
-    "air_density": "density",
-    "still_diameter": "length",
-    "profile_exponent": "number",
-    "line_spacing": "number",
-    "condensation": "rainfall",
-    "camera": "angles_of_place",
-    "eye": "lengths_of_place",
-    "look_at": "lengths_of_place",
-}
-LIST_OF_WIND_TUNNEL = {"volume": "volumes", "wind": "speeds", "slope": "angles", "hysteresis": "numbers"}
 
 
-def kind_of(option, command):
-    if not option.value:
-        return KINDS["flag"]
-    if option.value == "LIST":
-        return KINDS[LIST_OF_WIND_TUNNEL[option.name]]
-    if option.name in KIND_OF_OPTION:
-        return KINDS[KIND_OF_OPTION[option.name]]
-    if command != "glyphs" and option.name == "fps":
-        return KINDS["number"]
-    if option.value in KIND_OF_VALUE:
-        return KINDS[KIND_OF_VALUE[option.value]]
-    words = option.value.split("|")
-    if len(words) > 1 and all(word[:1].islower() or word[:1].isdigit() for word in words):
-        literals = ", ".join(word if word.isdigit() else f'"{word}"' for word in words)
-        return Kind("number" if any(word.isdigit() for word in words) else "text", f"Literal[{literals}]")
-    raise SystemExit(f"make_package.py: {command}: --{option.name}: unknown value {option.value}")
+def kind_of(option):
+    if option.kind != "words":
+        return KINDS[option.kind]
+    literals = ", ".join(word if word.isdigit() else f'"{word}"' for word in option.words)
+    return Kind("number" if any(word.isdigit() for word in option.words) else "text", f"Literal[{literals}]")
 
 
 # --------------------------------------------------------------------------------------------------------- the functions
@@ -432,7 +351,7 @@ def write_function(function, program):
             raise SystemExit(f"make_package.py: {function.name}: no options in the group {group}")
         chosen += [option for option in found if not function.only or option.name in function.only]
     chosen += [option for option in options.values() if option.group == "Run" and option.name in function.run]
-    kinds = {option.name: kind_of(option, function.command) for option in chosen}
+    kinds = {option.name: kind_of(option) for option in chosen}
 
     signature = [part.strip() for part in re.split(r", (?=\w+:)", function.parameters) if part] + ["*"]
     for option in chosen:

@@ -79,7 +79,7 @@ complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liqui
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l verbose -s v -d 'Print more: every droplet, times, memory'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l progress -x -a 'auto none json' -d 'auto shows a bar on a terminal; json writes a line of JSON for each stage, and for each percent of a long solve, instead of the summary'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from compare flow liquid2d studio wind-tunnel windshield' -l config -r -F -d 'Read options from a TOML file with lines such as width = "8cm"; the command line takes precedence'
-complete -c droplet-shape -l help -s h -d 'Print this help'
+complete -c droplet-shape -l help -s h -d 'Print this help; --help=json prints it for programs'
 complete -c droplet-shape -n 'not __fish_seen_subcommand_from studio' -l version -d 'Print the version'
 complete -c droplet-shape -n '__fish_seen_subcommand_from animate morph' -l volume-mode -x -a 'total track fill' -d 'Volume that stays the same: total, of all droplets together at one pressure; track, of every droplet, through merging and splitting; fill, none, every frame has the --contact-angle, --volume or --height'
 complete -c droplet-shape -n '__fish_seen_subcommand_from animate liquid2d morph windshield' -l fps -x -d 'Frames per second'

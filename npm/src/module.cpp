@@ -263,13 +263,13 @@ EMSCRIPTEN_KEEPALIVE void droplet_delete(const Result* result)
     delete result;
 }
 
-/// Help of the options, which solver.js turns into their list.
+/// The options for programs, as --help=json prints them.
 EMSCRIPTEN_KEEPALIVE const char* droplet_help()
 {
     static const std::string text = [] {
         cli::CommandLine line({"droplet-shape", "", "", ""});
         declare(line);
-        return line.help();
+        return line.helpJson();
     }();
     return text.c_str();
 }

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -63,6 +66,44 @@ TEST_F(UsageTest, HelpFitsATerminalOfEightyColumns)
             EXPECT_LE(line.size(), 80U) << command << ": " << line;
         }
     }
+}
+
+/// --help=json tells programs what --help tells people.
+TEST_F(UsageTest, HelpForProgramsHasTheOptionsOfTheHelp)
+{
+    for (const std::string command : {"", "animate", "batch", "compare", "flow", "glyphs", "liquid2d", "morph",
+                                      "studio", "wind-tunnel", "windshield"}) {
+        SCOPED_TRACE(command);
+        const auto told = [&](const std::string& form) {
+            return run(command.empty() ? std::vector<std::string>{form} : std::vector<std::string>{command, form})
+                .output;
+        };
+        const std::string text = told("--help");
+        const auto json = nlohmann::json::parse(told("--help=json"));
+        std::string all;
+        for (const char c : text) {
+            if (c != ' ' && c != '\n') {
+                all += c;
+            }
+        }
+        const auto expect_told = [&](std::string part) {
+            part.erase(std::remove(part.begin(), part.end(), ' '), part.end());
+            EXPECT_THAT(all, HasSubstr(part));
+        };
+        std::size_t names = 0;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            names += line.rfind("  --", 0) == 0 || line.rfind("  -", 0) == 0 ? 1 : 0;
+        }
+        EXPECT_EQ(json["options"].size(), names);
+        for (const auto& option : json["options"]) {
+            const auto of = [&](const char* key) { return option[key].get<std::string>(); };
+            const std::string usual = of("default").empty() ? "" : "[" + of("default") + "]";
+            expect_told(of("name") + of("value") + of("text") + usual);
+            EXPECT_NE(of("kind"), "unknown") << of("name");
+        }
+    }
+    expectRefused({"--help=xml"}, {"--help: 'xml' must be true, false or json"});
 }
 
 TEST_F(UsageTest, HelpOnAFullDeviceFails)
