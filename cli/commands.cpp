@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string>
@@ -11,35 +14,32 @@
 #include "animate_command.h"
 #include "batch_command.h"
 #include "compare_command.h"
-#include "flow_command.h"
 #include "glyphs_command.h"
-#include "liquid2d_command.h"
-#include "morph_command.h"
 #include "option_values.h"
 #include "shape_command.h"
 #include "studio_command.h"
-#include "wind_tunnel_command.h"
-#include "windshield_command.h"
 
 namespace cli {
 namespace {
 
-/// Command, selected by the first argument.
-struct Command {
-    std::string_view name;
-    int (*run)(int argc, const char* const* argv);
-};
+constexpr std::array kCommands{Command{"animate", runAnimate}, Command{"batch", runBatch},
+                               Command{"compare", runCompare}, Command{"glyphs", runGlyphs},
+                               Command{"studio", runStudio}};
 
-constexpr std::array kCommands{Command{"animate", runAnimate},
-                               Command{"batch", runBatch},
-                               Command{"compare", runCompare},
-                               Command{"flow", runFlow},
-                               Command{"glyphs", runGlyphs},
-                               Command{"liquid2d", runLiquid2d},
-                               Command{"morph", runMorph},
-                               Command{"studio", runStudio},
-                               Command{"wind-tunnel", runWindTunnel},
-                               Command{"windshield", runWindshield}};
+/// Commands of the program of what moves.
+constexpr std::array<std::string_view, 5> kMotion{"flow", "liquid2d", "morph", "wind-tunnel", "windshield"};
+
+/// Becomes the program of what moves.
+/// @throws droplet::Error InvalidArgument: it is missing
+[[noreturn]] void becomeMotion(const char* const* argv)
+{
+    std::error_code unknown;
+    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+    const std::string program = (self.parent_path() / DROPLET_MOTION).lexically_normal().string();
+    execv(program.c_str(), const_cast<char* const*>(argv));
+    refuse(std::string(argv[1]) + " needs the program " + program +
+           ", which is missing; the target droplet_motion builds it");
+}
 
 /// Refuses a word that is almost a command's name, and not an existing file.
 void refuseMisspelt(const std::string& word)
@@ -48,6 +48,7 @@ void refuseMisspelt(const std::string& word)
     for (const Command& command : kCommands) {
         names.emplace_back(command.name);
     }
+    names.insert(names.end(), kMotion.begin(), kMotion.end());
     std::error_code ignored;
     const std::string name = std::filesystem::exists(word, ignored) ? "" : nearestName(word, names);
     if (!name.empty()) {
@@ -57,14 +58,23 @@ void refuseMisspelt(const std::string& word)
 
 }  // namespace
 
-int runCommand(int argc, const char* const* argv)
+std::span<const Command> dropletCommands()
 {
-    for (const Command& command : kCommands) {
-        if (argc > 1 && argv[1] == command.name) {
+    return kCommands;
+}
+
+int runCommand(int argc, const char* const* argv, std::span<const Command> commands)
+{
+    const std::string_view word = argc > 1 ? argv[1] : "";
+    for (const Command& command : commands) {
+        if (word == command.name) {
             return command.run(argc - 1, argv + 1);
         }
     }
-    refuseMisspelt(argc > 1 ? argv[1] : "");
+    if (std::find(kMotion.begin(), kMotion.end(), word) != kMotion.end()) {
+        becomeMotion(argv);
+    }
+    refuseMisspelt(std::string(word));
     return runShape(argc, argv);
 }
 

@@ -111,6 +111,10 @@ export interface Option {
     group: string;
     /** name of the value in the help, or the allowed words; empty for a flag */
     value: string;
+    /** what the value is: 'flag', 'words', 'length', 'count', … */
+    kind: string;
+    /** allowed words, or words that may stand instead of a value */
+    words: string[];
     /** of a number; empty if it has none */
     unit: string;
     text: string;

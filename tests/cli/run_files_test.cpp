@@ -268,7 +268,9 @@ Refused refusalOf(const std::vector<std::string>& arguments)
         argv.push_back(argument.c_str());
     }
     try {
-        cli::runCommand(static_cast<int>(argv.size()), argv.data());
+        std::vector<cli::Command> commands(cli::dropletCommands().begin(), cli::dropletCommands().end());
+        commands.insert(commands.end(), cli::motionCommands().begin(), cli::motionCommands().end());
+        cli::runCommand(static_cast<int>(argv.size()), argv.data(), commands);
         return {};
     } catch (const Error& error) {
         return {error.code(), error.what()};
