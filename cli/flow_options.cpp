@@ -318,7 +318,7 @@ void readSources(const CommandLine& line, FlowOptions& options)
         droplet::FlowCondensation condensation;
         condensation.rate = quantity(*dew, kRain);
         readQuantity(line, "--dew-spacing", kSpacing, condensation.spacing);
-        parameters.condensation = condensation;
+        parameters.condensation = condensation.rate > 0.0 ? std::optional(condensation) : std::nullopt;
     } else if (line.value("--dew-spacing")) {
         refuse("--dew-spacing needs --condensation");
     }
@@ -326,7 +326,7 @@ void readSources(const CommandLine& line, FlowOptions& options)
         refuse("--from needs --drops or --rain");
     }
     options.has_source = options.preset || options.drops > 0 || options.start || !parameters.emitters.empty() ||
-                         parameters.rain || parameters.condensation;
+                         parameters.rain || line.value("--condensation");
     if (!options.has_source) {
         refuse("no droplets are asked for; give --preset, --drops, --start, --emitter, --rain or --condensation");
     }
