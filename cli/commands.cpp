@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -44,11 +45,9 @@ constexpr std::array<std::string_view, 5> kMotion{"flow", "liquid2d", "morph", "
 /// Refuses a word that is almost a command's name, and not an existing file.
 void refuseMisspelt(const std::string& word)
 {
-    std::vector<std::string> names;
-    for (const Command& command : kCommands) {
-        names.emplace_back(command.name);
-    }
-    names.insert(names.end(), kMotion.begin(), kMotion.end());
+    std::vector<std::string> names(kMotion.begin(), kMotion.end());
+    std::transform(kCommands.begin(), kCommands.end(), std::back_inserter(names),
+                   [](const Command& command) { return std::string(command.name); });
     std::error_code ignored;
     const std::string name = std::filesystem::exists(word, ignored) ? "" : nearestName(word, names);
     if (!name.empty()) {
