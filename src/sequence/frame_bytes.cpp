@@ -244,7 +244,9 @@ private:
         std::vector<RowInterval> intervals;
         (*this)(lattice.edge, lattice.first_regular_triangle, begin, intervals);
         for (const RowInterval& interval : intervals) {
-            in_.require(interval.begin < interval.end);
+            const auto is_near = [](std::int32_t place) { return place > -(1 << 24) && place < (1 << 24); };
+            in_.require(interval.begin < interval.end && is_near(interval.row) && is_near(interval.begin) &&
+                        is_near(interval.end));
         }
         lattice.grid = LatticeGrid(LatticeRegion(std::move(intervals)), begin);
     }

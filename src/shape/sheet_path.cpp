@@ -206,7 +206,14 @@ public:
         const std::optional<SheetContact> contact = contact_;
         if (end != SheetEnd::Reached && now_.newton.converged) {
             options_.max_work *= kConfirmWork;
-            refine(false);
+            // New triangles may bring a sheet that is nearly there beyond the target; then an earlier one is taken.
+            for (bool stands = refine(false); wayTo() < 0.0 && firm_.size() > 1; stands = refine(false)) {
+                if (stands && settle() && isFree()) {
+                    return filled(SheetEnd::Reached);
+                }
+                firm_.pop_back();
+                goBack();
+            }
         }
         contact_ = contact;
         return filled(end);
