@@ -54,8 +54,8 @@ std::string windshield(const std::filesystem::path& output, const Arguments& arg
     Arguments all = arguments;
     all.insert(all.end(), {"--quiet", argumentOf(output)});
     const auto options = parsed(cli::parseWindshield, all);
-    const Work work(options.threads);
-    checkFiles(filesOf(options), options.output_options);
+    const Work work(options.run.threads);
+    checkFiles(filesOf(options), options.run.files);
     cli::ProgressDisplay progress(cli::ProgressMode::None);
     const droplet::WindshieldReport report = cli::simulateWindshield(options, progress);
     progress.finish();
@@ -74,8 +74,8 @@ std::string flow(const std::optional<std::filesystem::path>& object, const std::
     }
     all.push_back(argumentOf(output));
     const auto options = parsed(cli::parseFlow, all);
-    const Work work(options.threads);
-    checkFiles(filesOf(options), options.output_options);
+    const Work work(options.run.threads);
+    checkFiles(filesOf(options), options.run.files);
     cli::ProgressDisplay progress(cli::ProgressMode::None);
     const droplet::FlowReport report = cli::simulateFlow(options, progress);
     progress.finish();
