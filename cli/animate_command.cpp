@@ -77,8 +77,7 @@ std::optional<ResumableRun> resumableRun(const AnimateOptions& options, const Fr
                         frames.count().value_or(std::numeric_limits<std::size_t>::max()),
                         options.frames_per_second.value_or(droplet::SequenceReport{}.frames_per_second),
                         {*options.files},
-                        numbers.empty() ? 1 : numbers.front(),
-                        options.run.files};
+                        numbers.empty() ? 1 : numbers.front()};
 }
 
 std::string joined(const auto& lines)
@@ -646,7 +645,7 @@ RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers)
     return files;
 }
 
-FilmEnd makeAnimation(const AnimateOptions& options, Frames& frames, ProgressDisplay& progress)
+RunEnd makeAnimation(const AnimateOptions& options, Frames& frames, ProgressDisplay& progress)
 {
     const droplet::SequenceReport report = Sequence(options, frames, progress).make();
     return {summaryOf(report, options.run.verbosity == Verbosity::Verbose), report.warnings, report.severe_warnings};

@@ -33,6 +33,6 @@ RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers);
 
 /// Makes droplets of frames and writes them. The files have been checked.
 /// @throws droplet::Error as runAnimate()
-FilmEnd makeAnimation(const AnimateOptions& options, Frames& frames, ProgressDisplay& progress);
+RunEnd makeAnimation(const AnimateOptions& options, Frames& frames, ProgressDisplay& progress);
 
 }  // namespace cli

@@ -102,7 +102,10 @@ std::string checkpointPath(const NumberedPath& frames)
     return std::filesystem::path(frames.with("checkpoint")).replace_extension(".state").string();
 }
 
-CheckpointFile::CheckpointFile(ResumableRun run) : run_(std::move(run)), path_(checkpointPath(run_.files.front())) {}
+CheckpointFile::CheckpointFile(ResumableRun run, const droplet::OutputOptions& treatment)
+    : run_(std::move(run)), treatment_(treatment), path_(checkpointPath(run_.files.front()))
+{
+}
 
 std::optional<Checkpoint> CheckpointFile::begin(bool resume) const
 {
@@ -168,7 +171,7 @@ void CheckpointFile::removeOther() const
     if (!std::filesystem::exists(path_, failure)) {
         return;
     }
-    droplet::checkWritable(path_, run_.treatment);
+    droplet::checkWritable(path_, treatment_);
     std::ifstream file(path_, std::ios::binary);
     const std::string expected = signatureOf(run_.command);
     std::string beginning(expected.size(), '\0');

@@ -51,13 +51,12 @@ std::string checkpointPath(const NumberedPath& frames);
 
 /// Run that can be resumed, since every frame has a file.
 struct ResumableRun {
-    std::string command;                    ///< such as `windshield`
-    std::string fingerprint;                ///< hash of options and input files that decide what the frames show
-    std::size_t frames = 0;                 ///< of the whole run
-    double frames_per_second = 30.0;        ///< a checkpoint is due every second of them
-    std::vector<NumberedPath> files;        ///< of every frame; the checkpoint lies beside the first
-    std::size_t first = 1;                  ///< number of the first frame in their names
-    droplet::OutputOptions treatment = {};  ///< of an existing checkpoint
+    std::string command;              ///< such as `windshield`
+    std::string fingerprint;          ///< hash of options and input files that decide what the frames show
+    std::size_t frames = 0;           ///< of the whole run
+    double frames_per_second = 30.0;  ///< a checkpoint is due every second of them
+    std::vector<NumberedPath> files;  ///< of every frame; the checkpoint lies beside the first
+    std::size_t first = 1;            ///< number of the first frame in their names
 
     /// Whether all files of a frame exist, counted from 1.
     [[nodiscard]] bool hasFrame(std::size_t number) const;
@@ -68,7 +67,8 @@ struct ResumableRun {
 /// Checkpoint of a run, beside its frames.
 class CheckpointFile {
 public:
-    explicit CheckpointFile(ResumableRun run);
+    /// @param treatment  of an existing checkpoint
+    CheckpointFile(ResumableRun run, const droplet::OutputOptions& treatment);
 
     /// Path of the file.
     [[nodiscard]] const std::string& path() const { return path_; }
@@ -98,6 +98,7 @@ private:
     void removeOther() const;
 
     ResumableRun run_;
+    droplet::OutputOptions treatment_;
     std::string path_;
 };
 

@@ -18,6 +18,7 @@
 #include "glyphs_command.h"
 #include "option_values.h"
 #include "shape_command.h"
+#include "shape_options.h"
 #include "studio_command.h"
 
 namespace cli {
@@ -26,9 +27,6 @@ namespace {
 constexpr std::array kCommands{Command{"animate", runAnimate}, Command{"batch", runBatch},
                                Command{"compare", runCompare}, Command{"glyphs", runGlyphs},
                                Command{"studio", runStudio}};
-
-/// Commands of the program of what moves.
-constexpr std::array<std::string_view, 5> kMotion{"flow", "liquid2d", "morph", "wind-tunnel", "windshield"};
 
 /// Becomes the program of what moves.
 /// @throws droplet::Error InvalidArgument: it is missing
@@ -45,9 +43,9 @@ constexpr std::array<std::string_view, 5> kMotion{"flow", "liquid2d", "morph", "
 /// Refuses a word that is almost a command's name, and not an existing file.
 void refuseMisspelt(const std::string& word)
 {
-    std::vector<std::string> names(kMotion.begin(), kMotion.end());
-    std::transform(kCommands.begin(), kCommands.end(), std::back_inserter(names),
-                   [](const Command& command) { return std::string(command.name); });
+    std::vector<std::string> names;
+    std::transform(programCommands().begin(), programCommands().end(), std::back_inserter(names),
+                   [](const auto& command) { return command.first; });
     std::error_code ignored;
     const std::string name = std::filesystem::exists(word, ignored) ? "" : nearestName(word, names);
     if (!name.empty()) {
@@ -70,7 +68,8 @@ int runCommand(int argc, const char* const* argv, std::span<const Command> comma
             return command.run(argc - 1, argv + 1);
         }
     }
-    if (std::find(kMotion.begin(), kMotion.end(), word) != kMotion.end()) {
+    const auto& known = programCommands();
+    if (std::any_of(known.begin(), known.end(), [&](const auto& command) { return command.first == word; })) {
         becomeMotion(argv);
     }
     refuseMisspelt(std::string(word));

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "film.h"
 
-#include <tbb/global_control.h>
-
 #include <exception>
-#include <iostream>
 #include <utility>
-
-#include "shape_command.h"
 
 namespace cli {
 
@@ -16,7 +11,7 @@ Film::Film(std::optional<std::size_t> frames, const droplet::OutputOptions& trea
     : frames_(frames), treatment_(treatment), progress_(progress)
 {
     if (resumable) {
-        checkpoint_.emplace(*std::move(resumable));
+        checkpoint_.emplace(*std::move(resumable), treatment);
     }
 }
 
@@ -101,24 +96,10 @@ void Film::settle()
     }
 }
 
-int runFilm(const RunOptions& run, const RunFiles& files, const std::function<FilmEnd(ProgressDisplay&)>& make)
+int runFilm(const RunOptions& run, const RunFiles& files, const std::function<RunEnd(ProgressDisplay&)>& make)
 {
     checkFiles(files, run.files);
-    std::optional<tbb::global_control> threads;
-    if (run.threads) {
-        threads.emplace(tbb::global_control::max_allowed_parallelism, *run.threads);
-    }
-    ProgressDisplay progress(run.shownProgress());
-    const FilmEnd end = make(progress);
-    progress.finish();
-    const bool is_quiet = run.verbosity == Verbosity::Quiet;
-    if (!is_quiet && run.progress != ProgressMode::Json) {
-        std::cerr << end.summary << std::flush;
-    }
-    const std::size_t printed = is_quiet ? end.severe_warnings : end.warnings.size();
-    for (std::size_t i = 0; i < printed; ++i) {
-        printWarning(end.warnings[i], run.progress);
-    }
+    runAndTell(run, make);
     return 0;
 }
 

@@ -14,6 +14,7 @@
 #include "common_options.h"
 #include "files.h"
 #include "progress_display.h"
+#include "run_command.h"
 #include "run_files.h"
 
 namespace cli {
@@ -90,17 +91,10 @@ private:
     tbb::task_group saving_;
 };
 
-/// How a run ended, for standard error.
-struct FilmEnd {
-    std::string summary;  ///< lines
-    std::vector<std::string> warnings = {};
-    std::size_t severe_warnings = 0;  ///< number of the first ones, which --quiet prints, too
-};
-
 /// Checks the files of a run, makes it with the threads and the progress that its options ask for, and prints how it
 /// ended.
 /// @return                exit code
 /// @throws droplet::Error whatever `make` throws
-int runFilm(const RunOptions& run, const RunFiles& files, const std::function<FilmEnd(ProgressDisplay&)>& make);
+int runFilm(const RunOptions& run, const RunFiles& files, const std::function<RunEnd(ProgressDisplay&)>& make);
 
 }  // namespace cli

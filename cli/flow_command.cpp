@@ -45,7 +45,7 @@ int runFlow(int argc, const char* const* argv)
     const auto& options = std::get<FlowOptions>(parsed);
     return runFilm(options.run, filesOf(options), [&](ProgressDisplay& progress) {
         const droplet::FlowReport report = simulateFlow(options, progress);
-        return FilmEnd{summaryOf(report), report.warnings};
+        return RunEnd{summaryOf(report), report.warnings};
     });
 }
 

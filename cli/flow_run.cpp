@@ -45,7 +45,7 @@ std::optional<ResumableRun> resumableRun(const FlowOptions& options, std::size_t
 {
     return options.files
                ? std::optional(ResumableRun{"flow", flowFingerprint(options), frames, options.frames_per_second,
-                                            withMaps(*options.files, options.maps, kFlowMaps), 1, options.run.files})
+                                            withMaps(*options.files, options.maps, kFlowMaps)})
                : std::nullopt;
 }
 

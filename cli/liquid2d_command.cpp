@@ -39,7 +39,7 @@ int runLiquid2d(int argc, const char* const* argv)
     }
     const auto& options = std::get<Liquid2dOptions>(parsed);
     return runFilm(options.run, filesOf(options), [&](ProgressDisplay& progress) {
-        return FilmEnd{summaryOf(drawLiquid2d(options, progress))};  // warnings were printed at once
+        return RunEnd{summaryOf(drawLiquid2d(options, progress))};  // warnings were printed at once
     });
 }
 

@@ -279,11 +279,7 @@ std::optional<ResumableRun> resumableRun(const Liquid2dOptions& options, std::si
     return ResumableRun{"liquid2d",
                         fingerprintOf({options.fingerprint, options.walls ? hashOfFile(*options.walls) : "",
                                        isSceneFile(options) ? hashOfFile(options.scene) : ""}),
-                        frames,
-                        options.frames_per_second,
-                        files,
-                        1,
-                        options.run.files};
+                        frames, options.frames_per_second, files};
 }
 
 class LiquidRun {

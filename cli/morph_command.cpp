@@ -166,9 +166,7 @@ std::optional<ResumableRun> resumableRun(const MorphCommandOptions& options)
                                                       fingerprintOf(options.animation, options.inputs),
                                                       options.frames,
                                                       options.animation.frames_per_second.value_or(24.0),
-                                                      {*options.files},
-                                                      1,
-                                                      options.animation.run.files})
+                                                      {*options.files}})
                          : std::nullopt;
 }
 
@@ -193,7 +191,7 @@ public:
         }
     }
 
-    FilmEnd make()
+    RunEnd make()
     {
         std::vector<OutputFile> files;
         if (video_) {
@@ -202,7 +200,7 @@ public:
         film_.write(
             {}, [this](std::ostream* /*table*/) { run(); }, files);
         return options_.kind == MorphOutput::Model ? makeDroplets()
-                                                   : FilmEnd{fmt::format("{} frames\n", options_.frames)};
+                                                   : RunEnd{fmt::format("{} frames\n", options_.frames)};
     }
 
 private:
@@ -251,7 +249,7 @@ private:
     }
 
     /// Makes droplets of the masks.
-    FilmEnd makeDroplets()
+    RunEnd makeDroplets()
     {
         // The masks are coverage as it is; all choices of how to read pictures have been made.
         AnimateOptions animation = options_.animation;

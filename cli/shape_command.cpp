@@ -2,7 +2,6 @@
 #include "shape_command.h"
 
 #include <fmt/core.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +33,7 @@
 #include "mask_shape.h"
 #include "picture_watch.h"
 #include "progress_display.h"
+#include "run_command.h"
 #include "stage_clock.h"
 #include "summary.h"
 #include "surface_files.h"
@@ -369,17 +369,6 @@ droplet::Report make(const ShapeOptions& options, const Surroundings& around, st
                                        : makeFromMask(options, around, std::move(picture), stages);
 }
 
-void printSummary(const droplet::Report& report, const RunOptions& run)
-{
-    if (run.verbosity != Verbosity::Quiet && run.progress != ProgressMode::Json) {
-        std::cerr << summary(report, run.verbosity == Verbosity::Verbose) << std::flush;
-    }
-    const std::size_t printed = run.verbosity == Verbosity::Quiet ? report.severe_warnings : report.warnings.size();
-    for (std::size_t i = 0; i < printed; ++i) {
-        printWarning(report.warnings[i], run.progress);
-    }
-}
-
 /// Calls a function at once and whenever a picture is saved, until a signal ends the program. A picture may be half
 /// drawn, so what the function throws is printed.
 [[noreturn]] void makeWheneverSaved(const std::string& picture, const std::function<void()>& make)
@@ -504,15 +493,10 @@ void printWarning(const std::string& warning, ProgressMode progress)
 
 void makeAndReport(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make)
 {
-    std::optional<tbb::global_control> threads;
-    if (run.threads) {
-        threads.emplace(tbb::global_control::max_allowed_parallelism, *run.threads);
-    }
-    ProgressDisplay progress(
-        run.verbosity == Verbosity::Quiet && run.progress == ProgressMode::Auto ? ProgressMode::None : run.progress);
-    const droplet::Report report = make([&](Stage stage, double share) { progress.begin(stage, share); });
-    progress.finish();
-    printSummary(report, run);
+    runAndTell(run, [&](ProgressDisplay& progress) {
+        const droplet::Report report = make([&](Stage stage, double share) { progress.begin(stage, share); });
+        return RunEnd{summary(report, run.verbosity == Verbosity::Verbose), report.warnings, report.severe_warnings};
+    });
 }
 
 int runShape(int argc, const char* const* argv)

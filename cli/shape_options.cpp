@@ -9,14 +9,29 @@
 #include "files.h"
 
 namespace cli {
+
+const std::vector<std::pair<std::string, std::string>>& programCommands()
+{
+    static const std::vector<std::pair<std::string, std::string>> commands{
+        {"animate", "Make animated droplets from frames or a video"},
+        {"batch", "Make droplets from many pictures"},
+        {"compare", "Measure the difference of two surfaces"},
+        {"flow", "Let droplets run over a mesh"},
+        {"glyphs", "Make droplets from type"},
+        {"liquid2d", "Draw an animation of liquid in the plane"},
+        {"morph", "Let liquid flow from one footprint to the next"},
+        {"studio", "Draw footprints in a browser and see their droplets"},
+        {"wind-tunnel", "Compute how droplets move in the wind"},
+        {"windshield", "Show rain on the windshield of a moving car"}};
+    return commands;
+}
+
 namespace {
 
 const CommandText& commandText()
 {
     static const CommandText text{
-        "droplet-shape",
-        "make 3D droplets of liquid from the picture of a footprint",
-        "[OPTIONS] INPUT OUTPUT",
+        "droplet-shape", "make 3D droplets of liquid from the picture of a footprint", "[OPTIONS] INPUT OUTPUT",
         std::string(kUnitsText) +
             "\n"
             "Examples:\n"
@@ -35,16 +50,7 @@ const CommandText& commandText()
             "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
             "  4 output cannot be written; 5 no such droplet exists;\n"
             "  6 some of many failed",
-        {{"animate", "Make animated droplets from frames or a video"},
-         {"batch", "Make droplets from many pictures"},
-         {"compare", "Measure the difference of two surfaces"},
-         {"flow", "Let droplets run over a mesh"},
-         {"glyphs", "Make droplets from type"},
-         {"liquid2d", "Draw an animation of liquid in the plane"},
-         {"morph", "Let liquid flow from one footprint to the next"},
-         {"studio", "Draw footprints in a browser and see their droplets"},
-         {"wind-tunnel", "Compute how droplets move in the wind"},
-         {"windshield", "Show rain on the windshield of a moving car"}}};
+        programCommands()};
     return text;
 }
 

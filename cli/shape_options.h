@@ -28,6 +28,9 @@ struct ShapeOptions {
     bool watch = false;  ///< make the droplet again whenever the picture is saved
 };
 
+/// Names of all commands, and what they do.
+const std::vector<std::pair<std::string, std::string>>& programCommands();
+
 /// Declares --html.
 void declareHtml(CommandLine& line);
 

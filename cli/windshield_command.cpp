@@ -44,7 +44,7 @@ int runWindshield(int argc, const char* const* argv)
     const auto& options = std::get<WindshieldOptions>(parsed);
     return runFilm(options.run, filesOf(options), [&](ProgressDisplay& progress) {
         const droplet::WindshieldReport report = simulateWindshield(options, progress);
-        return FilmEnd{summaryOf(report), report.warnings};
+        return RunEnd{summaryOf(report), report.warnings};
     });
 }
 

@@ -31,7 +31,7 @@ std::optional<ResumableRun> resumableRun(const WindshieldOptions& options, std::
 {
     return options.files
                ? std::optional(ResumableRun{"windshield", fingerprintOf(options), frames, options.frames_per_second,
-                                            withMaps(*options.files, options.maps, kMapNames), 1, options.run.files})
+                                            withMaps(*options.files, options.maps, kMapNames)})
                : std::nullopt;
 }
 

@@ -34,6 +34,7 @@ class Option:
     group: str
     value: str  # name of the value in the help, or the allowed words; empty for a flag
     kind: str  # as of --help=json
+    unit: str
     words: list  # those that are allowed, or may stand instead of a value
     text: str
     default: str
@@ -45,7 +46,7 @@ def read_options(program, command):
     told = json.loads(subprocess.run(words, check=True, capture_output=True, text=True).stdout)
     names = [option["name"][2:].replace("-", "_") for option in told["options"]]
     return {
-        name: Option(name, **{key: option[key] for key in ("group", "value", "kind", "words", "text", "default")})
+        name: Option(name, **{key: option[key] for key in ("group", "value", "kind", "unit", "words", "text", "default")})
         for name, option in zip(names, told["options"])
     }
 
@@ -56,7 +57,7 @@ class Kind:
 
     name: str  # in droplet_shape/_arguments.py
     type: str
-    unit: str = ""  # of a number
+    unit: str = ""  # of a number, where it is not that of --help=json
 
 
 QUANTITY = "str | float"
@@ -65,33 +66,33 @@ KINDS = {
     "text": Kind("text", "str"),
     "path": Kind("path", "Path"),
     "ground": Kind("text", "str"),  # a path or a surface
-    "count": Kind("number", "str | int", ""),
-    "number": Kind("number", "float", ""),
-    "length": Kind("m", QUANTITY, "m"),
-    "area": Kind("m2", QUANTITY, "m²"),
-    "volume": Kind("m3", QUANTITY, "m³"),
-    "angle": Kind("rad", QUANTITY, "rad"),
-    "tension": Kind("N/m", QUANTITY, "N/m"),
-    "density": Kind("kg/m3", QUANTITY, "kg/m³"),
-    "acceleration": Kind("m/s2", QUANTITY, "m/s²"),
-    "speed": Kind("m/s", QUANTITY, "m/s"),
-    "duration": Kind("s", QUANTITY, "s"),
-    "rainfall": Kind("rainfall", QUANTITY, "m/s"),
-    "viscosity": Kind("Pa.s", QUANTITY, "Pa·s"),
-    "share": Kind("share", QUANTITY, "1 is all"),
-    "spin": Kind("rad/s", QUANTITY, "rad/s"),
+    "count": Kind("number", "str | int"),
+    "number": Kind("number", "float"),
+    "length": Kind("m", QUANTITY),
+    "area": Kind("m2", QUANTITY),
+    "volume": Kind("m3", QUANTITY),
+    "angle": Kind("rad", QUANTITY),
+    "tension": Kind("N/m", QUANTITY),
+    "density": Kind("kg/m3", QUANTITY),
+    "acceleration": Kind("m/s2", QUANTITY),
+    "speed": Kind("m/s", QUANTITY),
+    "duration": Kind("s", QUANTITY),
+    "rainfall": Kind("rainfall", QUANTITY),
+    "viscosity": Kind("Pa.s", QUANTITY),
+    "share": Kind("share", QUANTITY),
+    "spin": Kind("rad/s", QUANTITY),
     "range": Kind("range", "str | tuple[float, float]"),
     "axes": Kind("axes", "Mapping[str, float]"),
-    "vector": Kind("vector", "str | Sequence[float]", "m or m/s"),
+    "vector": Kind("vector", "str | Sequence[float]"),
     "texts": Kind("texts", "str | Sequence[str]"),
-    "size": Kind("size", "str | tuple[int, int]", "px"),
-    "volumes": Kind("list m3", "str | float | Sequence[float]", "m³"),
-    "speeds": Kind("list m/s", "str | float | Sequence[float]", "m/s"),
-    "angles": Kind("list rad", "str | float | Sequence[float]", "rad"),
-    "numbers": Kind("list ", "str | float | Sequence[float]", ""),
-    "band": Kind("band m/s", "str | tuple[float, float]", "m/s"),
-    "angles_of_place": Kind("list rad", "str | Sequence[float]", "rad"),
-    "lengths_of_place": Kind("list m", "str | Sequence[float]", "m"),
+    "size": Kind("size", "str | tuple[int, int]"),
+    "volumes": Kind("list m3", "str | float | Sequence[float]"),
+    "speeds": Kind("list m/s", "str | float | Sequence[float]"),
+    "angles": Kind("list rad", "str | float | Sequence[float]"),
+    "numbers": Kind("list ", "str | float | Sequence[float]"),
+    "band": Kind("band m/s", "str | tuple[float, float]"),
+    "angles_of_place": Kind("list rad", "str | Sequence[float]"),
+    "lengths_of_place": Kind("list m", "str | Sequence[float]"),
     "open": Kind("number", QUANTITY, "1 is the whole time"),
 }
 
@@ -307,7 +308,8 @@ def in_python(text):
 
 
 def line_of(option, kind):
-    unit = f" [{kind.unit}]" if kind.unit and kind.unit != "1 is all" else ""
+    unit = kind.unit or option.unit.replace("2", "²").replace("3", "³").replace(".", "·")
+    unit = f" [{unit}]" if unit else ""
     allowed = f": {option.value.replace('|', ', ')}" if "|" in option.value and option.value[0].islower() else ""
     text = in_python(option.text) + (f" (default: {in_python(option.default)})" if option.default else "")
     return f"{option.name}{unit}{allowed}: {text}"

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_command.h"
+
+#include <tbb/global_control.h>
+
+#include <iostream>
+#include <optional>
+
+#include "shape_command.h"
+
+namespace cli {
+
+void runAndTell(const RunOptions& run, const std::function<RunEnd(ProgressDisplay&)>& make)
+{
+    std::optional<tbb::global_control> threads;
+    if (run.threads) {
+        threads.emplace(tbb::global_control::max_allowed_parallelism, *run.threads);
+    }
+    ProgressDisplay progress(run.shownProgress());
+    const RunEnd end = make(progress);
+    progress.finish();
+    const bool is_quiet = run.verbosity == Verbosity::Quiet;
+    if (!is_quiet && run.progress != ProgressMode::Json) {
+        std::cerr << end.summary << std::flush;
+    }
+    const std::size_t printed = is_quiet ? end.severe_warnings : end.warnings.size();
+    for (std::size_t i = 0; i < printed; ++i) {
+        printWarning(end.warnings[i], run.progress);
+    }
+}
+
+}  // namespace cli

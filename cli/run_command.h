@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common_options.h"
+#include "progress_display.h"
+
+namespace cli {
+
+/// How a run ended, for standard error.
+struct RunEnd {
+    std::string summary;  ///< lines
+    std::vector<std::string> warnings = {};
+    std::size_t severe_warnings = 0;  ///< number of the first ones, which --quiet prints, too
+};
+
+/// Makes a run with the threads and the progress that its options ask for, and prints how it ended.
+/// @throws droplet::Error whatever `make` throws
+void runAndTell(const RunOptions& run, const std::function<RunEnd(ProgressDisplay&)>& make);
+
+}  // namespace cli
