@@ -50,7 +50,9 @@ void keepFreedMemory()
     mallopt(M_TOP_PAD, kAtOnce);
 }
 
-int guardedRun(int argc, const char* const* argv, std::span<const Command> commands)
+}  // namespace
+
+int runGuarded(int argc, const char* const* argv, std::span<const Command> commands)
 {
     try {
         return runCommand(argc, argv, commands);
@@ -67,8 +69,6 @@ int guardedRun(int argc, const char* const* argv, std::span<const Command> comma
     }
 }
 
-}  // namespace
-
 void runProgram(int argc, char** argv, std::span<const Command> commands)
 {
     // Writing to a closed pipe then fails like any other write, and is reported where it happens.
@@ -78,7 +78,7 @@ void runProgram(int argc, char** argv, std::span<const Command> commands)
     reportShortages();
     occupyStandardStreams();
     keepFreedMemory();
-    const int code = guardedRun(argc, argv, commands);
+    const int code = runGuarded(argc, argv, commands);
     // A return would wait for threads of libraries. Those of OpenBLAS, which OpenCV may load as its LAPACK, never end
     // if memory is limited.
     std::cout.flush();

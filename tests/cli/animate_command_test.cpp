@@ -10,10 +10,12 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "cli/in_process.h"
 #include "support/command.h"
 #include "support/paths.h"
 #include "support/photographs.h"
@@ -68,12 +70,17 @@ protected:
     [[nodiscard]] const fs::path& directory() const { return scratch_.path(); }
     [[nodiscard]] std::string bytesOf(const std::string& file) const { return readFile(directory() / file); }
 
-    [[nodiscard]] CommandResult run(std::vector<std::string> arguments, CommandOptions options = {}) const
+    static std::vector<std::string> withCommand(std::vector<std::string> arguments)
     {
         arguments.insert(arguments.begin(), "animate");
         arguments.insert(arguments.end(), {"--triangles", "800"});
+        return arguments;
+    }
+
+    [[nodiscard]] CommandResult run(const std::vector<std::string>& arguments, CommandOptions options = {}) const
+    {
         options.directory = directory();
-        return runDroplet(arguments, options);
+        return runDroplet(withCommand(arguments), options);
     }
 
     void make(std::vector<std::string> arguments) const
@@ -93,15 +100,12 @@ protected:
     }
 
     void expectFailure(const std::vector<std::string>& arguments, int exit_code, const std::vector<std::string>& words,
-                       const CommandOptions& options = {}) const
+                       const std::optional<CommandOptions>& own_process = {}) const
     {
         writeFile(directory() / "old.glb", "an older file\n");
-        const auto result = run(arguments, options);
-        EXPECT_EQ(result.exit_code, exit_code);
-        EXPECT_THAT(result.errorLines(), SizeIs(1)) << result.error;
-        for (const std::string& word : words) {
-            EXPECT_THAT(result.error, HasSubstr(word));
-        }
+        testing::expectOneLine(
+            own_process ? run(arguments, *own_process) : testing::runInProcess(withCommand(arguments), directory()),
+            exit_code, words);
         EXPECT_EQ(bytesOf("old.glb"), "an older file\n");
     }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/in_process.h"
 #include "droplet/io/output.h"
 #include "droplet/picture/picture.h"
 #include "support/command.h"
@@ -41,18 +42,20 @@ protected:
         return path;
     }
 
-    static CommandResult compare(std::vector<std::string> arguments)
+    static CommandResult compare(const std::vector<std::string>& arguments)
+    {
+        return runDroplet(withCommand(arguments));
+    }
+
+    static std::vector<std::string> withCommand(std::vector<std::string> arguments)
     {
         arguments.insert(arguments.begin(), "compare");
-        return runDroplet(arguments);
+        return arguments;
     }
 
     static void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& words)
     {
-        const CommandResult result = compare(arguments);
-        EXPECT_EQ(result.exit_code, exit_code) << result.error;
-        EXPECT_EQ(result.output, "");
-        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr(words)));
+        testing::expectOneLine(testing::runInProcess(withCommand(arguments)), exit_code, {words});
     }
 
     testing::ScratchDirectory scratch_;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/in_process.h"
 #include "droplet/io/read_surface.h"
 #include "droplet/picture/picture.h"
 #include "droplet/units.h"
@@ -43,17 +44,22 @@ protected:
     [[nodiscard]] CommandResult flow(const std::string& output, const std::vector<std::string>& more,
                                      const std::string& object = "slope.obj") const
     {
+        return runDroplet(argumentsOf(object, output, more));
+    }
+
+    [[nodiscard]] std::vector<std::string> argumentsOf(const std::string& object, const std::string& output,
+                                                       const std::vector<std::string>& more) const
+    {
         std::vector<std::string> arguments{"flow", path(object), path(output), "--quiet"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        return runDroplet(arguments);
+        return arguments;
     }
 
     void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& message,
                        const std::string& object = "slope.obj") const
     {
-        const CommandResult result = flow("refused.glb", arguments, object);
-        EXPECT_EQ(result.exit_code, exit_code) << result.error;
-        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr(message)));
+        testing::expectOneLine(testing::runInProcess(argumentsOf(object, "refused.glb", arguments)), exit_code,
+                               {message});
         EXPECT_FALSE(std::filesystem::exists(path("refused.glb")));
     }
 

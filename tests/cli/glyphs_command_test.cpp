@@ -14,7 +14,7 @@
 #include "droplet/picture/picture.h"
 #include "support/command.h"
 #include "support/fonts.h"
-#include "support/refusal.h"
+#include "cli/refusal.h"
 
 namespace droplet {
 namespace {

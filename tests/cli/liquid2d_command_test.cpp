@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/in_process.h"
 #include "droplet/footprint/mask.h"
 #include "support/command.h"
 #include "support/paths.h"
@@ -38,9 +39,7 @@ protected:
 
     static void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& message)
     {
-        const CommandResult result = runDroplet(arguments);
-        EXPECT_EQ(result.exit_code, exit_code) << result.error;
-        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr(message)));
+        testing::expectOneLine(testing::runInProcess(arguments), exit_code, {message});
     }
 
     testing::ScratchDirectory scratch_;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/in_process.h"
 #include "droplet/footprint/mask.h"
 #include "support/command.h"
 #include "support/paths.h"
@@ -51,18 +52,21 @@ protected:
 
     [[nodiscard]] std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
 
-    [[nodiscard]] CommandResult flow(std::vector<std::string> arguments) const
+    [[nodiscard]] static CommandResult flow(const std::vector<std::string>& arguments)
+    {
+        return runDroplet(shortFlow(arguments));
+    }
+
+    static std::vector<std::string> shortFlow(std::vector<std::string> arguments)
     {
         arguments.insert(arguments.begin(), "morph");
         arguments.insert(arguments.end(), {"--frames", "5", "--particle-count", "1k", "--quiet"});
-        return runDroplet(arguments);
+        return arguments;
     }
 
-    void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& message) const
+    static void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& message)
     {
-        const CommandResult result = flow(arguments);
-        EXPECT_EQ(result.exit_code, exit_code) << result.error;
-        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr(message)));
+        testing::expectOneLine(testing::runInProcess(shortFlow(arguments)), exit_code, {message});
     }
 
     testing::ScratchDirectory scratch_;

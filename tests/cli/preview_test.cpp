@@ -10,7 +10,7 @@
 
 #include "droplet/picture/picture.h"
 #include "support/command.h"
-#include "support/refusal.h"
+#include "cli/refusal.h"
 
 namespace droplet {
 namespace {

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/commands.h"
+#include "cli/in_process.h"
 #include "droplet/error.h"
 #include "support/command.h"
 #include "support/fonts.h"
@@ -29,6 +29,7 @@ using testing::CommandResult;
 using testing::inSource;
 using testing::readFile;
 using testing::runDroplet;
+using testing::runInProcess;
 using testing::ScratchDirectory;
 using testing::writeFile;
 
@@ -255,28 +256,6 @@ const std::vector<CommandFiles>& all()
     return commands;
 }
 
-/// Error of a command that runs in this process.
-struct Refused {
-    std::optional<ErrorCode> code;  ///< empty: it did not fail
-    std::string message;
-};
-
-Refused refusalOf(const std::vector<std::string>& arguments)
-{
-    std::vector<const char*> argv{"droplet-shape"};
-    for (const std::string& argument : arguments) {
-        argv.push_back(argument.c_str());
-    }
-    try {
-        std::vector<cli::Command> commands(cli::dropletCommands().begin(), cli::dropletCommands().end());
-        commands.insert(commands.end(), cli::motionCommands().begin(), cli::motionCommands().end());
-        cli::runCommand(static_cast<int>(argv.size()), argv.data(), commands);
-        return {};
-    } catch (const Error& error) {
-        return {error.code(), error.what()};
-    }
-}
-
 class RunFiles : public ::testing::TestWithParam<CommandFiles> {
 protected:
     RunFiles() : before_(fs::current_path()) { fs::current_path(scratch_.path()); }
@@ -345,11 +324,11 @@ protected:
     }
 
     /// Whether options cannot be combined, or need a program that was built with more.
-    [[nodiscard]] static bool isElsewhere(const Refused& refused)
+    [[nodiscard]] static bool isElsewhere(const CommandResult& refused)
     {
         const std::string& words = GetParam().no_output_means;
-        return (!words.empty() && refused.message.find(words) != std::string::npos) ||
-               refused.message.find("this build has no page") != std::string::npos;
+        return (!words.empty() && refused.error.find(words) != std::string::npos) ||
+               refused.error.find("this build has no page") != std::string::npos;
     }
 
     [[nodiscard]] static std::set<std::string> everything()
@@ -394,10 +373,10 @@ TEST_P(RunFiles, NoOutputIsAnInput)
                 const std::vector<std::string> arguments = argumentsOf({read, output});
                 SCOPED_TRACE(::testing::PrintToString(arguments));
                 const auto files = everything();
-                const Refused refused = refusalOf(arguments);
+                const CommandResult refused = runInProcess(arguments);
                 if (!isElsewhere(refused)) {
-                    EXPECT_EQ(refused.code, ErrorCode::InvalidArgument) << refused.message;
-                    EXPECT_THAT(refused.message, ::testing::HasSubstr("are the same"));
+                    EXPECT_EQ(refused.exit_code, 2) << refused.error;
+                    EXPECT_THAT(refused.error, ::testing::HasSubstr("are the same"));
                     EXPECT_EQ(everything(), files) << "files came or went";
                     EXPECT_EQ(readFile(output.path()), input.content);
                 }
@@ -420,10 +399,10 @@ TEST_P(RunFiles, NoClobberRefusesBeforeAnyWork)
         arguments.emplace_back("--no-clobber");
         SCOPED_TRACE(::testing::PrintToString(arguments));
         const auto files = everything();
-        const Refused refused = refusalOf(arguments);
+        const CommandResult refused = runInProcess(arguments);
         if (!isElsewhere(refused)) {
-            EXPECT_EQ(refused.code, ErrorCode::OutputFailed) << refused.message;
-            EXPECT_THAT(refused.message, ::testing::HasSubstr("exists and must not be replaced"));
+            EXPECT_EQ(refused.exit_code, 4) << refused.error;
+            EXPECT_THAT(refused.error, ::testing::HasSubstr("exists and must not be replaced"));
             EXPECT_EQ(everything(), files) << "files came or went";
             EXPECT_EQ(readFile(output.path()), "an older file\n");
         }
@@ -530,9 +509,10 @@ TEST_F(FileClashes, MasksOfASceneAreInputs)
     fs::create_directory(path("f"));
     writeFile(path("f/0002.png"), kNothing);
     writeFile(path("scene.toml"), "[[walls]]\nmask = \"f/0002.png\"\n");
-    const Refused refused = refusalOf({"liquid2d", path("f/%04d.png"), "--scene", path("scene.toml"), "--time", "1s"});
-    EXPECT_EQ(refused.code, ErrorCode::InvalidArgument);
-    EXPECT_THAT(refused.message, ::testing::StartsWith("OUTPUT and a mask of --scene are the same"));
+    const CommandResult refused =
+        runInProcess({"liquid2d", path("f/%04d.png"), "--scene", path("scene.toml"), "--time", "1s"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.error, ::testing::StartsWith("droplet-shape: OUTPUT and a mask of --scene are the same"));
 }
 
 TEST_F(FileClashes, PatternsAreTheFilesOfTheirFrames)

@@ -18,7 +18,7 @@
 #include "droplet/wind/tunnel.h"
 #include "support/command.h"
 #include "support/paths.h"
-#include "support/refusal.h"
+#include "cli/refusal.h"
 
 namespace droplet {
 namespace {

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/in_process.h"
 #include "droplet/picture/picture.h"
 #include "support/command.h"
 #include "support/paths.h"
@@ -75,9 +76,8 @@ protected:
 
     void expectRefused(const std::vector<std::string>& arguments, int exit_code, const std::string& message) const
     {
-        const CommandResult result = simulate(path("refused.png"), arguments);
-        EXPECT_EQ(result.exit_code, exit_code) << result.error;
-        EXPECT_THAT(result.errorLines(), ElementsAre(HasSubstr(message)));
+        testing::expectOneLine(testing::runInProcess(argumentsOf(path("refused.png"), arguments)), exit_code,
+                               {message});
         EXPECT_FALSE(std::filesystem::exists(path("refused.png")));
     }
 

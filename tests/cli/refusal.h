@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "cli/in_process.h"
 #include "support/command.h"
 
 namespace droplet::testing {
@@ -31,26 +32,17 @@ protected:
     }
 
     /// Expects an exit code, one line on standard error that contains all words, and unchanged files.
-    void expectRefusal(const std::vector<std::string>& arguments, int exit_code, const std::vector<std::string>& words,
-                       const CommandOptions& options = {}) const
+    void expectRefusal(const std::vector<std::string>& arguments, int exit_code,
+                       const std::vector<std::string>& words) const
     {
-        std::string command = "droplet-shape";
-        for (const std::string& argument : arguments) {
-            command += " '" + argument + "'";
-        }
-        SCOPED_TRACE(command);
-        const auto names = scratch_.names();
-        const CommandResult result = run(arguments, options);
-        EXPECT_EQ(result.exit_code, exit_code);
-        EXPECT_EQ(result.output, "");
-        EXPECT_THAT(result.errorLines(), ::testing::SizeIs(1)) << result.error;
-        EXPECT_THAT(result.error, ::testing::StartsWith("droplet-shape: "));
-        EXPECT_THAT(result.error, ::testing::EndsWith("\n"));
-        for (const std::string& word : words) {
-            EXPECT_THAT(result.error, ::testing::HasSubstr(word));
-        }
-        EXPECT_EQ(scratch_.names(), names) << "files came or went";
-        expectOlderFiles();
+        expectRefusal(arguments, exit_code, words, [&] { return runInProcess(arguments, directory()); });
+    }
+
+    /// The same of a program with its own input or environment.
+    void expectRefusal(const std::vector<std::string>& arguments, int exit_code, const std::vector<std::string>& words,
+                       const CommandOptions& options) const
+    {
+        expectRefusal(arguments, exit_code, words, [&] { return run(arguments, options); });
     }
 
     void expectOlderFiles() const
@@ -62,6 +54,20 @@ protected:
     static constexpr const char* kOlder = "an older file\n";
 
 private:
+    void expectRefusal(const std::vector<std::string>& arguments, int exit_code, const std::vector<std::string>& words,
+                       const std::function<CommandResult()>& run) const
+    {
+        std::string command = "droplet-shape";
+        for (const std::string& argument : arguments) {
+            command += " '" + argument + "'";
+        }
+        SCOPED_TRACE(command);
+        const auto names = scratch_.names();
+        expectOneLine(run(), exit_code, words);
+        EXPECT_EQ(scratch_.names(), names) << "files came or went";
+        expectOlderFiles();
+    }
+
     ScratchDirectory scratch_;
 };
 
