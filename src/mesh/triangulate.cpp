@@ -314,7 +314,7 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
     return meshAll(samplers, *options.edge, growth);
 }
 
-PlanarMesh cover(const PlanarMesh& mesh)
+PlanarMesh cover(const PlanarMesh& mesh, std::optional<double> edge)
 {
     std::vector<std::vector<Vec2>> polygons;
     for (std::size_t k = 0; k < mesh.loopCount(); ++k) {
@@ -322,8 +322,9 @@ PlanarMesh cover(const PlanarMesh& mesh)
                               mesh.vertices.begin() + mesh.loop_starts[k + 1]);
     }
     // Start at four times the length of rim edges, because nobody looks at the ground from below.
-    const double edge = 4.0 * rimLength(mesh) / static_cast<double>(mesh.rimVertexCount());
-    const std::vector<Vec2> points = gradedPoints(polygons, edge, kMaxGrading);
+    const std::vector<Vec2> points =
+        edge ? gradedPoints(polygons, *edge, 1)
+             : gradedPoints(polygons, 4.0 * rimLength(mesh) / static_cast<double>(mesh.rimVertexCount()), kMaxGrading);
     PlanarMesh result;
     result.triangles = triangulateUnrefined(polygons, points);
     result.loop_starts = mesh.loop_starts;

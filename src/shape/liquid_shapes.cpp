@@ -88,13 +88,6 @@ bool isWidePuddle(const PlanarMesh& mesh, double layer)
     return rim_edge < kShorter * edge && kEdgesPerLayer * edge > layer;
 }
 
-/// Whether liquid may hang over its rim. Ground that is not flat and dry is cut out of height fields alone, as
-/// no_penetration promises.
-bool mayHang(const SolveOptions& options)
-{
-    return options.model != Model::Linear && (options.ground.flat() || !options.no_penetration);
-}
-
 /// Whether there is no height field for sure.
 bool mustHang(const SolveOptions& options)
 {
@@ -727,14 +720,9 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
     const PlaneGravity gravity = planeGravity(options);
     LiquidShapes shapes;
     Solution& solution = shapes.solution;
-    if (!mayHang(options)) {
+    if (options.model == Model::Linear) {
         solution = solve(meshes, options, progress);
         shapes.work = solution.report.work;
-        if (!solution.report.usable() && options.model == Model::Auto && allow_less) {
-            if (auto stand_in = linearStandIn(meshes, options)) {
-                return *std::move(stand_in);
-            }
-        }
         if (!solution.report.usable()) {
             throw Error(
                 ErrorCode::NoSuchDroplet,

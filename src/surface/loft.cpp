@@ -265,7 +265,7 @@ Surface loft(const std::vector<CapillarySurface>& surfaces, const LoftOptions& o
     check(surfaces, options);
     std::vector<std::optional<std::vector<CapillarySurface>>> wet(surfaces.size());
     tbb::parallel_for(std::size_t{0}, surfaces.size(), [&](std::size_t k) {
-        const bool keeps_dry = !surfaces[k].isHeightField() && (options.keeps_dry || !options.ground.flat());
+        const bool keeps_dry = options.keeps_dry && !surfaces[k].isHeightField();
         if (!surfaces[k].dry.empty() && !keeps_dry) {
             wet[k] = wetParts(surfaces[k], options.ground);
         }

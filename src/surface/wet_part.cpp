@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "droplet/mesh/triangulate.h"
+#include "mesh/mean_edge.h"
 #include "shape/area_vector.h"
 #include "surface/flat_map.h"
 
@@ -333,7 +334,9 @@ CapillarySurface surfaceOf(Part&& part, const CapillarySurface& whole, const Bas
         }
     }
     if (whole.footprint) {
-        own.footprint = cover(rimOf(own));
+        const PlanarMesh& footprint = *whole.footprint;
+        own.footprint = ground.flat() ? cover(rimOf(own))
+                                      : cover(rimOf(own), meanEdge(area(footprint), footprint.triangles.size()));
     }
     return own;
 }

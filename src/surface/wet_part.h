@@ -16,8 +16,9 @@ namespace droplet {
 /// that still has triangles all around it stays an inner vertex. An inner edge between two vertices of the new rim is
 /// split in its middle. Along a new rim, liquid and ground have the same tangent plane. The volume does not change.
 /// Loops of a height field's parts may pass a place more than once, with a vertex each time. Others do not: there,
-/// triangles on the ground stay; and their footprints have few triangles, as of cover().
-/// @param ground  under the surface; flat, unless it is a height field
+/// triangles on the ground stay; and their footprints are those of cover(), on ground that bends with edges as long as
+/// those of the surface's footprint.
+/// @param ground  under the surface
 /// @return        parts that share no edge, in the order of their first triangles, none if all is dry; empty if nothing
 ///                is removed
 std::optional<std::vector<CapillarySurface>> wetParts(const CapillarySurface& surface, const BaseSurface& ground);

@@ -48,10 +48,11 @@ int gradingOf(const Domain& domain, const TriangulateOptions& options);
 ///                 the footprint, or max_edge, needs more than 2²⁰ triangles and more than requested
 std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptions& options = {});
 
-/// Covers the polygon of a mesh with few triangles, for the flat ground.
+/// Covers the polygon of a mesh: with few triangles, which grow inward, for flat ground; or with even ones.
 ///
 /// Guarantees: the vertices of `mesh`'s rim come first, in the same order, and no other vertex is on the rim. Inner
-/// edges may join two rim vertices. Triangles grow inward.
-PlanarMesh cover(const PlanarMesh& mesh);
+/// edges may join two rim vertices.
+/// @param edge  length of even edges [m], for ground that bends
+PlanarMesh cover(const PlanarMesh& mesh, std::optional<double> edge = {});
 
 }  // namespace droplet

@@ -37,8 +37,7 @@ struct LoftOptions {
 /// Closes the surfaces of droplets with bases on the ground, and gives them normals and texture coordinates.
 ///
 /// A base meets the liquid at the rim. On flat ground it has few triangles; on other ground it has those of the
-/// footprint, at the height of the ground. Neither covers ground that the liquid left dry, but for surfaces that may
-/// hang over their rims on ground that is not flat: there the liquid lies on it without thickness.
+/// footprint, at the height of the ground. Neither covers ground that the liquid left dry, unless `keeps_dry` says so.
 ///
 /// Normals inside are area-weighted means. On the rim they come from the contact angle, so a cap's rim shades like the
 /// cap. A base has the normals of the ground.
