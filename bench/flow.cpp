@@ -49,13 +49,13 @@ Vec3 onSlope(double x, double y)
 }
 
 /// A square slope of 2 cells² triangles.
-FlowScene slope(double side, std::uint32_t cells)
+FlowTerrain slope(double side, std::uint32_t cells)
 {
-    std::vector<Vec3> positions;
+    std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
     for (std::uint32_t j = 0; j <= cells; ++j) {
         for (std::uint32_t i = 0; i <= cells; ++i) {
-            positions.push_back(onSlope(side * i / cells, side * j / cells));
+            vertices.push_back(onSlope(side * i / cells, side * j / cells));
         }
     }
     for (std::uint32_t j = 0; j < cells; ++j) {
@@ -65,7 +65,7 @@ FlowScene slope(double side, std::uint32_t cells)
             triangles.push_back({a, a + cells + 2, a + cells + 1});
         }
     }
-    return FlowScene(flowSurface(positions, triangles));
+    return FlowTerrain(flowSurface(vertices, triangles));
 }
 
 /// Slope of the line with the least squares of errors.
@@ -101,7 +101,7 @@ void timeTraversal()
     constexpr int kDroplets = 1000;
     constexpr double kSide = 0.3;
     for (const std::uint32_t cells : {1U, 2U, 4U, 8U, 16U, 50U, 158U, 500U}) {
-        const FlowScene scene = slope(kSide, cells);
+        const FlowTerrain terrain = slope(kSide, cells);
         FlowParameters parameters = running();
         parameters.merges = false;
         std::vector<FlowStart> starts;
@@ -111,10 +111,10 @@ void timeTraversal()
         std::vector<double> times;
         double crossings = 0.0;
         for (int run = 0; run < 5; ++run) {
-            FlowState state = startFlow(scene, parameters, starts);
+            FlowState state = startFlow(terrain, parameters, starts);
             const double begin = now();
             while (state.counts.launches < kDroplets) {
-                state = advanceFlow(std::move(state), scene, parameters, state.time + 0.5);
+                state = advanceFlow(std::move(state), terrain, parameters, state.time + 0.5);
             }
             times.push_back((now() - begin) / kDroplets);
             crossings = static_cast<double>(state.counts.crossings) / kDroplets;
@@ -144,19 +144,19 @@ void timeFrames(bool is_quick)
                 break;
             }
             const double side = std::sqrt(static_cast<double>(count) / kPerSquareMetre);
-            const FlowScene scene = slope(side, 224);
+            const FlowTerrain terrain = slope(side, 224);
             const FlowParameters parameters = running();
             ScatterOptions scatter;
             scatter.count = static_cast<std::size_t>(kOverlapping * static_cast<double>(count));
             scatter.volumes = {10e-9, 0.5};
-            FlowState state = startFlow(scene, parameters, scatterDroplets(scene, scatter));
+            FlowState state = startFlow(terrain, parameters, scatterDroplets(terrain, scatter));
             std::vector<double> motion;
             std::vector<double> shapes;
             double droplets = 0.0;
             for (int frame = 1; frame <= kSettling + kFrames; ++frame) {
                 const double begin = now();
-                state = advanceFlow(std::move(state), scene, parameters, frame / kRate);
-                const std::vector<FlowSample> samples = sampleFlow(state, scene, parameters);
+                state = advanceFlow(std::move(state), terrain, parameters, frame / kRate);
+                const std::vector<FlowSample> samples = sampleFlow(state, terrain, parameters);
                 const double between = now();
                 const Surface surface = dropletSurfaces(samples, bodies, parameters.gravity);
                 if (frame > kSettling) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "droplet/footprint/domain.h"
+#include "droplet/domain/domain.h"
 
 namespace droplet::bench {
 

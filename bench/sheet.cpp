@@ -22,7 +22,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "droplet/footprint/domain.h"
+#include "droplet/domain/domain.h"
 #include "droplet/mesh/triangulate.h"
 #include "droplet/shape/figures.h"
 

@@ -7,7 +7,7 @@
 // view, and the rain continues, at 60 frames per second. The background is one picture for all frames, a new one for
 // every frame, or the built-in road, which is painted for every frame. The simulation's step is not counted. Processor
 // time is the sum over all threads; on a busy machine it is more reliable than wall time.
-#include "droplet/view/view.h"
+#include "droplet/windshield_view/view.h"
 
 #include <tbb/global_control.h>
 

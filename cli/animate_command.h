@@ -2,7 +2,7 @@
 #pragma once
 
 #include "animate_options.h"
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 #include "droplet/sequence/sequence.h"
 #include "droplet/sequence/sequence_report.h"
 #include "film.h"

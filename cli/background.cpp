@@ -58,7 +58,7 @@ Background::Background(const BackgroundOptions& options) : options_(options)
         if (width_ < kMin || height_ < kMin || width_ > kMax || height_ > kMax) {
             throw Error(ErrorCode::InvalidInput,
                         path + ": has " + sizeOf(width_, height_) +
-                            " pixels; a frame must have 16 to 8192 in each direction; give --size and --fit");
+                            " pixels; a frame must have 16 to 8192 in each direction; give --frame-size and --fit");
         }
     }
     if (!options_.fit) {

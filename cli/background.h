@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "droplet/picture/picture.h"
-#include "droplet/view/view.h"
+#include "droplet/drawing/picture.h"
+#include "droplet/windshield_view/view.h"
 #include "video.h"
 
 namespace cli {

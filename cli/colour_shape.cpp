@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "droplet/footprint/colour_domain.h"
+#include "droplet/colours/colour_domain.h"
 #include "mask_shape.h"
 
 namespace cli {

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "droplet/colours/colour_regions.h"
 #include "droplet/droplet.h"
-#include "droplet/footprint/colour_regions.h"
-#include "droplet/footprint/css_colour.h"
-#include "droplet/footprint/mask.h"
+#include "droplet/image/css_colour.h"
 #include "droplet/io/report.h"
+#include "droplet/mask/mask.h"
 #include "droplet/progress.h"
 #include "shape_options.h"
 

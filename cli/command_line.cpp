@@ -48,20 +48,21 @@ std::string wrapped(const std::string& text)
 /// Names of one meaning, of which a command has one at most; other programs use the others.
 const std::vector<std::vector<std::string>>& synonyms()
 {
-    static const std::vector<std::vector<std::string>> groups{{"--time", "--duration", "--seconds"},
-                                                              {"--fps", "--frame-rate", "--framerate", "--rate"},
-                                                              {"--drops", "--particle-count", "--count", "--number"},
-                                                              {"--size", "--preview-size", "--resolution"},
-                                                              {"--codec", "--encoder"},
-                                                              {"--json", "--report"},
-                                                              {"--preview", "--render"},
-                                                              {"--rain", "--rainfall"},
-                                                              {"--seed", "--random-seed"},
-                                                              {"--speed", "--velocity"},
-                                                              {"--threads", "--jobs"},
-                                                              {"--wind", "--wind-speed"},
-                                                              {"--quiet", "--silent"},
-                                                              {"--no-clobber", "--no-overwrite"}};
+    static const std::vector<std::vector<std::string>> groups{
+        {"--time", "--duration", "--seconds"},
+        {"--fps", "--frame-rate", "--framerate", "--rate"},
+        {"--drops", "--particle-count", "--count", "--number"},
+        {"--frame-size", "--preview-size", "--frame-width", "--resolution"},
+        {"--codec", "--encoder"},
+        {"--json", "--report"},
+        {"--preview", "--render"},
+        {"--rain", "--rainfall"},
+        {"--seed", "--random-seed"},
+        {"--speed", "--velocity"},
+        {"--threads", "--jobs"},
+        {"--wind-speed", "--wind-velocity"},
+        {"--quiet", "--silent"},
+        {"--no-clobber", "--no-overwrite"}};
     return groups;
 }
 

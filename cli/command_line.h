@@ -34,8 +34,9 @@ public:
 
     /// Declares an option with a value.
     /// @param group        heading in the help
-    /// @param names        such as `--width` or `-j,--threads`; after a comma also a former name, `--new,--old`, which
-    ///                     is accepted for one release and not shown
+    /// @param names        such as `--width` or `-j,--threads`; after a comma also an earlier name, `--new,--old`,
+    /// which
+    ///                     stays accepted and is not shown
     /// @param type         name of the value in the help, or the allowed words: `LENGTH`, `linear|exact`, `V|every`
     /// @param description  ends with the default value, in brackets
     void add(const char* group, const char* names, const char* type, const std::string& description);

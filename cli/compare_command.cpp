@@ -17,12 +17,12 @@
 #include "common_options.h"
 #include "droplet/compare/compare.h"
 #include "droplet/compare/comparison_report.h"
+#include "droplet/drawing/picture.h"
 #include "droplet/error.h"
 #include "droplet/io/output.h"
 #include "droplet/io/read_surface.h"
-#include "droplet/picture/paint.h"
-#include "droplet/picture/picture.h"
-#include "droplet/picture/render.h"
+#include "droplet/render/paint.h"
+#include "droplet/render/render.h"
 #include "droplet/units.h"
 #include "files.h"
 #include "option_values.h"
@@ -209,10 +209,10 @@ std::string table(const droplet::Comparison& found)
 droplet::Surface placedOnGround(droplet::Surface surface)
 {
     std::iota(surface.weld.begin(), surface.weld.end(), 0U);
-    const auto lowest = std::min_element(surface.positions.begin(), surface.positions.end(),
+    const auto lowest = std::min_element(surface.vertices.begin(), surface.vertices.end(),
                                          [](const droplet::Vec3& a, const droplet::Vec3& b) { return a.z < b.z; });
     const double ground = lowest->z;
-    for (droplet::Vec3& position : surface.positions) {
+    for (droplet::Vec3& position : surface.vertices) {
         position.z -= ground;
     }
     return surface;

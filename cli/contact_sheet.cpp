@@ -9,8 +9,8 @@
 #include <mutex>
 
 #include "droplet/io/read_surface.h"
-#include "droplet/picture/contact_sheet.h"
-#include "droplet/picture/render.h"
+#include "droplet/render/contact_sheet.h"
+#include "droplet/render/render.h"
 
 namespace cli {
 namespace {
@@ -20,8 +20,8 @@ double meanHeight(const droplet::Surface& surface)
 {
     double area = 0.0;
     for (const droplet::Triangle& t : surface.triangles) {
-        const droplet::Vec3 a = surface.positions[t[0]];
-        area += 0.5 * std::max(0.0, cross(surface.positions[t[1]] - a, surface.positions[t[2]] - a).z);
+        const droplet::Vec3 a = surface.vertices[t[0]];
+        area += 0.5 * std::max(0.0, cross(surface.vertices[t[1]] - a, surface.vertices[t[2]] - a).z);
     }
     return area > 0.0 ? std::abs(droplet::enclosedVolume(surface)) / area : 0.0;
 }

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "droplet/colours/colour_regions.h"
 #include "droplet/error.h"
-#include "droplet/footprint/colour_regions.h"
 #include "droplet/liquid.h"
 #include "droplet/units.h"
 #include "droplet/wetting.h"

@@ -9,10 +9,10 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "droplet/droplet.h"
-#include "droplet/footprint/mask.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/output.h"
 #include "droplet/io/report.h"
+#include "droplet/mask/mask.h"
 #include "droplet/shape/figures.h"
 #include "materials_file.h"
 

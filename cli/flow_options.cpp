@@ -55,7 +55,7 @@ const CommandText& commandText()
                                   "\n"
                                   "Examples:\n"
                                   "  droplet-shape flow bottle.glb wet.glb --drops 200 --time 5s\n"
-                                  "  droplet-shape flow car.stl 'rain-%04d.obj' --size 45cm --rain 25mm/h\n"
+                                  "  droplet-shape flow car.stl 'rain-%04d.obj' --object-size 45cm --rain 25mm/h\n"
                                   "  droplet-shape flow --preset bottle bottle.glb\n"
                                   "  droplet-shape flow leaf.glb wet.glb --start drops.csv --droplets out.csv\n"
                                   "\n"
@@ -77,8 +77,8 @@ void declare(CommandLine& line)
     line.add(kObject, "--preset", presetNames().c_str(),
              "Named scene with its own object and droplets, instead of OBJECT; other options change it");
     line.add(kObject, "--scale", "NUMBER", "Factor on the lengths of the file [1]");
-    line.add(kObject, "--size", "LENGTH", "Longest side of the object; scales it");
-    line.exclude({"--scale", "--size"});
+    line.add(kObject, "--object-size,--size", "LENGTH", "Longest side of the object; scales it");
+    line.exclude({"--scale", "--object-size"});
     line.add(kObject, "--up", "y|z", "Axis that points up in an .obj, .ply or .stl [y, of .ply z]");
     line.add(kObject, "--spin", "ANGLE/s", "Turn the object, such as 30deg/s");
     line.add(kObject, "--spin-axis", "X,Y,Z", "Axis through the origin that --spin turns it about [0,1,0]");
@@ -106,7 +106,7 @@ void declare(CommandLine& line)
              "Dew: growth of the water's mean thickness, such as 5mm/h [0mm/h]");
     line.add(kSources, "--dew-spacing", "LENGTH", "Mean distance of new droplets of dew on a dry surface [3mm]");
     constexpr const char* kMotion = "Motion";
-    line.add(kMotion, "--model", "capillary|paper",
+    line.add(kMotion, "--retention,--model", "capillary|paper",
              "What holds droplets: capillary is contact angle hysteresis, paper is roughness alone [capillary]");
     line.add(kMotion, "--hysteresis", "NUMBER",
              "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [0.2]");
@@ -122,7 +122,7 @@ void declare(CommandLine& line)
                  "Glass:roughness=0.1mm,friction=2,hysteresis=0.5");
     line.add(kMotion, "--adhesion", "P", "Pressure in Pa that holds droplets to the surface [by surface tension]");
     line.add(kMotion, "--gravity-direction", "X,Y,Z", "Direction of gravity [0,-1,0]");
-    line.add(kMotion, "--wind", "X,Y,Z", "Wind, which pushes droplets along the surface [0,0,0]");
+    line.add(kMotion, "--wind-velocity,--wind", "X,Y,Z", "Wind, which pushes droplets along the surface [0,0,0]");
     line.addFlag(kMotion, "--no-merge", "Droplets that touch stay apart");
     line.addFlag(kMotion, "--no-wetting", "Streaks do not smooth the surface for the next droplets");
     line.add(kMotion, "--film", "LENGTH", "Thickness of the film that droplets leave behind; it becomes beads [0mm]");
@@ -256,7 +256,7 @@ void readObject(const CommandLine& line, FlowOptions& options)
     if (const auto scale = line.value("--scale")) {
         options.reading.scale = number(*scale, {1e-9, 1e9, "a number from 1e-9 to 1e9"});
     }
-    if (const auto size = line.value("--size")) {
+    if (const auto size = line.value("--object-size")) {
         options.reading.size = quantity(*size, kSize);
     }
     if (const auto up = line.value("--up")) {
@@ -340,7 +340,7 @@ void readMaterial(const Given& given, FlowOptions& options)
     if (colon == std::string::npos || colon == 0) {
         refuse(given, kAllowed);
     }
-    droplet::MaterialGround ground;
+    droplet::MaterialProperties ground;
     for (const Given& part : partsOf({given.text.substr(colon + 1), given.subject})) {
         const std::size_t equals = part.text.find('=');
         const std::string key = part.text.substr(0, equals);
@@ -365,7 +365,7 @@ void readMotion(const CommandLine& line, FlowOptions& options)
         parameters = options.preset->parameters;
     }
     parameters.forces = readForces(line, parameters.forces);
-    if (const auto model = line.value("--model")) {
+    if (const auto model = line.value("--retention")) {
         parameters.model = choice<droplet::FlowModel>(
             *model, {{"capillary", droplet::FlowModel::Capillary}, {"paper", droplet::FlowModel::Paper}});
     }
@@ -391,7 +391,7 @@ void readMotion(const CommandLine& line, FlowOptions& options)
     }
     const auto down = line.value("--gravity-direction");
     parameters.gravity = parameters.forces.gravity * (down ? direction(*down) : Vec3{0.0, 0.0, -1.0});
-    if (const auto wind = line.value("--wind")) {
+    if (const auto wind = line.value("--wind-velocity")) {
         parameters.wind = vector(*wind, kSpeed);
     }
     parameters.merges = parameters.merges && !line.flag("--no-merge");
@@ -433,7 +433,7 @@ void readPreset(const CommandLine& line, FlowOptions& options)
         return;
     }
     options.preset = forOption("--preset", [&] { return droplet::flowPresetNamed(preset->text); });
-    for (const char* option : {"--scale", "--size", "--up", "--no-animation"}) {
+    for (const char* option : {"--scale", "--object-size", "--up", "--no-animation"}) {
         if (line.value(option) || line.flag(option)) {
             refuse(std::string(option) + " needs OBJECT, not --preset");
         }

@@ -11,7 +11,7 @@
 #include "common_options.h"
 #include "droplet/body/droplet_body.h"
 #include "droplet/flow/flow_parameters.h"
-#include "droplet/flow_io/flow_ground.h"
+#include "droplet/flow_io/face_properties.h"
 #include "droplet/flow_io/flow_object.h"
 #include "droplet/flow_io/flow_presets.h"
 #include "droplet/surface/material.h"
@@ -51,7 +51,7 @@ struct FlowOptions {
     std::optional<std::string> start;
     std::optional<std::string> roughness_map;
     std::optional<std::string> friction_map;
-    std::map<std::string, droplet::MaterialGround> materials;
+    std::map<std::string, droplet::MaterialProperties> materials;
     droplet::BodyShape shape = droplet::BodyShape::Capillary;
     std::optional<droplet::Material> material;
     PreviewOptions view;       ///< camera and size of pictures; file and turns of the preview

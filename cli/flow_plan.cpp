@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "droplet/flow/scatter.h"
-#include "droplet/flow_io/flow_ground.h"
+#include "droplet/flow_io/face_properties.h"
 #include "droplet/flow_io/read_flow_start.h"
 #include "droplet/flow_io/read_object_motion.h"
-#include "droplet/footprint/mask.h"
 #include "droplet/image/height_map.h"
+#include "droplet/mask/mask.h"
 #include "option_values.h"
 
 namespace cli {
@@ -83,25 +83,25 @@ std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowP
         if (options.mask) {
             mask = droplet::readMask(*options.mask);
             scatter.coverage =
-                forOption("--mask", [&] { return droplet::coverageOver(*mask, plan.object, plan.scene.surface()); });
+                forOption("--mask", [&] { return droplet::coverageOver(*mask, plan.object, plan.terrain.surface()); });
         }
-        const auto scattered = forOption("--drops", [&] { return droplet::scatterDroplets(plan.scene, scatter); });
-        warnOfCover(scattered, plan, droplet::scatterArea(plan.scene, scatter), warnings);
+        const auto scattered = forOption("--drops", [&] { return droplet::scatterDroplets(plan.terrain, scatter); });
+        warnOfCover(scattered, plan, droplet::scatterArea(plan.terrain, scatter), warnings);
         starts.insert(starts.end(), scattered.begin(), scattered.end());
     }
     return starts;
 }
 
-droplet::FlowGround groundOf(const FlowOptions& options, const FlowPlan& plan)
+droplet::FaceProperties groundOf(const FlowOptions& options, const FlowPlan& plan)
 {
-    std::map<std::string, droplet::MaterialGround> materials = options.materials;
+    std::map<std::string, droplet::MaterialProperties> materials = options.materials;
     if (options.preset) {
         materials.insert(options.preset->materials.begin(), options.preset->materials.end());
     }
     if (!options.roughness_map && !options.friction_map && materials.empty()) {
         return {};
     }
-    droplet::FlowGroundOptions ground;
+    droplet::FacePropertyOptions ground;
     ground.roughness = options.parameters.roughness;
     ground.max_roughness = options.parameters.roughness;
     if (options.roughness_map) {
@@ -112,7 +112,7 @@ droplet::FlowGround groundOf(const FlowOptions& options, const FlowPlan& plan)
     }
     ground.materials = std::move(materials);
     return forOption("--roughness-map, --friction-map, --ground",
-                     [&] { return droplet::flowGround(plan.object, plan.scene.surface(), ground); });
+                     [&] { return droplet::faceProperties(plan.object, plan.terrain.surface(), ground); });
 }
 
 }  // namespace
@@ -134,10 +134,10 @@ FlowPlan planOf(const FlowOptions& options)
     droplet::FlowObject object = options.preset ? droplet::presetObject(options.preset->object)
                                                 : droplet::readFlowObject(*options.object, options.reading);
     droplet::FlowSurface surface =
-        forOption(name, [&] { return droplet::flowSurface(object.positions, object.triangles); });
-    FlowPlan plan{std::move(object), droplet::FlowScene(std::move(surface)), options.parameters, {}, 1, {}};
+        forOption(name, [&] { return droplet::flowSurface(object.vertices, object.triangles); });
+    FlowPlan plan{std::move(object), droplet::FlowTerrain(std::move(surface)), options.parameters, {}, 1, {}};
     plan.warnings = plan.object.warnings;
-    warnOfDefects(plan.scene.surface().report, name, plan.warnings);
+    warnOfDefects(plan.terrain.surface().report, name, plan.warnings);
     if (options.keeps_animation) {
         plan.parameters.motion = plan.object.motion;
     } else if (options.motion) {

@@ -14,7 +14,7 @@ namespace cli {
 /// What a run simulates: the options with the content of their files.
 struct FlowPlan {
     droplet::FlowObject object;
-    droplet::FlowScene scene;
+    droplet::FlowTerrain terrain;
     droplet::FlowParameters parameters;
     std::vector<droplet::FlowStart> starts;
     std::size_t frames = 1;

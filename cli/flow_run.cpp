@@ -122,7 +122,7 @@ void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet
         return;
     }
     const auto turn = [](droplet::Vec3& v) { v = {v.x, v.z, 0.0 - v.y}; };
-    std::for_each(surface.positions.begin(), surface.positions.end(), turn);
+    std::for_each(surface.vertices.begin(), surface.vertices.end(), turn);
     std::for_each(surface.normals.begin(), surface.normals.end(), turn);
 }
 
@@ -142,7 +142,7 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
       material_(options.material.value_or(droplet::materialOf(plan_.parameters.forces.liquid))),
       ribbons_(ribbonOptions(plan_.parameters))
 {
-    state_ = droplet::startFlow(plan_.scene, plan_.parameters, plan_.starts);
+    state_ = droplet::startFlow(plan_.terrain, plan_.parameters, plan_.starts);
     if (options_.kind == FlowOutput::Animation) {
         droplet::FlowAnimationOptions animation;
         animation.frames_per_second = options_.frames_per_second;
@@ -164,13 +164,13 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
         if (plan_.parameters.streaks.film > 0.0) {
             maps.film = plan_.parameters.streaks.film;
         }
-        mapper_ = forOption("--maps", [&] { return droplet::WetMapper(plan_.object, plan_.scene, maps); });
+        mapper_ = forOption("--maps", [&] { return droplet::WetMapper(plan_.object, plan_.terrain, maps); });
     }
     report_.input = nameOfObject(options_);
-    report_.surface = plan_.scene.surface().report;
-    droplet::Vec3 low = plan_.object.positions.front();
+    report_.surface = plan_.terrain.surface().report;
+    droplet::Vec3 low = plan_.object.vertices.front();
     droplet::Vec3 high = low;
-    for (const droplet::Vec3& p : plan_.object.positions) {
+    for (const droplet::Vec3& p : plan_.object.vertices) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
@@ -207,7 +207,7 @@ void FlowRun::preparePainter()
     const double end = static_cast<double>(plan_.frames - 1) / options_.frames_per_second;
     painter.render.framed = framedOver(plan_.object, plan_.parameters.motion, end);
     painter.drying = plan_.parameters.drying;
-    painter_.emplace(plan_.object, plan_.scene, painter);
+    painter_.emplace(plan_.object, plan_.terrain, painter);
 }
 
 droplet::FlowReport FlowRun::execute()
@@ -270,7 +270,7 @@ void FlowRun::resume()
     if (mapper_) {
         mapper_->restore((*checkpoint)["wet maps"], path);
     }
-    state_ = droplet::flowStateFromBytes((*checkpoint)["flow"], plan_.scene.surface().faces.size(), path);
+    state_ = droplet::flowStateFromBytes((*checkpoint)["flow"], plan_.terrain.surface().faces.size(), path);
     report_.balance = rowsFromBytes<droplet::FlowBalanceRow>((*checkpoint)["balance"]);
     done_ = checkpoint->frames;
 }
@@ -278,10 +278,10 @@ void FlowRun::resume()
 std::function<void()> FlowRun::frame(std::size_t number)
 {
     advance(static_cast<double>(number - 1) / options_.frames_per_second);
-    Moment moment{number, state_.time, droplet::sampleFlow(state_, plan_.scene, plan_.parameters),
+    Moment moment{number, state_.time, droplet::sampleFlow(state_, plan_.terrain, plan_.parameters),
                   std::exchange(tracks_, {})};
     if (table_) {
-        table_->add(number, moment.time, moment.samples, plan_.scene.surface());
+        table_->add(number, moment.time, moment.samples, plan_.terrain.surface());
     }
     if (animation_) {
         animation_->add(moment.time, moment.samples);
@@ -300,7 +300,7 @@ void FlowRun::run(std::ostream* table)
         table_->finish();
     }
     if (options_.has_preview) {
-        shown_ = {plan_.frames, state_.time, droplet::sampleFlow(state_, plan_.scene, plan_.parameters)};
+        shown_ = {plan_.frames, state_.time, droplet::sampleFlow(state_, plan_.terrain, plan_.parameters)};
     }
     if (report_.balance.empty() || report_.balance.back().time != state_.time) {
         report_.balance.push_back(flowBalanceRow(state_));
@@ -333,9 +333,9 @@ Blobs FlowRun::state() const
 void FlowRun::advance(double until)
 {
     const auto move_to = [&](double time) {
-        state_ = droplet::advanceFlow(std::move(state_), plan_.scene, plan_.parameters, time);
+        state_ = droplet::advanceFlow(std::move(state_), plan_.terrain, plan_.parameters, time);
         if (options_.streaks) {
-            ribbons_.add(state_.tracks, plan_.scene.surface());
+            ribbons_.add(state_.tracks, plan_.terrain.surface());
         }
         if (painter_ || mapper_) {
             tracks_.push_back(std::move(state_.tracks));

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 #include "picture_stream.h"
 #include "video.h"
 

@@ -100,7 +100,7 @@ void declare(CommandLine& line)
     line.add(kSurface, "--resolution", "NUMBER",
              "Grid of the surface, in distances of particles, 0.2 to 1 [0.4, realistic 0.5]");
     constexpr const char* kOut = "Output";
-    line.add(kOut, "--width", "N", "Width of drawings and masks in pixels, up to 16384 [1280]");
+    line.add(kOut, "--frame-width,--width", "N", "Width of drawings and masks in pixels, up to 16384 [1280]");
     line.add(kOut, "--look", lookNames().c_str(), "Colours and lines [comic; flat for realistic]");
     line.add(kOut, "--line-width", "NUMBER", "Width of outlines, in thousandths of the drawing's width");
     line.add(kOut, "--masks", "PATH",
@@ -243,7 +243,7 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
                    "animation; or a .mp4, .mkv, .mov or .webm");
         }
     }
-    if (const auto width = line.value("--width")) {
+    if (const auto width = line.value("--frame-width")) {
         options.width = static_cast<int>(count(*width, 16384, "16384"));
         if (options.width < 16) {
             refuse(*width, "a whole number from 16 to 16384");

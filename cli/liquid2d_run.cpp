@@ -17,13 +17,13 @@
 
 #include "content_hash.h"
 #include "droplet/error.h"
-#include "droplet/footprint/mask.h"
-#include "droplet/footprint/outline.h"
 #include "droplet/liquid2d/fluid.h"
 #include "droplet/liquid2d_io/fluid_presets.h"
 #include "droplet/liquid2d_io/liquid_drawing.h"
 #include "droplet/liquid2d_io/liquid_lottie.h"
 #include "droplet/liquid2d_io/read_scene.h"
+#include "droplet/mask/mask.h"
+#include "droplet/outline/outline.h"
 #include "droplet_report.h"
 #include "film.h"
 #include "option_values.h"
@@ -299,7 +299,7 @@ public:
             view_.height = frames.height;
         }
         if (view_.height > 32767) {
-            refuse(fmt::format("--width: at {} pixels the drawing is {} pixels high; at most 32767 are allowed",
+            refuse(fmt::format("--frame-width: at {} pixels the drawing is {} pixels high; at most 32767 are allowed",
                                view_.width, view_.height));
         }
         report_.scene = options.particles ? std::nullopt : std::optional(options.scene);

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/colours/colour_regions.h"
 #include "droplet/error.h"
-#include "droplet/footprint/colour_regions.h"
-#include "droplet/footprint/css_colour.h"
+#include "droplet/image/css_colour.h"
 #include "droplet/surface/onto.h"
 #include "droplet/units.h"
 

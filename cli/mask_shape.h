@@ -7,9 +7,9 @@
 #include <string>
 
 #include "droplet/droplet.h"
-#include "droplet/footprint/mask.h"
-#include "droplet/footprint/outline.h"
 #include "droplet/io/report.h"
+#include "droplet/mask/mask.h"
+#include "droplet/outline/outline.h"
 #include "droplet/progress.h"
 #include "shape_options.h"
 #include "surroundings.h"

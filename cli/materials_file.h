@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "droplet/footprint/css_colour.h"
+#include "droplet/image/css_colour.h"
 #include "droplet/surface/material.h"
 
 namespace cli {

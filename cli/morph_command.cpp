@@ -18,10 +18,10 @@
 
 #include "animate_command.h"
 #include "droplet/error.h"
-#include "droplet/footprint/mask.h"
-#include "droplet/footprint/outline.h"
 #include "droplet/liquid2d_io/read_scene.h"
+#include "droplet/mask/mask.h"
 #include "droplet/morph/morph.h"
+#include "droplet/outline/outline.h"
 #include "film.h"
 #include "frames.h"
 #include "morph_options.h"

@@ -42,7 +42,8 @@ void declare(CommandLine& line)
                       "out/%04d.svg; or a video of drawings, .mp4, .mkv, .mov or .webm, which needs ffmpeg");
     constexpr const char* kMorph = "Flow";
     line.add(kMorph, "--text", "TEXT", "First footprint, before those of the pictures");
-    line.add(kMorph, "--font", "FAMILY", "Font of the text, by the name that the system knows [sans-serif]");
+    line.add(kMorph, "--font-family,--font", "FAMILY",
+             "Font of the text, by the name that the system knows [sans-serif]");
     line.add(kMorph, "--frames", "N", "Number of frames of the whole, up to 100k [120]");
     line.add(kMorph, "--particle-count", "N", "Number of particles of the liquid, 1k to 200k [8k]");
     line.add(kMorph, "--rounding", "NUMBER", "How fast surface tension rounds the liquid on its way, 0 to 10 [1]");
@@ -71,12 +72,12 @@ void readKind(const CommandLine& line, MorphCommandOptions& options)
         return;
     }
     // The options of droplets would have no effect; those of reading pictures and of the run have.
-    const std::set<std::string> used{"--text",       "--font",       "--frames",  "--particle-count", "--rounding",
-                                     "--mask-width", "--look",       "--quality", "--codec",          "--alpha",
-                                     "--width",      "--pixel-size", "--channel", "--threshold",      "--invert",
-                                     "--segment",    "--colour",     "--smooth",  "--keep",           "--fill-holes",
-                                     "--speck-size", "--fps",        "--threads", "--quiet",          "--no-clobber",
-                                     "--config",     "--progress",   "--verbose", "--resume"};
+    const std::set<std::string> used{"--text",       "--font-family", "--frames",  "--particle-count", "--rounding",
+                                     "--mask-width", "--look",        "--quality", "--codec",          "--alpha",
+                                     "--width",      "--pixel-size",  "--channel", "--threshold",      "--invert",
+                                     "--segment",    "--colour",      "--smooth",  "--keep",           "--fill-holes",
+                                     "--speck-size", "--fps",         "--threads", "--quiet",          "--no-clobber",
+                                     "--config",     "--progress",    "--verbose", "--resume"};
     for (const auto& [name, value] : line.given()) {
         if (used.count(name) == 0) {
             refuse(name + " needs droplets as OUTPUT, such as out.glb");
@@ -102,9 +103,9 @@ std::variant<MorphCommandOptions, std::string> parseMorph(int argc, const char* 
         }
         options.text = given->text;
     }
-    if (const auto font = line.value("--font")) {
+    if (const auto font = line.value("--font-family")) {
         if (!options.text) {
-            refuse("--font needs --text");
+            refuse("--font-family needs --text");
         }
         options.font = font->text;
     }

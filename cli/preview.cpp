@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "droplet/picture/paint.h"
+#include "droplet/render/paint.h"
 #include "droplet/units.h"
 #include "droplet_options.h"
 #include "video_writer.h"
@@ -135,7 +135,7 @@ void declarePreview(CommandLine& line, PreviewOf subject)
     line.add(
         "Picture", "--environment", "FILE",
         "Equirectangular picture that lights the scene instead of lamps; EXR and HDR hold linear light, others sRGB");
-    line.add("Picture", "--background", "ground|none",
+    line.add("Picture", "--preview-background,--background", "ground|none",
              "none makes the preview transparent except for the droplet and its shadow [ground]");
     line.add("Picture", "--preview-colour", "look|contours|contact-angle",
              "Colours of the preview: look of the material; contours of the height, or contact-angle along the rim, "
@@ -241,7 +241,7 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
 {
     PreviewOptions options;
     readView(line, options);
-    if (const auto background = line.value("--background")) {
+    if (const auto background = line.value("--preview-background")) {
         options.cut_out = choice<bool>(*background, {{"ground", false}, {"none", true}});
     }
     if (const auto environment = line.value("--environment")) {
@@ -267,8 +267,8 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
     const bool has_preview = readPreviewFile(line, options);
     options.encoding = readVideoEncoding(line, has_preview && showsVideo(options), "--preview or --turntable");
     if (!has_preview) {
-        for (const char* option :
-             {"--view", "--camera", "--preview-size", "--ground", "--environment", "--background", "--turntable"}) {
+        for (const char* option : {"--view", "--camera", "--preview-size", "--ground", "--environment",
+                                   "--preview-background", "--turntable"}) {
             if (line.value(option)) {
                 warnings.push_back(std::string(option) + " has no effect without --preview");
             }
@@ -282,10 +282,10 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
         requireEvenSides("--preview-size", options.width, options.height);
     }
     if (options.cut_out && ground && !line.value("--onto")) {
-        refuse("--background none and --ground exclude each other, give one of them");
+        refuse("--preview-background none and --ground exclude each other, give one of them");
     }
     if (options.cut_out && options.colouring != Colouring::Look) {
-        refuse("--background none and " + colour->subject + " " + colour->text +
+        refuse("--preview-background none and " + colour->subject + " " + colour->text +
                " exclude each other: a legend needs a background");
     }
     if (options.colouring != Colouring::Look) {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "command_line.h"
-#include "droplet/picture/environment.h"
-#include "droplet/picture/picture.h"
-#include "droplet/picture/render.h"
+#include "droplet/drawing/picture.h"
+#include "droplet/render/environment.h"
+#include "droplet/render/render.h"
 #include "droplet/surface/surface.h"
 #include "droplet/surface/textured_mesh.h"
 #include "files.h"

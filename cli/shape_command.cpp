@@ -17,13 +17,13 @@
 #include <vector>
 
 #include "colour_shape.h"
+#include "droplet/colours/colour_regions.h"
+#include "droplet/drawing/grey_picture.h"
+#include "droplet/drawing/picture.h"
 #include "droplet/error.h"
-#include "droplet/footprint/colour_regions.h"
 #include "droplet/io/evolver.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/page.h"
-#include "droplet/picture/grey_picture.h"
-#include "droplet/picture/picture.h"
 #include "droplet/surface/onto.h"
 #include "droplet/units.h"
 #include "droplet_report.h"

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "droplet/footprint/colour_drawing.h"
-#include "droplet/footprint/outline.h"
+#include "droplet/colours/colour_drawing.h"
 #include "droplet/io/report.h"
+#include "droplet/outline/outline.h"
 #include "droplet/progress.h"
 #include "run_files.h"
 #include "shape_options.h"

@@ -24,7 +24,7 @@ std::optional<std::string> materialFile(const std::string& path, droplet::Format
 
 droplet::Surface lowered(droplet::Surface surface, double depth)
 {
-    for (droplet::Vec3& position : surface.positions) {
+    for (droplet::Vec3& position : surface.vertices) {
         position.z -= depth;
     }
     return surface;

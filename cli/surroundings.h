@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "droplet/drawing/picture.h"
 #include "droplet/droplet.h"
 #include "droplet/image/height_map.h"
 #include "droplet/io/report.h"
-#include "droplet/picture/environment.h"
-#include "droplet/picture/picture.h"
+#include "droplet/render/environment.h"
 #include "droplet/shape/base_surface.h"
 #include "droplet/surface/textured_mesh.h"
 #include "droplet_options.h"

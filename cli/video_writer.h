@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "droplet/picture/picture.h"
+#include "droplet/drawing/picture.h"
 #include "process.h"
 #include "video_encoding.h"
 

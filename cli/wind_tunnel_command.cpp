@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "droplet/picture/drawing.h"
+#include "droplet/drawing/drawing.h"
 #include "droplet/units.h"
 #include "droplet/wind/trace.h"
 #include "droplet/wind/tunnel.h"

@@ -27,25 +27,25 @@ constexpr NumberRange kHysteresis{0.0, 2.0, "numbers from 0 to 2"};
 
 const CommandText& commandText()
 {
-    static const CommandText text{"droplet-shape wind-tunnel", "compute how droplets move on a slope in the wind",
-                                  "[OPTIONS] [OUTPUT...]",
-                                  "Every volume is combined with every wind, slope and hysteresis. A LIST is\n"
-                                  "10,20,30uL, or a range with a step: 10..100uL:10, 0..16m/s:0.25; a unit at the\n"
-                                  "end applies to all its numbers.\n"
-                                  "\n"
-                                  "Quantities carry a unit:\n"
-                                  "  volumes nL uL mL L mm3 cm3 m3; speeds mm/s m/s km/h mph; angles deg rad;\n"
-                                  "  times ms s min h; lengths nm um mm cm m in; viscosity mPa.s Pa.s;\n"
-                                  "  surface tension mN/m N/m dyn/cm; density kg/m3 g/cm3 g/mL;\n"
-                                  "  acceleration m/s2 mm/s2 g\n"
-                                  "\n"
-                                  "Examples:\n"
-                                  "  droplet-shape wind-tunnel --preset hashimoto plane.csv --chart plane.svg\n"
-                                  "  droplet-shape wind-tunnel --volume 1..100uL:1 --slope 30,45deg --map map.png\n"
-                                  "  droplet-shape wind-tunnel --volume 30uL --wind 9m/s --gust 2m/s --trace a.csv\n"
-                                  "\n"
-                                  "Exit codes:\n"
-                                  "  0 done; 1 internal error; 2 usage; 4 output cannot be written"};
+    static const CommandText text{
+        "droplet-shape wind-tunnel", "compute how droplets move on a slope in the wind", "[OPTIONS] [OUTPUT...]",
+        "Every volume is combined with every wind, slope and hysteresis. A LIST is\n"
+        "10,20,30uL, or a range with a step: 10..100uL:10, 0..16m/s:0.25; a unit at the\n"
+        "end applies to all its numbers.\n"
+        "\n"
+        "Quantities carry a unit:\n"
+        "  volumes nL uL mL L mm3 cm3 m3; speeds mm/s m/s km/h mph; angles deg rad;\n"
+        "  times ms s min h; lengths nm um mm cm m in; viscosity mPa.s Pa.s;\n"
+        "  surface tension mN/m N/m dyn/cm; density kg/m3 g/cm3 g/mL;\n"
+        "  acceleration m/s2 mm/s2 g\n"
+        "\n"
+        "Examples:\n"
+        "  droplet-shape wind-tunnel --preset hashimoto plane.csv --chart plane.svg\n"
+        "  droplet-shape wind-tunnel --volume 1..100uL:1 --slope 30,45deg --map map.png\n"
+        "  droplet-shape wind-tunnel --volume 30uL --wind-speed 9m/s --gust 2m/s --trace a.csv\n"
+        "\n"
+        "Exit codes:\n"
+        "  0 done; 1 internal error; 2 usage; 4 output cannot be written"};
     return text;
 }
 
@@ -57,7 +57,7 @@ void declare(CommandLine& line)
              "Named set of default values: hashimoto, a measured plane; thesis, fitted to it; or both side by side "
              "[hashimoto]");
     line.add(kSweep, "--volume", "VOLUMES", "Volumes of the droplets [by preset]");
-    line.add(kSweep, "--wind", "SPEEDS", "Wind speeds, up the slope and along it [0..16m/s:0.25]");
+    line.add(kSweep, "--wind-speed,--wind", "SPEEDS", "Wind speeds, up the slope and along it [0..16m/s:0.25]");
     line.add(kSweep, "--slope", "ANGLES", "Slopes of the ground, from horizontal [35deg]");
     line.add(kSweep, "--hysteresis", "NUMBERS",
              "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]");
@@ -237,7 +237,7 @@ droplet::TunnelRun runOf(const CommandLine& line, const droplet::ForcePreset& pr
     if (const auto volumes = line.value("--volume")) {
         swept.volumes = quantities(*volumes, kVolume);
     }
-    swept.winds = quantities(line.value("--wind").value_or(Given{"0..16m/s:0.25", "--wind"}), kWind);
+    swept.winds = quantities(line.value("--wind-speed").value_or(Given{"0..16m/s:0.25", "--wind-speed"}), kWind);
     swept.slopes = {preset.slope};
     if (const auto slopes = line.value("--slope")) {
         swept.slopes = quantities(*slopes, kSlope);
@@ -282,15 +282,16 @@ void check(const WindTunnelOptions& options)
         const std::size_t hystereses = std::max<std::size_t>(1, swept.hystereses.size());
         double rows = static_cast<double>(hystereses);
         const std::pair<const char*, std::size_t> lists[] = {{"--volume", swept.volumes.size()},
-                                                             {"--wind", swept.winds.size()},
+                                                             {"--wind-speed", swept.winds.size()},
                                                              {"--slope", swept.slopes.size()},
                                                              {"--hysteresis", hystereses}};
         for (const std::size_t count : {swept.volumes.size(), swept.winds.size(), swept.slopes.size()}) {
             rows *= static_cast<double>(count);
         }
         if (rows > static_cast<double>(droplet::kMaxTunnelRows)) {
-            refuse("--volume, --wind, --slope and --hysteresis make " + std::to_string(static_cast<long long>(rows)) +
-                   " combinations, more than " + std::to_string(droplet::kMaxTunnelRows));
+            refuse("--volume, --wind-speed, --slope and --hysteresis make " +
+                   std::to_string(static_cast<long long>(rows)) + " combinations, more than " +
+                   std::to_string(droplet::kMaxTunnelRows));
         }
         for (const auto& [option, count] : lists) {
             if (options.traces && count > 1) {

@@ -32,7 +32,7 @@ RunFiles filesOf(const WindshieldOptions& options)
         }
     }
     files.writes("--droplets", options.droplets);
-    files.writes("--model", options.model);
+    files.writes("--animation", options.model);
     files.writes("--json", options.json);
     return files;
 }

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "droplet/io/output.h"
-#include "droplet/picture/environment.h"
-#include "droplet/view/glass_maps.h"
+#include "droplet/render/environment.h"
+#include "droplet/windshield_view/glass_maps.h"
 #include "option_values.h"
 #include "windshield_files.h"
 #include "windshield_plan.h"
@@ -45,7 +45,7 @@ WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const dropl
     view_options_.height = background_.height();
     view_options_.wipers = parameters.wipers;
     if (options_.is_video) {
-        requireEvenSides("--size", view_options_.width, view_options_.height);
+        requireEvenSides("--frame-size", view_options_.width, view_options_.height);
     }
     forGlass(options_, [&] { view_ = std::make_unique<droplet::DriversView>(glass_, view_options_); });
     if (options_.are_maps_exr) {

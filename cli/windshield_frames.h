@@ -7,8 +7,8 @@
 #include <string>
 
 #include "background.h"
-#include "droplet/picture/picture.h"
-#include "droplet/view/view.h"
+#include "droplet/drawing/picture.h"
+#include "droplet/windshield_view/view.h"
 #include "film.h"
 #include "video_writer.h"
 #include "windshield_options.h"

@@ -73,7 +73,7 @@ void declare(CommandLine& line)
     line.add(kCar, "--drive-cycle", "FILE",
              "Speed over time: CSV with the columns time_s and speed_m_per_s or speed_km_per_h");
     line.exclude({"--speed", "--drive-cycle"});
-    line.add(kCar, "--wind", "turned|projected",
+    line.add(kCar, "--wind-model,--wind", "turned|projected",
              "Wind along the glass: turned keeps all of its speed, projected only the part along the glass [turned]");
     line.add(kCar, "--noise", "ACCELERATION", "Root mean square of the car's vibration [0.5m/s2]");
     line.add(kCar, "--wiper-period,--wiper", "DURATION", "At least 1.2s; without it there are no wipers");
@@ -109,7 +109,8 @@ void declare(CommandLine& line)
              "the whole background");
     line.add(kLooks, "--background-blur", "ANGLE",
              "Diameter of the disc that a distant point of light becomes, up to 20deg; droplets stay sharp [0deg]");
-    line.add(kLooks, "--size", "SIZE", "Width and height of the frame in pixels [the background's, or 1280x720]");
+    line.add(kLooks, "--frame-size,--size", "SIZE",
+             "Width and height of the frame in pixels [the background's, or 1280x720]");
     line.add(kLooks, "--field-of-view", "ANGLE", "Angle of view across the frame's width [45deg]");
     line.add(kLooks, "--eye-distance", "LENGTH", "Distance of the eye from the glass [0.5m]");
     line.add(kLooks, "--eye", "PLACE",
@@ -135,9 +136,9 @@ void declare(CommandLine& line)
     line.add(kOut, "--map-thickness", "LENGTH", "Thickness of the water that is white in a PNG [5mm]");
     line.add(kOut, "--droplets", "FILE", "Write a table of all running droplets in every frame: .csv or .json");
     line.addFlag(kOut, "--moving-only", "Leave droplets at rest out of the table");
-    line.add(kOut, "--model", "FILE", "Write the droplets as an animated .glb, .gltf, .usda or .usdz");
+    line.add(kOut, "--animation,--model", "FILE", "Write the droplets as an animated .glb, .gltf, .usda or .usdz");
     line.add(
-        kOut, "--model-animation", "nodes|texture",
+        kOut, "--animation-method,--model-animation", "nodes|texture",
         "Form of the animation: nodes plays in every viewer; texture needs a shader and takes one draw call [nodes]");
     declareCompression(line, kOut);
     line.add(kOut, "--json", "FILE", "Write a report, with the water's balance every second; - is standard output");
@@ -176,7 +177,7 @@ void readCar(const CommandLine& line, WindshieldOptions& options)
         parameters.vehicle = droplet::constantSpeed(quantity(*speed, kSpeed));
     }
     options.drive_cycle = text(line, "--drive-cycle");
-    if (const auto wind = line.value("--wind")) {
+    if (const auto wind = line.value("--wind-model")) {
         parameters.wind = choice<droplet::WindAlongGlass>(
             *wind, {{"turned", droplet::WindAlongGlass::Turned}, {"projected", droplet::WindAlongGlass::Projected}});
     }
@@ -265,7 +266,7 @@ void readView(const CommandLine& line, WindshieldOptions& options)
     options.background = text(line, "--background");
     options.environment = text(line, "--environment");
     options.fit = line.flag("--fit");
-    if (const auto size = line.value("--size")) {
+    if (const auto size = line.value("--frame-size")) {
         readSize(*size, options.view);
         options.sized = true;
     }
@@ -369,7 +370,7 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
     if (options.moving_only && !options.droplets) {
         refuse("--moving-only needs --droplets");
     }
-    if (const auto model = line.value("--model")) {
+    if (const auto model = line.value("--animation")) {
         const std::string extension = std::filesystem::path(model->text).extension().string();
         if (!std::set<std::string>{".glb", ".gltf", ".usda", ".usdz"}.contains(extension)) {
             refuse(*model, "a file that ends in .glb, .gltf, .usda or .usdz");
@@ -378,17 +379,17 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
         options.model_file.format = droplet::formatNamed(extension);
         options.model_file.compression = readCompression(line, options.model_file.format);
     } else if (line.value("--compress")) {
-        refuse("--compress needs --model");
+        refuse("--compress needs --animation");
     }
-    if (const auto animation = line.value("--model-animation")) {
-        options.model_animation = choice<droplet::SceneAnimation>(
-            *animation, {{"nodes", droplet::SceneAnimation::Nodes}, {"texture", droplet::SceneAnimation::Texture}});
+    if (const auto animation = line.value("--animation-method")) {
+        options.model_animation = choice<droplet::AnimationMethod>(
+            *animation, {{"nodes", droplet::AnimationMethod::Nodes}, {"texture", droplet::AnimationMethod::Texture}});
         if (!options.model) {
-            refuse("--model-animation needs --model");
+            refuse("--animation-method needs --animation");
         }
-        if (options.model_animation == droplet::SceneAnimation::Texture &&
+        if (options.model_animation == droplet::AnimationMethod::Texture &&
             options.model_file.format != droplet::Format::Glb && options.model_file.format != droplet::Format::Gltf) {
-            refuse("--model-animation texture needs a .glb or .gltf: USD has no shader that places the droplets");
+            refuse("--animation-method texture needs a .glb or .gltf: USD has no shader that places the droplets");
         }
     }
     options.json = text(line, "--json");
@@ -424,7 +425,7 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     readShutter(line, options);
     options.run = readRun(line);
     options.fingerprint = optionsOfFrames(
-        line, options.output, {"--droplets", "--model", "--moving-only", "--model-animation", "--compress"});
+        line, options.output, {"--droplets", "--animation", "--moving-only", "--animation-method", "--compress"});
     return options;
 }
 

@@ -7,10 +7,10 @@
 #include <variant>
 
 #include "common_options.h"
-#include "droplet/view/glass_maps.h"
-#include "droplet/view/view.h"
-#include "droplet/wind_io/droplet_scene.h"
+#include "droplet/wind_io/windshield_animation.h"
 #include "droplet/windshield/windshield.h"
+#include "droplet/windshield_view/glass_maps.h"
+#include "droplet/windshield_view/view.h"
 #include "numbered_path.h"
 #include "video_encoding.h"
 
@@ -28,7 +28,7 @@ struct WindshieldOptions {
     std::optional<std::string> drive_cycle;
     std::optional<double> wiper;  ///< period [s]
     droplet::ViewOptions view;    ///< without the frame's size, unless `sized`
-    bool sized = false;           ///< whether --size is given
+    bool sized = false;           ///< whether --frame-size is given
     std::optional<std::string> background;
     std::optional<std::string> environment;
     bool fit = false;  ///< scale and crop the background
@@ -44,7 +44,7 @@ struct WindshieldOptions {
     bool moving_only = false;  ///< leave droplets at rest out of the table
     std::optional<std::string> model;
     droplet::AnimatedFile model_file;  ///< form of the model
-    droplet::SceneAnimation model_animation = droplet::SceneAnimation::Nodes;
+    droplet::AnimationMethod model_animation = droplet::AnimationMethod::Nodes;
     std::optional<std::string> json;  ///< path or kStandardStream
     bool resume = false;
     std::string fingerprint;  ///< all options that decide what the frames show, as of optionsOfFrames()

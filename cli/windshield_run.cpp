@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "droplet/wind_io/droplet_scene.h"
 #include "droplet/wind_io/droplet_table.h"
+#include "droplet/wind_io/windshield_animation.h"
 #include "droplet/windshield/state_bytes.h"
 #include "droplet_report.h"
 #include "film.h"
@@ -65,7 +65,7 @@ private:
     Film film_;
     WindshieldFrames frames_;
     std::optional<droplet::DropletTable> table_;
-    std::optional<droplet::DropletScene> scene_;
+    std::optional<droplet::WindshieldAnimation> scene_;
     droplet::WindshieldState state_;
     std::size_t done_ = 0;  ///< number of frames that an interrupted run simulated
     std::size_t travelled_frames_ = 0;
@@ -123,7 +123,7 @@ void WindshieldRun::begin()
 {
     state_ = startWindshield(plan_.parameters);
     if (options_.model) {
-        droplet::DropletSceneOptions scene;
+        droplet::WindshieldAnimationOptions scene;
         scene.frames_per_second = options_.frames_per_second;
         scene.shape = report_.view.shape;
         scene.animation = options_.model_animation;

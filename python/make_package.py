@@ -250,7 +250,7 @@ With a tolerance, Comparison.exceeded lists the differences over it; topologies 
         """\
 Computes how droplets on a slope move in the wind: all combinations of volumes, winds, slopes and hystereses.
 
->>> report = wind_tunnel(volume=["10uL", "30uL"], wind="0..16m/s:1", slope=[0.6])
+>>> report = wind_tunnel(volume=["10uL", "30uL"], wind_speed="0..16m/s:1", slope=[0.6])
 >>> [round(case.upper_threshold_m_per_s, 1) for case in report.runs[0].cases]
 [11.7, 10.5]
 """,
@@ -269,7 +269,7 @@ Simulates rain on the windshield of a moving car, and writes what the driver see
 
 output: frames such as out/%05d.png; a video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; or a .png of the last frame.
 
->>> report = windshield("still.png", time="0.1s", warm_up="1s", size=(160, 90), samples=1)
+>>> report = windshield("still.png", time="0.1s", warm_up="1s", frame_size=(160, 90), samples=1)
 >>> report.output.frames, report.warnings
 (3, ())
 """,

@@ -335,8 +335,8 @@ std::vector<double> fillsTo(double end)
 RefillState changeOf(const Surface& from, const Surface& to, double fill)
 {
     RefillState state{fill, {}, {}};
-    for (std::size_t v = 0; v < from.positions.size(); ++v) {
-        state.positions.push_back(to.positions[v] - from.positions[v]);
+    for (std::size_t v = 0; v < from.vertices.size(); ++v) {
+        state.vertices.push_back(to.vertices[v] - from.vertices[v]);
         state.normals.push_back(to.normals[v] - from.normals[v]);
     }
     return state;

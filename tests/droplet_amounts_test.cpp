@@ -126,7 +126,7 @@ TEST(Amounts, WithoutDensityAreThoseWithoutGravity)
     const Droplet floating = makeDroplet(comb(), options);
     options.solve.gravity = kStandardGravity;
     options.solve.liquid.density = 0.0;
-    EXPECT_EQ(makeDroplet(comb(), options).surface.positions, floating.surface.positions);
+    EXPECT_EQ(makeDroplet(comb(), options).surface.vertices, floating.surface.vertices);
 }
 
 /// On a wall liquid gathers at the lower end of a wide footprint. The ground above it is dry, and what is wet is
@@ -250,7 +250,7 @@ TEST(Amounts, SheetsHaveTheTrianglesThatWereAskedFor)
         options.allow_less = false;
         options.solve.fill.below_puddle = false;
         const Droplet asked = makeDroplet(el, options);
-        EXPECT_EQ(asked.surface.positions, droplet.surface.positions);
+        EXPECT_EQ(asked.surface.vertices, droplet.surface.vertices);
         EXPECT_THAT(asked.warnings, Not(Contains(HasSubstr("upright"))));
     }
 }

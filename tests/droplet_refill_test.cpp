@@ -64,12 +64,12 @@ TEST_P(DropletRefill, EqualsASolvedDropletAtEveryFill)
         again.solve.fill.amount *= fill;
         const Surface wanted = makeDroplet(sceneMask(), again).surface;
         const Surface found = refilled(surface, fill);
-        ASSERT_EQ(found.positions.size(), wanted.positions.size());
+        ASSERT_EQ(found.vertices.size(), wanted.vertices.size());
         EXPECT_EQ(found.triangles, wanted.triangles);
         double place = 0.0;
         double normal = 0.0;
-        for (std::size_t v = 0; v < found.positions.size(); ++v) {
-            place = std::max(place, length(found.positions[v] - wanted.positions[v]));
+        for (std::size_t v = 0; v < found.vertices.size(); ++v) {
+            place = std::max(place, length(found.vertices[v] - wanted.vertices[v]));
             normal = std::max(normal, length(found.normals[v] - wanted.normals[v]));
         }
         EXPECT_LT(place, 1e-11) << "at fill " << fill;  // for sizes of a millimetre and more
@@ -98,7 +98,7 @@ TEST(DropletRefill, IsOptionalAndChangesNothingElse)
     const Surface filled = makeDroplet(sceneMask(), options(FillSharing::Each)).surface;
     EXPECT_FALSE(plain.refill);
     ASSERT_TRUE(filled.refill);
-    EXPECT_EQ(plain.positions, filled.positions);
+    EXPECT_EQ(plain.vertices, filled.vertices);
     EXPECT_EQ(plain.normals, filled.normals);
 }
 
@@ -165,7 +165,7 @@ TEST(DropletRefill, HasSolvedStatesWhereTheModelIsNotAffine)
             again.solve.fill = {};
             const Droplet solved = makeDroplet(sceneMask(), again);
             double height = 0.0;
-            for (const Vec3& place : found.positions) {
+            for (const Vec3& place : found.vertices) {
                 height = std::max(height, place.z);
             }
             EXPECT_NEAR(height, solved.total.height_max, 1e-2 * height) << "at fill " << fill;
@@ -203,7 +203,7 @@ TEST(DropletRefill, FillsBeyondTheRangeAndDamagedOnesAreRefused)
         std::find_if(torn.weld.begin(), torn.weld.end(),
                      [&](const std::uint32_t& w) { return w != static_cast<std::uint32_t>(&w - torn.weld.data()); }) -
         torn.weld.begin());
-    torn.refill->states.front().positions[copy].z += 1e-6;
+    torn.refill->states.front().vertices[copy].z += 1e-6;
     EXPECT_THROW(torn.validate(), Error);
     surface.refill->states.front().normals.pop_back();
     EXPECT_THROW(surface.validate(), Error);

@@ -18,8 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/colours/colour_domain.h"
 #include "droplet/error.h"
-#include "droplet/footprint/colour_domain.h"
 #include "droplet/io/output.h"
 #include "droplet/units.h"
 #include "shape/recovered_normals.h"
@@ -265,7 +265,7 @@ TEST_P(FillTest, HeightIsMet)
     }
     expectRelative(droplet.total.height_max, wanted, 1e-12, "largest height");
     double top = 0.0;
-    for (const Vec3& p : droplet.surface.positions) {
+    for (const Vec3& p : droplet.surface.vertices) {
         top = std::max(top, p.z);
     }
     EXPECT_EQ(top, droplet.total.height_max);
@@ -590,9 +590,9 @@ TEST(Droplet, TopOfTheImageIsAtPositiveY)
 {
     // A small disc in the upper left quarter.
     const Droplet droplet = makeDroplet(smoothMask(64, 64, disc({16.0, 12.0}, 8.0)), plain());
-    for (std::size_t v = 0; v < droplet.surface.positions.size(); ++v) {
-        EXPECT_LT(droplet.surface.positions[v].x, 0.0);
-        EXPECT_GT(droplet.surface.positions[v].y, 0.0);
+    for (std::size_t v = 0; v < droplet.surface.vertices.size(); ++v) {
+        EXPECT_LT(droplet.surface.vertices[v].x, 0.0);
+        EXPECT_GT(droplet.surface.vertices[v].y, 0.0);
         EXPECT_LT(droplet.surface.uvs[v].x, 0.5);
         EXPECT_LT(droplet.surface.uvs[v].y, 0.5);
     }
@@ -606,14 +606,14 @@ TEST(Droplet, NormalsAreThoseOfTheShape)
     const double radius = kRadius * *options.trace.pixel_size;
     const double curvature = std::tan(40.0 * kDegree) / radius;  // u = (R² − r²) · curvature / 2
     double worst = 0.0;
-    for (std::size_t v = 0; v < droplet.surface.positions.size(); ++v) {
+    for (std::size_t v = 0; v < droplet.surface.vertices.size(); ++v) {
         const Vec3 n = droplet.surface.normals[v];
         if (n.z < 0.0) {
             EXPECT_EQ(n, (Vec3{0.0, 0.0, -1.0}));
-            EXPECT_EQ(droplet.surface.positions[v].z, 0.0);
+            EXPECT_EQ(droplet.surface.vertices[v].z, 0.0);
             continue;
         }
-        const Vec3 upward{curvature * droplet.surface.positions[v].x, curvature * droplet.surface.positions[v].y, 1.0};
+        const Vec3 upward{curvature * droplet.surface.vertices[v].x, curvature * droplet.surface.vertices[v].y, 1.0};
         worst = std::max(worst, std::acos(std::min(1.0, dot(n, upward) / length(upward))));
     }
     EXPECT_LT(worst, 2.0 * kDegree);
@@ -889,7 +889,7 @@ TEST(Droplet, RefusesDropletsThatDoNotExist)
     EXPECT_GT(bead.total.contact_angle.mean, 0.5 * std::numbers::pi);
     // One droplet does not share its liquid.
     options.solve.fill.sharing = FillSharing::Total;
-    EXPECT_EQ(makeDroplet(mask, options).surface.positions, bead.surface.positions);
+    EXPECT_EQ(makeDroplet(mask, options).surface.vertices, bead.surface.vertices);
     options.solve.fill = {FillBy::Volume, 0.9 * max, FillSharing::Each};
     EXPECT_EQ(makeDroplet(mask, options).solution.report.termination, Termination::Converged);
     options.solve.gravity = -300.0;
@@ -978,7 +978,7 @@ TEST(Droplet, HangsOverItsRimOnAWallThatItLeavesDry)
         EXPECT_NEAR(part.area, droplet.total.footprint_area - droplet.total.dry_area, 1e-12);
         double base = 0.0;
         for (const Triangle& t : droplet.surface.triangles) {
-            const auto& p = droplet.surface.positions;
+            const auto& p = droplet.surface.vertices;
             if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
                     return std::abs(p[v].z - ground.at({p[v].x, p[v].y}).height) < 1e-12;
                 })) {
@@ -1051,7 +1051,7 @@ TEST(Droplet, ReportsHowMuchOfTheLiquidIsThere)
         EXPECT_GT(shares[k], shares[k - 1]);
     }
     EXPECT_EQ(shares.back(), 1.0);
-    EXPECT_EQ(makeDroplet(mask, options).surface.positions, droplet.surface.positions);
+    EXPECT_EQ(makeDroplet(mask, options).surface.vertices, droplet.surface.vertices);
 }
 
 TEST(Droplet, RefusesBadOptionsBeforeAnyWork)

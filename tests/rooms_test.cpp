@@ -29,7 +29,7 @@ struct Room {
     std::string includes;  ///< cell of the table
 };
 
-/// Rows of the table, with the ground first.
+/// Rows of the table, with the core first.
 std::vector<Room> roomsOfTable()
 {
     const std::string page = testing::readFile(inSource("docs/architecture.md"));
@@ -82,7 +82,7 @@ std::string roomOf(const fs::path& file)
         return file.begin()->string();
     }
     const std::string stem = file.stem().string();
-    return stem == "droplet" || stem == "pipeline" ? "droplet" : "ground";
+    return stem == "droplet" || stem == "pipeline" ? "droplet" : "core";
 }
 
 struct Include {

@@ -16,14 +16,14 @@ _droplet_shape()
         animate) options='--volume-mode --fps --contact-sheet --preview --view --camera --preview-size --codec --quality --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --compress --html --json --resume --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         batch) options='--output --recursive --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --by-colour --colours --gap --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --sink --compress --colour-map --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         compare) options='--tolerance --volume-tolerance --normal-tolerance --json --picture --no-clobber --threads --quiet --config --help --version' ;;
-        flow) options='--preset --scale --size --up --spin --spin-axis --motion --no-animation --drops --volume --radius --volume-spread --from --mask --start --emitter --rain --condensation --dew-spacing --model --hysteresis --friction --roughness --roughness-map --friction-map --ground --adhesion --gravity-direction --wind --no-merge --no-wetting --film --bead-spacing --drying --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --fps --seed --shape --material --compress --streaks --maps --map-width --map-thickness --map-age --droplets --json --preview --view --camera --preview-size --turntable --codec --quality --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
-        glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --by-colour --palette --text-colour --gap --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --sink --compress --preview --view --camera --preview-size --ground --environment --background --preview-colour --colour --turntable --codec --quality --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
-        liquid2d) options='--scene --particle-count --walls --gravity --surface-tension --particles --particle-scale --plane --spacing --time --fps --style --tail --tail-slope --max-tail --air --release --max-air --eraser-share --no-crest-gate --smoothing --fairing --resolution --width --look --line-width --masks --codec --quality --alpha --json --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
-        morph) options='--text --font --frames --particle-count --rounding --mask-width --look --alpha --volume-mode --fps --contact-sheet --preview --view --camera --preview-size --codec --quality --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --compress --html --json --resume --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        flow) options='--preset --scale --object-size --up --spin --spin-axis --motion --no-animation --drops --volume --radius --volume-spread --from --mask --start --emitter --rain --condensation --dew-spacing --retention --hysteresis --friction --roughness --roughness-map --friction-map --ground --adhesion --gravity-direction --wind-velocity --no-merge --no-wetting --film --bead-spacing --drying --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --fps --seed --shape --material --compress --streaks --maps --map-width --map-thickness --map-age --droplets --json --preview --view --camera --preview-size --turntable --codec --quality --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
+        glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --by-colour --palette --text-colour --gap --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --sink --compress --preview --view --camera --preview-size --ground --environment --preview-background --preview-colour --colour --turntable --codec --quality --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        liquid2d) options='--scene --particle-count --walls --gravity --surface-tension --particles --particle-scale --plane --spacing --time --fps --style --tail --tail-slope --max-tail --air --release --max-air --eraser-share --no-crest-gate --smoothing --fairing --resolution --frame-width --look --line-width --masks --codec --quality --alpha --json --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
+        morph) options='--text --font-family --frames --particle-count --rounding --mask-width --look --alpha --volume-mode --fps --contact-sheet --preview --view --camera --preview-size --codec --quality --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --compress --html --json --resume --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         studio) options='--no-clobber --help' ;;
-        wind-tunnel) options='--preset --volume --wind --slope --hysteresis --sliding-angle --sliding-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
-        windshield) options='--preset --rain --speed --drive-cycle --wind --noise --wiper-period --seed --glass-width --glass-height --glass-radius --slope --surface --hysteresis --still-diameter --film --shape --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --environment --background-blur --size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --map-thickness --droplets --moving-only --model --model-animation --compress --json --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
-        *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --by-colour --colours --gap --mask-out --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --sink --compress --colour-map --preview --view --camera --preview-size --ground --environment --background --preview-colour --turntable --codec --quality --json --html --export-evolver --watch --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        wind-tunnel) options='--preset --volume --wind-speed --slope --hysteresis --sliding-angle --sliding-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
+        windshield) options='--preset --rain --speed --drive-cycle --wind-model --noise --wiper-period --seed --glass-width --glass-height --glass-radius --slope --surface --hysteresis --still-diameter --film --shape --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --environment --background-blur --frame-size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --map-thickness --droplets --moving-only --animation --animation-method --compress --json --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
+        *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --by-colour --colours --gap --mask-out --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --sink --compress --colour-map --preview --view --camera --preview-size --ground --environment --preview-background --preview-colour --turntable --codec --quality --json --html --export-evolver --watch --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
     esac
     [[ ' animate batch compare flow glyphs liquid2d morph studio wind-tunnel windshield ' == *" $command "* ]] || command=
     case $command:$previous in
@@ -49,8 +49,6 @@ _droplet_shape()
         *:--liquid) choices='water ethanol glycerol mercury honey' ;;
         *:--surface-tension) return ;;
         *:--density) return ;;
-        flow:--model) choices='capillary paper' ;;
-        windshield:--model) files=1 ;;
         *:--model) choices='auto linear exact' ;;
         *:--gravity) return ;;
         *:--tilt) return ;;
@@ -79,8 +77,7 @@ _droplet_shape()
         flow:--ground) return ;;
         *:--ground) files=1 ;;
         *:--environment) files=1 ;;
-        windshield:--background) files=1 ;;
-        *:--background) choices='ground none' ;;
+        *:--preview-background) choices='ground none' ;;
         *:--preview-colour) choices='look contours contact-angle' ;;
         *:--turntable) return ;;
         *:--codec) return ;;
@@ -108,7 +105,7 @@ _droplet_shape()
         windshield:--preset) choices='figure-3.10 figure-3.11 figure-3.12' ;;
         *:--preset) choices='masses viscosities adhesions roughnesses tear forces bottle leaf car' ;;
         *:--scale) return ;;
-        *:--size) return ;;
+        *:--object-size) return ;;
         *:--up) choices='y z' ;;
         *:--spin) return ;;
         *:--spin-axis) return ;;
@@ -123,6 +120,7 @@ _droplet_shape()
         *:--rain) return ;;
         *:--condensation) return ;;
         *:--dew-spacing) return ;;
+        *:--retention) choices='capillary paper' ;;
         *:--hysteresis) return ;;
         *:--friction) return ;;
         *:--roughness) return ;;
@@ -130,8 +128,7 @@ _droplet_shape()
         *:--friction-map) files=1 ;;
         *:--adhesion) return ;;
         *:--gravity-direction) return ;;
-        windshield:--wind) choices='turned projected' ;;
-        *:--wind) return ;;
+        *:--wind-velocity) return ;;
         *:--film) return ;;
         *:--bead-spacing) return ;;
         *:--drying) return ;;
@@ -151,7 +148,6 @@ _droplet_shape()
         *:--map-thickness) return ;;
         *:--map-age) return ;;
         *:--droplets) files=1 ;;
-        morph:--font) return ;;
         *:--font) files=1 ;;
         *:--face-index) return ;;
         *:--axis) return ;;
@@ -180,12 +176,15 @@ _droplet_shape()
         *:--smoothing) return ;;
         *:--fairing) return ;;
         *:--resolution) return ;;
+        *:--frame-width) return ;;
         *:--look) choices='flat comic ink night' ;;
         *:--line-width) return ;;
         *:--masks) files=1 ;;
+        *:--font-family) return ;;
         *:--frames) return ;;
         *:--rounding) return ;;
         *:--mask-width) return ;;
+        *:--wind-speed) return ;;
         *:--slope) return ;;
         *:--sliding-angle) return ;;
         *:--sliding-volume) choices='every' ;;
@@ -199,6 +198,7 @@ _droplet_shape()
         *:--gust-period) return ;;
         *:--speed) return ;;
         *:--drive-cycle) files=1 ;;
+        *:--wind-model) choices='turned projected' ;;
         *:--noise) return ;;
         *:--wiper-period) return ;;
         *:--glass-width) return ;;
@@ -206,7 +206,9 @@ _droplet_shape()
         *:--glass-radius) return ;;
         *:--still-diameter) return ;;
         *:--warm-up) return ;;
+        *:--background) files=1 ;;
         *:--background-blur) return ;;
+        *:--frame-size) return ;;
         *:--field-of-view) return ;;
         *:--eye-distance) return ;;
         *:--eye) return ;;
@@ -215,7 +217,8 @@ _droplet_shape()
         *:--exposure) return ;;
         *:--highlight-boost) return ;;
         *:--shutter) return ;;
-        *:--model-animation) choices='nodes texture' ;;
+        *:--animation) files=1 ;;
+        *:--animation-method) choices='nodes texture' ;;
     esac
     if [[ -n $choices ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$choices" -- "$word")

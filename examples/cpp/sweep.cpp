@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints height, pressure and contact angle of a droplet over its volume, as CSV: sweep IN.png
 // It calls the stages one by one, so the picture is traced and triangulated only once.
+#include <droplet/domain/domain.h>
 #include <droplet/error.h>
-#include <droplet/footprint/domain.h>
-#include <droplet/footprint/mask.h>
-#include <droplet/footprint/outline.h>
+#include <droplet/mask/mask.h>
 #include <droplet/mesh/triangulate.h>
+#include <droplet/outline/outline.h>
 #include <droplet/shape/figures.h>
 #include <droplet/shape/solve.h>
 

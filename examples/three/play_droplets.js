@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays the droplets of `windshield --model` and of `flow` in three.js, from node animations or from a texture (one
+// Plays the droplets of `windshield --animation` and of `flow` in three.js, from node animations or from a texture (one
 // draw call).
 import { AnimationMixer, InstancedBufferGeometry, NoColorSpace, PropertyBinding, Sphere, Vector3 } from 'three';
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "droplet/footprint/domain.h"
-#include "droplet/footprint/mask.h"
-#include "droplet/footprint/outline.h"
+#include "droplet/domain/domain.h"
+#include "droplet/mask/mask.h"
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/mesh/triangulate.h"
+#include "droplet/outline/outline.h"
 #include "droplet/progress.h"
 #include "droplet/shape/figures.h"
 #include "droplet/shape/refill.h"

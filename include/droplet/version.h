@@ -3,6 +3,6 @@
 
 namespace droplet {
 
-inline constexpr const char* kVersion = "0.2.0";  ///< version of this library
+inline constexpr const char* kVersion = "0.3.0";  ///< version of this library
 
 }  // namespace droplet

@@ -18,10 +18,10 @@
 #include "command_line.h"
 #include "droplet/droplet.h"
 #include "droplet/error.h"
-#include "droplet/footprint/mask.h"
-#include "droplet/footprint/two_levels.h"
 #include "droplet/io/output.h"
 #include "droplet/io/report.h"
+#include "droplet/mask/mask.h"
+#include "droplet/mask/two_levels.h"
 #include "droplet_report.h"
 #include "mask_shape.h"
 #include "shape_options.h"
@@ -184,7 +184,7 @@ std::span<const std::byte> arrayOf(Result& result, Array array)
     };
     switch (array) {
         case Array::Positions:
-            return kept(result.positions, floats(result.surface.positions));
+            return kept(result.positions, floats(result.surface.vertices));
         case Array::Normals:
             return kept(result.normals, floats(result.surface.normals));
         case Array::Uvs:

@@ -576,7 +576,7 @@ def compare(
 _WIND_TUNNEL = {
     "preset": "text",
     "volume": "list m3",
-    "wind": "list m/s",
+    "wind_speed": "list m/s",
     "slope": "list rad",
     "hysteresis": "list ",
     "sliding_angle": "rad",
@@ -601,7 +601,7 @@ def wind_tunnel(
     *,
     preset: Literal["hashimoto", "thesis", "thesis,hashimoto"] | None = None,
     volume: str | float | Sequence[float] | None = None,
-    wind: str | float | Sequence[float] | None = None,
+    wind_speed: str | float | Sequence[float] | None = None,
     slope: str | float | Sequence[float] | None = None,
     hysteresis: str | float | Sequence[float] | None = None,
     sliding_angle: str | float | None = None,
@@ -622,7 +622,7 @@ def wind_tunnel(
 ) -> WindTunnelReport:
     """Computes how droplets on a slope move in the wind: all combinations of volumes, winds, slopes and hystereses.
 
-    >>> report = wind_tunnel(volume=["10uL", "30uL"], wind="0..16m/s:1", slope=[0.6])
+    >>> report = wind_tunnel(volume=["10uL", "30uL"], wind_speed="0..16m/s:1", slope=[0.6])
     >>> [round(case.upper_threshold_m_per_s, 1) for case in report.runs[0].cases]
     [11.7, 10.5]
 
@@ -630,7 +630,7 @@ def wind_tunnel(
       preset: hashimoto, thesis, thesis,hashimoto: Named set of default values: hashimoto, a measured plane; thesis,
         fitted to it; or both side by side (default: hashimoto)
       volume [m³]: Volumes of the droplets (default: by preset)
-      wind [m/s]: Wind speeds, up the slope and along it (default: 0..16m/s:0.25)
+      wind_speed [m/s]: Wind speeds, up the slope and along it (default: 0..16m/s:0.25)
       slope [rad]: Slopes of the ground, from horizontal (default: 35deg)
       hysteresis: Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle (default: by
         preset)
@@ -673,7 +673,7 @@ _WINDSHIELD = {
     "rain": "rainfall",
     "speed": "m/s",
     "drive_cycle": "path",
-    "wind": "text",
+    "wind_model": "text",
     "noise": "m/s2",
     "wiper_period": "s",
     "seed": "number",
@@ -704,7 +704,7 @@ _WINDSHIELD = {
     "fit": "flag",
     "environment": "path",
     "background_blur": "rad",
-    "size": "size",
+    "frame_size": "size",
     "field_of_view": "rad",
     "eye_distance": "m",
     "eye": "list m",
@@ -721,8 +721,8 @@ _WINDSHIELD = {
     "map_thickness": "m",
     "droplets": "path",
     "moving_only": "flag",
-    "model": "path",
-    "model_animation": "text",
+    "animation": "path",
+    "animation_method": "text",
     "compress": "text",
     "resume": "flag",
     "no_clobber": "flag",
@@ -737,7 +737,7 @@ def windshield(
     rain: str | float | None = None,
     speed: str | float | None = None,
     drive_cycle: Path | None = None,
-    wind: Literal["turned", "projected"] | None = None,
+    wind_model: Literal["turned", "projected"] | None = None,
     noise: str | float | None = None,
     wiper_period: str | float | None = None,
     seed: str | int | None = None,
@@ -768,7 +768,7 @@ def windshield(
     fit: bool = False,
     environment: Path | None = None,
     background_blur: str | float | None = None,
-    size: str | tuple[int, int] | None = None,
+    frame_size: str | tuple[int, int] | None = None,
     field_of_view: str | float | None = None,
     eye_distance: str | float | None = None,
     eye: str | Sequence[float] | None = None,
@@ -785,8 +785,8 @@ def windshield(
     map_thickness: str | float | None = None,
     droplets: Path | None = None,
     moving_only: bool = False,
-    model: Path | None = None,
-    model_animation: Literal["nodes", "texture"] | None = None,
+    animation: Path | None = None,
+    animation_method: Literal["nodes", "texture"] | None = None,
     compress: Literal["none", "quantize", "meshopt"] | None = None,
     resume: bool = False,
     no_clobber: bool = False,
@@ -797,7 +797,7 @@ def windshield(
     output: frames such as out/%05d.png; a video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; or a .png of the last
     frame.
 
-    >>> report = windshield("still.png", time="0.1s", warm_up="1s", size=(160, 90), samples=1)
+    >>> report = windshield("still.png", time="0.1s", warm_up="1s", frame_size=(160, 90), samples=1)
     >>> report.output.frames, report.warnings
     (3, ())
 
@@ -806,8 +806,8 @@ def windshield(
       rain [m/s]: Rainfall, with the drop sizes of Marshall and Palmer (default: 5mm/h)
       speed [m/s]: Speed of the car in still air (default: by preset)
       drive_cycle: Speed over time: CSV with the columns time_s and speed_m_per_s or speed_km_per_h
-      wind: turned, projected: Wind along the glass: turned keeps all of its speed, projected only the part along the
-        glass (default: turned)
+      wind_model: turned, projected: Wind along the glass: turned keeps all of its speed, projected only the part
+        along the glass (default: turned)
       noise [m/s²]: Root mean square of the car's vibration (default: 0.5m/s2)
       wiper_period [s]: At least 1.2s; without it there are no wipers
       seed: Random seed (default: 1)
@@ -860,7 +860,7 @@ def windshield(
         is the whole background
       background_blur [rad]: Diameter of the disc that a distant point of light becomes, up to 20deg; droplets stay
         sharp (default: 0deg)
-      size [px]: Width and height of the frame in pixels (default: the background's, or 1280x720)
+      frame_size [px]: Width and height of the frame in pixels (default: the background's, or 1280x720)
       field_of_view [rad]: Angle of view across the frame's width (default: 45deg)
       eye_distance [m]: Distance of the eye from the glass (default: 0.5m)
       eye [m]: Position of the eye relative to the middle of the glass: right, ahead and up, such as 0.3m,-0.6m,0.1m;
@@ -884,8 +884,8 @@ def windshield(
       map_thickness [m]: Thickness of the water that is white in a PNG (default: 5mm)
       droplets: Write a table of all running droplets in every frame: .csv or .json
       moving_only: Leave droplets at rest out of the table
-      model: Write the droplets as an animated .glb, .gltf, .usda or .usdz
-      model_animation: nodes, texture: Form of the animation: nodes plays in every viewer; texture needs a shader and
+      animation: Write the droplets as an animated .glb, .gltf, .usda or .usdz
+      animation_method: nodes, texture: Form of the animation: nodes plays in every viewer; texture needs a shader and
         takes one draw call (default: nodes)
       compress: none, quantize, meshopt: Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three
         quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size (default: none)
@@ -904,7 +904,7 @@ def windshield(
 _FLOW = {
     "preset": "text",
     "scale": "number",
-    "size": "m",
+    "object_size": "m",
     "up": "text",
     "spin": "rad/s",
     "spin_axis": "vector",
@@ -921,7 +921,7 @@ _FLOW = {
     "rain": "rainfall",
     "condensation": "rainfall",
     "dew_spacing": "m",
-    "model": "text",
+    "retention": "text",
     "hysteresis": "number",
     "friction": "number",
     "roughness": "m",
@@ -930,7 +930,7 @@ _FLOW = {
     "ground": "texts",
     "adhesion": "number",
     "gravity_direction": "vector",
-    "wind": "vector",
+    "wind_velocity": "vector",
     "no_merge": "flag",
     "no_wetting": "flag",
     "film": "m",
@@ -980,7 +980,7 @@ def flow(
         "masses", "viscosities", "adhesions", "roughnesses", "tear", "forces", "bottle", "leaf", "car",
     ] | None = None,
     scale: float | None = None,
-    size: str | float | None = None,
+    object_size: str | float | None = None,
     up: Literal["y", "z"] | None = None,
     spin: str | float | None = None,
     spin_axis: str | Sequence[float] | None = None,
@@ -997,7 +997,7 @@ def flow(
     rain: str | float | None = None,
     condensation: str | float | None = None,
     dew_spacing: str | float | None = None,
-    model: Literal["capillary", "paper"] | None = None,
+    retention: Literal["capillary", "paper"] | None = None,
     hysteresis: float | None = None,
     friction: float | None = None,
     roughness: str | float | None = None,
@@ -1006,7 +1006,7 @@ def flow(
     ground: str | Sequence[str] | None = None,
     adhesion: float | None = None,
     gravity_direction: str | Sequence[float] | None = None,
-    wind: str | Sequence[float] | None = None,
+    wind_velocity: str | Sequence[float] | None = None,
     no_merge: bool = False,
     no_wetting: bool = False,
     film: str | float | None = None,
@@ -1061,7 +1061,7 @@ def flow(
       preset: masses, viscosities, adhesions, roughnesses, tear, forces, bottle, leaf, car: Named scene with its own
         object and droplets, instead of OBJECT; other options change it
       scale: Factor on the lengths of the file (default: 1)
-      size [m]: Longest side of the object; scales it
+      object_size [m]: Longest side of the object; scales it
       up: y, z: Axis that points up in an .obj, .ply or .stl (default: y, of .ply z)
       spin [rad/s]: Turn the object, such as 30deg/s
       spin_axis [m or m/s]: Axis through the origin that spin turns it about (default: 0,1,0)
@@ -1084,8 +1084,8 @@ def flow(
       dew_spacing [m]: Mean distance of new droplets of dew on a dry surface (default: 3mm)
 
     Motion:
-      model: capillary, paper: What holds droplets: capillary is contact angle hysteresis, paper is roughness alone
-        (default: capillary)
+      retention: capillary, paper: What holds droplets: capillary is contact angle hysteresis, paper is roughness
+        alone (default: capillary)
       hysteresis: Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle (default: 0.2)
       friction: Viscous friction in kg/s instead of viscosity_factor
       roughness [m]: Height of the surface's bumps; those of a droplet's height hold it (default: 0mm)
@@ -1096,7 +1096,7 @@ def flow(
         Glass:roughness=0.1mm,friction=2,hysteresis=0.5
       adhesion: Pressure in Pa that holds droplets to the surface (default: by surface tension)
       gravity_direction [m or m/s]: Direction of gravity (default: 0,-1,0)
-      wind [m or m/s]: Wind, which pushes droplets along the surface (default: 0,0,0)
+      wind_velocity [m or m/s]: Wind, which pushes droplets along the surface (default: 0,0,0)
       no_merge: Droplets that touch stay apart
       no_wetting: Streaks do not smooth the surface for the next droplets
       film [m]: Thickness of the film that droplets leave behind; it becomes beads (default: 0mm)

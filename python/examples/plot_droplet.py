@@ -86,7 +86,7 @@ figure.savefig(folder / "series.png")
 # Acceleration from rest of droplets on a slope, against the wind.
 
 # %%
-tunnel = ds.wind_tunnel(volume=["10uL", "30uL", "100uL"], wind="0..16m/s:0.25").runs[0]
+tunnel = ds.wind_tunnel(volume=["10uL", "30uL", "100uL"], wind_speed="0..16m/s:0.25").runs[0]
 figure, axes = plt.subplots(figsize=(6, 4))
 for case in tunnel.cases:
     axes.plot(tunnel.wind_m_per_s, case.acceleration_m_per_s2, label=f"{1e9 * case.volume_m3:.0f} µL")

@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "arguments.h"
+#include "droplet/drawing/picture.h"
 #include "droplet/error.h"
-#include "droplet/footprint/two_levels.h"
-#include "droplet/picture/picture.h"
+#include "droplet/mask/two_levels.h"
 #include "shape_options.h"
 #include "state.h"
 #include "work.h"

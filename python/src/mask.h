@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 
 namespace binding {
 

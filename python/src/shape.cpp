@@ -15,9 +15,9 @@
 
 #include "arguments.h"
 #include "colour_shape.h"
+#include "droplet/colours/colour_regions.h"
 #include "droplet/error.h"
-#include "droplet/footprint/colour_regions.h"
-#include "droplet/picture/render.h"
+#include "droplet/render/render.h"
 #include "droplet_report.h"
 #include "file_droplets.h"
 #include "mask.h"

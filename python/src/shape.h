@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "droplet/droplet.h"
-#include "droplet/footprint/css_colour.h"
+#include "droplet/image/css_colour.h"
 #include "droplet/io/report.h"
 #include "droplet_options.h"
 #include "stage_clock.h"

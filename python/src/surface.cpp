@@ -108,7 +108,7 @@ py::object pictureOf(const Surface& self)
 
 template <>
 struct Members<droplet::RefillState> {
-    static constexpr std::tuple list{&droplet::RefillState::fill, &droplet::RefillState::positions,
+    static constexpr std::tuple list{&droplet::RefillState::fill, &droplet::RefillState::vertices,
                                      &droplet::RefillState::normals};
 };
 
@@ -119,7 +119,7 @@ struct Members<droplet::Refill> {
 
 template <>
 struct Members<droplet::Surface> {
-    static constexpr std::tuple list{&droplet::Surface::positions,   &droplet::Surface::normals,
+    static constexpr std::tuple list{&droplet::Surface::vertices,    &droplet::Surface::normals,
                                      &droplet::Surface::uvs,         &droplet::Surface::contact_angle,
                                      &droplet::Surface::triangles,   &droplet::Surface::weld,
                                      &droplet::Surface::texture_map, &droplet::Surface::mean_height,
@@ -128,7 +128,7 @@ struct Members<droplet::Surface> {
 
 template <>
 struct Members<droplet::TexturedMesh> {
-    static constexpr std::tuple list{&droplet::TexturedMesh::positions, &droplet::TexturedMesh::normals,
+    static constexpr std::tuple list{&droplet::TexturedMesh::vertices, &droplet::TexturedMesh::normals,
                                      &droplet::TexturedMesh::uvs, &droplet::TexturedMesh::triangles};
 };
 
@@ -235,7 +235,7 @@ void bindSurface(py::module_& module)
 
 The arrays share the memory of the mesh. They are read-only, and stay valid
 after the surface is deleted.)")
-        .def_property_readonly("vertices", view<double>(&droplet::Surface::positions),
+        .def_property_readonly("vertices", view<double>(&droplet::Surface::vertices),
                                "Places of the vertices [m]: an (n, 3) array of float64, z up. A vertex that needs two "
                                "normals, as on the rim, is there twice; see weld.")
         .def_property_readonly("triangles", view<std::uint32_t>(&droplet::Surface::triangles),

@@ -82,7 +82,7 @@ double volumeOf(const BodyGrid& grid)
     return sum / 6.0;
 }
 
-void finish(BodyGrid& grid, double volume, std::span<Vec3> positions, std::span<Vec3> normals)
+void finish(BodyGrid& grid, double volume, std::span<Vec3> vertices, std::span<Vec3> normals)
 {
     close(grid);
     double area = 0.0;
@@ -100,7 +100,7 @@ void finish(BodyGrid& grid, double volume, std::span<Vec3> positions, std::span<
     for (std::size_t ring = 0; ring < kBodyRings; ++ring) {
         const std::size_t first = ring * kBodySlices;
         for (std::size_t j = 0; j < kBodySlices; ++j) {
-            positions[first + j] = placed(at(grid, ring, j + 1));
+            vertices[first + j] = placed(at(grid, ring, j + 1));
             Vec3 up = grid.inward[j];
             if (ring > 0) {
                 const Vec3 above = ring + 1 < kBodyRings ? at(grid, ring + 1, j + 1) : grid.apex;
@@ -109,7 +109,7 @@ void finish(BodyGrid& grid, double volume, std::span<Vec3> positions, std::span<
             normals[first + j] = unit(cross(at(grid, ring, j + 2) - at(grid, ring, j), up));
         }
     }
-    positions[kBodyApex] = placed(grid.apex);
+    vertices[kBodyApex] = placed(grid.apex);
     Vec3 top;
     for (std::size_t j = 1; j <= kBodySlices; ++j) {
         top = top + cross(at(grid, kBodyRings - 1, j) - grid.apex, at(grid, kBodyRings - 1, j + 1) - grid.apex);
@@ -117,7 +117,7 @@ void finish(BodyGrid& grid, double volume, std::span<Vec3> positions, std::span<
     normals[kBodyApex] = unit(top);
 }
 
-void makeBall(double volume, std::span<Vec3> positions, std::span<Vec3> normals)
+void makeBall(double volume, std::span<Vec3> vertices, std::span<Vec3> normals)
 {
     BodyGrid grid;
     const double step = std::numbers::pi / static_cast<double>(kBodyRings);
@@ -136,7 +136,7 @@ void makeBall(double volume, std::span<Vec3> positions, std::span<Vec3> normals)
     close(grid);
     const double scale = std::cbrt(volume / volumeOf(grid));
     for (std::size_t v = 0; v < kBodyVertices; ++v) {
-        positions[v] = scale * normals[v];
+        vertices[v] = scale * normals[v];
     }
 }
 

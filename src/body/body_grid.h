@@ -49,11 +49,11 @@ double volumeOf(const BodyGrid& grid);
 
 /// Moves a body so that the centre of mass of its footprint is the origin, and scales it to a volume.
 /// @param grid       rim at z = 0; any unit of length
-/// @param positions  receives kBodyVertices vertices [m]
+/// @param vertices  receives kBodyVertices vertices [m]
 /// @param normals    receives as many normals: across slices and rings
-void finish(BodyGrid& grid, double volume, std::span<Vec3> positions, std::span<Vec3> normals);
+void finish(BodyGrid& grid, double volume, std::span<Vec3> vertices, std::span<Vec3> normals);
 
 /// Writes a ball around the origin; its rim is one point.
-void makeBall(double volume, std::span<Vec3> positions, std::span<Vec3> normals);
+void makeBall(double volume, std::span<Vec3> vertices, std::span<Vec3> normals);
 
 }  // namespace droplet

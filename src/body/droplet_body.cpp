@@ -78,7 +78,7 @@ const std::vector<Triangle>& DropletBodies::triangles() const
     return content_->triangles;
 }
 
-void DropletBodies::make(const BodyConditions& conditions, std::span<Vec3> positions, std::span<Vec3> normals) const
+void DropletBodies::make(const BodyConditions& conditions, std::span<Vec3> vertices, std::span<Vec3> normals) const
 {
     require(conditions.volume > 0.0 && std::isfinite(conditions.volume), "volume", conditions.volume,
             "finite and more than 0 m3");
@@ -86,14 +86,14 @@ void DropletBodies::make(const BodyConditions& conditions, std::span<Vec3> posit
             "finite and at least 0 m/s");
     const double gravity = length(conditions.gravity);
     require(std::isfinite(gravity), "gravity", gravity, "finite");
-    require(positions.size() == kBodyVertices, "positions.size", positions.size(), "the number of vertices");
+    require(vertices.size() == kBodyVertices, "positions.size", vertices.size(), "the number of vertices");
     require(normals.size() == kBodyVertices, "normals.size", normals.size(), "the number of vertices");
     if (conditions.airborne) {
-        makeBall(conditions.volume, positions, normals);
+        makeBall(conditions.volume, vertices, normals);
         return;
     }
     BodyGrid grid = std::visit([&](const auto& body) { return body.shape(conditions); }, content_->body);
-    finish(grid, conditions.volume, positions, normals);
+    finish(grid, conditions.volume, vertices, normals);
 }
 
 }  // namespace droplet

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Bundles the page that --html writes. npm installs three.js and esbuild by the lock file; esbuild makes one script of
-# three.js and the sources in src/page; the result is compiled into the library. Sets page_parts to that source file.
+# three.js and the sources in src/html; the result is compiled into the library. Sets page_parts to that source file.
 set(page_dir ${PROJECT_BINARY_DIR}/page)
-set(page_sources ${PROJECT_SOURCE_DIR}/src/page)
+set(page_sources ${PROJECT_SOURCE_DIR}/src/html)
 foreach(tool npm node)
   string(TOUPPER ${tool} variable)
   find_program(${variable} ${tool})

@@ -37,10 +37,10 @@ struct Box {
 
 Box boxAround(const Surface& surface)
 {
-    Box box{surface.positions[surface.triangles[0][0]], surface.positions[surface.triangles[0][0]]};
+    Box box{surface.vertices[surface.triangles[0][0]], surface.vertices[surface.triangles[0][0]]};
     for (const Triangle& triangle : surface.triangles) {
         for (const std::uint32_t v : triangle) {
-            const Vec3 p = surface.positions[v];
+            const Vec3 p = surface.vertices[v];
             box.lowest = {std::min(box.lowest.x, p.x), std::min(box.lowest.y, p.y), std::min(box.lowest.z, p.z)};
             box.highest = {std::max(box.highest.x, p.x), std::max(box.highest.y, p.y), std::max(box.highest.z, p.z)};
         }
@@ -91,7 +91,7 @@ std::vector<Corners3> cornersIn(const Frame& frame, const Surface& surface)
     corners.reserve(surface.triangles.size());
     for (const auto& [a, b, c] : surface.triangles) {
         corners.push_back(
-            {frame.in(surface.positions[a]), frame.in(surface.positions[b]), frame.in(surface.positions[c])});
+            {frame.in(surface.vertices[a]), frame.in(surface.vertices[b]), frame.in(surface.vertices[c])});
     }
     return corners;
 }
@@ -361,7 +361,7 @@ std::optional<ContactAngleRange> contactAngles(const Surface& surface)
                 const std::uint32_t w = triangle[(k + 1) % 3];
                 const auto at_v = static_cast<double>(surface.contact_angle[v]);
                 const auto at_w = static_cast<double>(surface.contact_angle[w]);
-                const double edge = length(surface.positions[w] - surface.positions[v]);
+                const double edge = length(surface.vertices[w] - surface.vertices[v]);
                 around += edge;
                 sum += edge * 0.5 * (at_v + at_w);
                 if (!range) {
@@ -381,13 +381,13 @@ std::optional<ContactAngleRange> contactAngles(const Surface& surface)
 SurfaceMeasures measured(const Surface& surface, const Box& box)
 {
     SurfaceMeasures result;
-    result.vertices = surface.positions.size();
+    result.vertices = surface.vertices.size();
     result.triangles = surface.triangles.size();
     result.lowest = box.lowest;
     result.highest = box.highest;
     for (const auto& [a, b, c] : surface.triangles) {
-        const Vec3 origin = surface.positions[a];
-        result.area += 0.5 * length(cross(surface.positions[b] - origin, surface.positions[c] - origin));
+        const Vec3 origin = surface.vertices[a];
+        result.area += 0.5 * length(cross(surface.vertices[b] - origin, surface.vertices[c] - origin));
     }
     result.volume = enclosedVolume(surface);
     result.topology = topology(halfEdges(surface));
@@ -517,17 +517,17 @@ std::vector<double> signedDistances(const Surface& a, const Surface& b)
 {
     a.validate();
     b.validate();
-    Box box_a{a.positions[0], a.positions[0]};
-    for (const Vec3 p : a.positions) {
+    Box box_a{a.vertices[0], a.vertices[0]};
+    for (const Vec3 p : a.vertices) {
         box_a = boxAround(box_a, {p, p});
     }
     const Frame frame(boxAround(box_a, boxAround(b)));
     const NearestTriangles tree(cornersIn(frame, b));
-    std::vector<double> distances(a.positions.size());
+    std::vector<double> distances(a.vertices.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, distances.size(), kChunk), [&](const auto& range) {
         std::uint32_t guess = 0;
         for (std::size_t v = range.begin(); v < range.end(); ++v) {
-            const Vec3 p = frame.in(a.positions[v]);
+            const Vec3 p = frame.in(a.vertices[v]);
             const NearestTriangles::Found found = tree.nearest(p, guess);
             guess = found.triangle;
             Vec3 normal;

@@ -15,7 +15,7 @@
 #include "blocks.h"
 #include "droplet/error.h"
 #include "flow/flow_forces.h"
-#include "flow/flow_scene_content.h"
+#include "flow/flow_terrain_content.h"
 #include "flow/touching.h"
 #include "flow/walk.h"
 #include "number_text.h"
@@ -40,8 +40,8 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 /// Walks droplets through one step.
 class Step {
 public:
-    Step(const FlowScene& scene, const FlowParameters& parameters, FlowState& state)
-        : c_(scene.content()), scene_(scene), p_(parameters), s_(state), begin_(timeOf(state.steps))
+    Step(const FlowTerrain& terrain, const FlowParameters& parameters, FlowState& state)
+        : c_(terrain.content()), terrain_(terrain), p_(parameters), s_(state), begin_(timeOf(state.steps))
     {
         update();
     }
@@ -55,7 +55,7 @@ public:
         droplet.has_grown = true;
         droplet.leg = {begin_, start.place, start.velocity, {}, 0.0};
         const WalkForces forces = forcesOf(droplet);
-        const FlowScene::Point point = scene_.nearest(start.place);
+        const FlowTerrain::Point point = terrain_.nearest(start.place);
         if (length(point.place - start.place) <= 0.5 * forces.contact_width) {
             putOnFace(walkField(), forces, droplet, point.face, {begin_, point.place, start.velocity, {}, 0.0});
         } else {
@@ -132,7 +132,7 @@ private:
 
     [[nodiscard]] WalkField walkField() const
     {
-        WalkGround ground;
+        WalkFaces ground;
         const bool has_ground =
             !(p_.ground.roughness.empty() && p_.ground.friction.empty() && p_.ground.hysteresis.empty());
         ground.faces = has_ground ? &p_.ground : nullptr;
@@ -242,7 +242,7 @@ private:
         const FlowRain& rain = *p_.rain;
         const RainImpacts impacts{
             raindropSizes(rain.rainfall), {std::max(rain.small_diameter, rain.raindrops.min), rain.raindrops.max}, 0.0};
-        const double radius = 0.5 * scene_.diameter();
+        const double radius = 0.5 * terrain_.diameter();
         const double rate = impacts.bound() * std::numbers::pi * radius * radius;
         if (!(rate > 0.0)) {
             return;
@@ -261,7 +261,7 @@ private:
             const double turn = 2.0 * std::numbers::pi * random.uniform(4);
             const Vec3 origin =
                 c_.middle() + 2.0 * radius * from + (out * std::cos(turn)) * across + (out * std::sin(turn)) * beyond;
-            const auto point = scene_.firstAlong(origin, -1.0 * from);
+            const auto point = terrain_.firstAlong(origin, -1.0 * from);
             const double volume = std::numbers::pi / 6.0 * diameter * diameter * diameter;
             if (point && dot(c_.surface.faces[point->face].normal, from) > 0.0) {
                 start({point->place, volume, {}});
@@ -276,13 +276,13 @@ private:
     void nucleate()
     {
         const double spacing = p_.condensation->spacing;
-        const double room = scene_.area() / (spacing * spacing) - static_cast<double>(s_.droplets.size());
+        const double room = terrain_.area() / (spacing * spacing) - static_cast<double>(s_.droplets.size());
         const double seconds = static_cast<double>(kStepsOfDew) * p_.step;
         s_.until_nucleus -= std::max(room, 0.0) * seconds;  // a dry surface is covered within about a second
         while (s_.until_nucleus <= 0.0) {
             const RandomStream random(p_.seed, RandomPurpose::Nucleus, s_.next_nucleus++);
             s_.until_nucleus += random.exponential(0);
-            start({scene_.pointAt(random.uniform(1), random.uniform(2)).place,
+            start({terrain_.pointAt(random.uniform(1), random.uniform(2)).place,
                    capVolume(kNucleusShare * spacing, p_.forces.wetting.contact_angle),
                    {}});
         }
@@ -372,7 +372,7 @@ private:
     }
 
     /// Goes straight over the surface; stays if that leads off it.
-    [[nodiscard]] FlowScene::Point pointBeside(std::uint32_t face, Vec3 place, Vec3 way) const
+    [[nodiscard]] FlowTerrain::Point pointBeside(std::uint32_t face, Vec3 place, Vec3 way) const
     {
         FlowDroplet probe;
         WalkForces free;
@@ -380,8 +380,8 @@ private:
         const WalkField field{c_.surface, c_.landing};
         putOnFace(field, free, probe, face, {0.0, place, way, {}, 0.0});
         walk(field, free, probe, 1.0);
-        return probe.contact == FlowContact::Face ? FlowScene::Point{probe.face, probe.leg.placeAt(1.0)}
-                                                  : FlowScene::Point{face, place};
+        return probe.contact == FlowContact::Face ? FlowTerrain::Point{probe.face, probe.leg.placeAt(1.0)}
+                                                  : FlowTerrain::Point{face, place};
     }
 
     // ---- streaks
@@ -535,8 +535,8 @@ private:
             sum += catchment(i);
         }
         // Where droplets are few, most of the surface is too far from any of them.
-        const double share = 1.0 / std::max(sum, scene_.area() / std::numbers::pi);
-        const double volume = p_.condensation->rate * scene_.area() * static_cast<double>(kStepsOfDew) * p_.step;
+        const double share = 1.0 / std::max(sum, terrain_.area() / std::numbers::pi);
+        const double volume = p_.condensation->rate * terrain_.area() * static_cast<double>(kStepsOfDew) * p_.step;
         const WalkField field = walkField();
         for (std::size_t i = 0; i < s_.droplets.size(); ++i) {
             const double gain = catchment(i) * share * volume;
@@ -554,7 +554,7 @@ private:
     /// Removes droplets that have fallen away, and those without liquid.
     void leave()
     {
-        const double away = kAway * scene_.diameter();
+        const double away = kAway * terrain_.diameter();
         const auto is_away = [&](Vec3 p) {
             return p.x < c_.low.x - away || p.x > c_.high.x + away || p.y < c_.low.y - away || p.y > c_.high.y + away ||
                    p.z < c_.low.z - away || p.z > c_.high.z + away;
@@ -575,8 +575,8 @@ private:
         forces_.resize(kept);
     }
 
-    const FlowScene::Content& c_;
-    const FlowScene& scene_;
+    const FlowTerrain::Content& c_;
+    const FlowTerrain& terrain_;
     const FlowParameters& p_;
     FlowState& s_;
     double begin_;  // of the step [s]
@@ -587,13 +587,13 @@ private:
     std::vector<Vec2> shares_;        // of the faces that they wet
 };
 
-void requireFits(double volume, const FlowScene& scene, const FlowParameters& parameters)
+void requireFits(double volume, const FlowTerrain& terrain, const FlowParameters& parameters)
 {
     const double width = 2.0 * contactRadius(parameters, volume);
-    if (!(width < scene.diameter())) {
+    if (!(width < terrain.diameter())) {
         refuseValue(
             "a droplet's volume", volume,
-            "smaller: it is " + numberText(width) + " m wide, and the object " + numberText(scene.diameter()) + " m");
+            "smaller: it is " + numberText(width) + " m wide, and the object " + numberText(terrain.diameter()) + " m");
     }
 }
 
@@ -608,33 +608,33 @@ double FlowBalance::residual() const
     return released > 0.0 ? difference.value() / released : 0.0;
 }
 
-FlowState startFlow(const FlowScene& scene, const FlowParameters& parameters, const std::vector<FlowStart>& starts)
+FlowState startFlow(const FlowTerrain& terrain, const FlowParameters& parameters, const std::vector<FlowStart>& starts)
 {
-    parameters.validate(scene.surface().faces.size());
+    parameters.validate(terrain.surface().faces.size());
     for (const FlowEmitter& emitter : parameters.emitters) {
-        requireFits(emitter.volumes.median, scene, parameters);
-        if (scene.isInside(emitter.place)) {
+        requireFits(emitter.volumes.median, terrain, parameters);
+        if (terrain.isInside(emitter.place)) {
             throw Error(ErrorCode::InvalidArgument, "emitter.place is inside the object, must be outside or on it");
         }
     }
     FlowState state;
-    state.wetness.resize(scene.surface().faces.size());
+    state.wetness.resize(terrain.surface().faces.size());
     state.emissions.resize(parameters.emitters.size());
-    Step step(scene, parameters, state);
+    Step step(terrain, parameters, state);
     for (const FlowStart& start : starts) {
         require(start.volume > 0.0 && std::isfinite(start.volume), "start.volume", start.volume,
                 "finite and more than 0 m3");
-        requireFits(start.volume, scene, parameters);
+        requireFits(start.volume, terrain, parameters);
         step.start(start);
     }
     return state;
 }
 
-FlowState advanceFlow(FlowState state, const FlowScene& scene, const FlowParameters& parameters, double until)
+FlowState advanceFlow(FlowState state, const FlowTerrain& terrain, const FlowParameters& parameters, double until)
 {
     require(until >= state.time && std::isfinite(until), "until", until, "finite and not before the state's time");
     state.tracks.clear();
-    Step step(scene, parameters, state);
+    Step step(terrain, parameters, state);
     // Rounding must not cost the last step.
     const double whole = until * (1.0 + 1e-12);
     while (static_cast<double>(state.steps + 1) * parameters.step <= whole) {
@@ -644,7 +644,7 @@ FlowState advanceFlow(FlowState state, const FlowScene& scene, const FlowParamet
     return state;
 }
 
-std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowScene& scene, const FlowParameters& parameters)
+std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowTerrain& terrain, const FlowParameters& parameters)
 {
     const double grid = static_cast<double>(state.steps) * parameters.step;
     FlowState between;
@@ -652,7 +652,7 @@ std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowScene& scen
     double time = grid;
     if (state.time > grid * (1.0 + 1e-12)) {
         between = state;
-        Step(scene, parameters, between).moveWithin(state.time);
+        Step(terrain, parameters, between).moveWithin(state.time);
         shown = &between;
         time = state.time;
     }
@@ -661,7 +661,7 @@ std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowScene& scen
     for (const FlowDroplet& d : shown->droplets) {
         const bool is_airborne = d.contact == FlowContact::Air;
         samples.push_back({d.id, d.contact, is_airborne ? std::nullopt : std::optional(d.face), d.leg.placeAt(time),
-                           d.leg.velocityAt(time), scene.surface().faces[d.face].normal, d.volume});
+                           d.leg.velocityAt(time), terrain.surface().faces[d.face].normal, d.volume});
     }
     return samples;
 }

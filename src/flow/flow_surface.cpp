@@ -21,7 +21,7 @@ namespace {
 
 /// Triangles of the mesh with corners at the same place joined, without what droplets cannot stand on.
 struct Soup {
-    std::vector<Vec3> places;
+    std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> source;
 };
@@ -31,25 +31,25 @@ double areaOf(const std::array<Vec3, 3>& t)
     return 0.5 * length(cross(t[1] - t[0], t[2] - t[0]));
 }
 
-Soup soupOf(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, FlowSurfaceReport& report)
+Soup soupOf(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, FlowSurfaceReport& report)
 {
-    std::vector<std::uint32_t> order(positions.size());
+    std::vector<std::uint32_t> order(vertices.size());
     std::iota(order.begin(), order.end(), 0U);
-    const auto key = [&](std::uint32_t i) { return std::tie(positions[i].x, positions[i].y, positions[i].z); };
+    const auto key = [&](std::uint32_t i) { return std::tie(vertices[i].x, vertices[i].y, vertices[i].z); };
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     Soup soup;
-    std::vector<std::uint32_t> place(positions.size());
+    std::vector<std::uint32_t> place(vertices.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         if (i == 0 || key(order[i - 1]) != key(order[i])) {
-            soup.places.push_back(positions[order[i]]);
+            soup.vertices.push_back(vertices[order[i]]);
         }
-        place[order[i]] = static_cast<std::uint32_t>(soup.places.size() - 1);
+        place[order[i]] = static_cast<std::uint32_t>(soup.vertices.size() - 1);
     }
     std::vector<std::pair<Triangle, std::uint32_t>> sorted;
     report.triangles = triangles.size();
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         const Triangle joined{place[triangles[t][0]], place[triangles[t][1]], place[triangles[t][2]]};
-        const std::array corners{soup.places[joined[0]], soup.places[joined[1]], soup.places[joined[2]]};
+        const std::array corners{soup.vertices[joined[0]], soup.vertices[joined[1]], soup.vertices[joined[2]]};
         const double longest = std::max(
             {length(corners[1] - corners[0]), length(corners[2] - corners[1]), length(corners[0] - corners[2])});
         // Thinner than the rounding of its corners: it has no direction.
@@ -87,8 +87,8 @@ void orient(Soup& soup)
 {
     using Kernel = CGAL::Simple_cartesian<double>;
     std::vector<Kernel::Point_3> points;
-    points.reserve(soup.places.size());
-    for (const Vec3 p : soup.places) {
+    points.reserve(soup.vertices.size());
+    for (const Vec3 p : soup.vertices) {
         points.emplace_back(p.x, p.y, p.z);
     }
     std::vector<std::array<std::size_t, 3>> polygons;
@@ -97,9 +97,9 @@ void orient(Soup& soup)
         polygons.push_back({a, b, c});
     }
     CGAL::Polygon_mesh_processing::orient_polygon_soup(points, polygons);
-    soup.places.resize(points.size());
+    soup.vertices.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        soup.places[i] = {points[i].x(), points[i].y(), points[i].z()};
+        soup.vertices[i] = {points[i].x(), points[i].y(), points[i].z()};
     }
     for (std::size_t t = 0; t < polygons.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -111,7 +111,7 @@ void orient(Soup& soup)
 /// A part that is closed faces outward; any other as most of its area did in the mesh.
 void faceOutward(Soup& soup, const std::vector<bool>& was_turned, FlowSurfaceReport& report)
 {
-    const HalfEdges half_edges = halfEdges(soup.places, soup.triangles);
+    const HalfEdges half_edges = halfEdges(soup.vertices, soup.triangles);
     UnionFind joined = joinedAcrossEdges(half_edges, soup.triangles);
     struct Part {
         double volume = 0.0;  // six times it
@@ -128,9 +128,9 @@ void faceOutward(Soup& soup, const std::vector<bool>& was_turned, FlowSurfaceRep
     }
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         const auto& [a, b, c] = soup.triangles[t];
-        const Vec3 facet = cross(soup.places[b] - soup.places[a], soup.places[c] - soup.places[a]);
+        const Vec3 facet = cross(soup.vertices[b] - soup.vertices[a], soup.vertices[c] - soup.vertices[a]);
         Part& part = parts[joined.find(t)];
-        part.volume += dot(soup.places[a], facet);
+        part.volume += dot(soup.vertices[a], facet);
         part.turned += was_turned[t] ? length(facet) : -length(facet);
         part.is_closed = part.is_closed && open_sides[t] == 0;
     }
@@ -148,7 +148,7 @@ void faceOutward(Soup& soup, const std::vector<bool>& was_turned, FlowSurfaceRep
 /// Whether a triangle's winding is another than before; where vertices were doubled, by their places.
 bool isTurned(const Soup& soup, const Triangle& before, const Triangle& after)
 {
-    const auto is_same = [&](std::uint32_t a, std::uint32_t b) { return soup.places[a] == soup.places[b]; };
+    const auto is_same = [&](std::uint32_t a, std::uint32_t b) { return soup.vertices[a] == soup.vertices[b]; };
     for (std::size_t k = 0; k < 3; ++k) {
         if (is_same(before[0], after[k])) {
             return !is_same(before[1], after[(k + 1) % 3]);
@@ -161,7 +161,7 @@ FlowSurface::Face faceOf(const Soup& soup, std::size_t t)
 {
     FlowSurface::Face face;
     for (std::size_t k = 0; k < 3; ++k) {
-        face.corners[k] = soup.places[soup.triangles[t][k]];
+        face.corners[k] = soup.vertices[soup.triangles[t][k]];
     }
     const auto& [a, b, c] = face.corners;
     const Vec3 facet = cross(b - a, c - a);
@@ -177,10 +177,10 @@ FlowSurface::Face faceOf(const Soup& soup, std::size_t t)
 
 }  // namespace
 
-FlowSurface flowSurface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles)
+FlowSurface flowSurface(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles)
 {
     FlowSurface surface;
-    Soup soup = soupOf(positions, triangles, surface.report);
+    Soup soup = soupOf(vertices, triangles, surface.report);
     if (soup.triangles.empty()) {
         throw Error(ErrorCode::InvalidInput, "the mesh has no triangle with an area");
     }
@@ -191,7 +191,7 @@ FlowSurface flowSurface(const std::vector<Vec3>& positions, const std::vector<Tr
         was_turned[t] = isTurned(soup, before[t], soup.triangles[t]);
     }
     faceOutward(soup, was_turned, surface.report);
-    const HalfEdges half_edges = halfEdges(soup.places, soup.triangles);
+    const HalfEdges half_edges = halfEdges(soup.vertices, soup.triangles);
     const auto& mesh = half_edges.mesh;
     for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
         surface.faces.push_back(faceOf(soup, t));

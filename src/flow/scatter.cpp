@@ -19,7 +19,7 @@ constexpr std::uint64_t kMaxTries = 1'000'000;
 /// Points that droplets may have.
 class Places {
 public:
-    Places(const FlowScene& scene, const ScatterOptions& options) : scene_(scene), options_(options)
+    Places(const FlowTerrain& terrain, const ScatterOptions& options) : terrain_(terrain), options_(options)
     {
         if (options.from) {
             up_ = (1.0 / length(*options.from)) * *options.from;
@@ -32,7 +32,7 @@ public:
         FlowStart start;
         start.volume = options_.volumes.at(random.uniform(0), random.uniform(1));
         for (std::uint64_t i = 0; i < kMaxTries; ++i) {
-            const FlowScene::Point point = scene_.pointAt(random.uniform(2 + 3 * i), random.uniform(3 + 3 * i));
+            const FlowTerrain::Point point = terrain_.pointAt(random.uniform(2 + 3 * i), random.uniform(3 + 3 * i));
             if (takes(point, random.uniform(4 + 3 * i))) {
                 start.place = point.place;
                 return start;
@@ -48,7 +48,7 @@ public:
         const RandomStream random(options_.seed, RandomPurpose::Scatter, std::numeric_limits<std::uint64_t>::max());
         std::uint64_t taken = 0;
         for (std::uint64_t i = 0; i < kSample; ++i) {
-            const FlowScene::Point point = scene_.pointAt(random.uniform(3 * i), random.uniform(3 * i + 1));
+            const FlowTerrain::Point point = terrain_.pointAt(random.uniform(3 * i), random.uniform(3 * i + 1));
             taken += takes(point, random.uniform(3 * i + 2)) ? 1 : 0;
         }
         return static_cast<double>(taken) / static_cast<double>(kSample);
@@ -57,27 +57,27 @@ public:
 private:
     /// Whether a point takes a droplet.
     /// @param u  uniform in [0, 1)
-    [[nodiscard]] bool takes(const FlowScene::Point& point, double u) const
+    [[nodiscard]] bool takes(const FlowTerrain::Point& point, double u) const
     {
         return (!options_.coverage || u < options_.coverage(point)) && isMet(point);
     }
 
     /// Whether rain meets a point first.
-    [[nodiscard]] bool isMet(const FlowScene::Point& point) const
+    [[nodiscard]] bool isMet(const FlowTerrain::Point& point) const
     {
         if (!up_) {
             return true;
         }
-        if (!(dot(scene_.surface().faces[point.face].normal, *up_) > 0.0)) {
+        if (!(dot(terrain_.surface().faces[point.face].normal, *up_) > 0.0)) {
             return false;
         }
-        const double size = scene_.diameter();
-        const std::optional<FlowScene::Point> met = scene_.firstAlong(point.place + 2.0 * size * *up_, -1.0 * *up_);
+        const double size = terrain_.diameter();
+        const std::optional<FlowTerrain::Point> met = terrain_.firstAlong(point.place + 2.0 * size * *up_, -1.0 * *up_);
         constexpr double kNear = 1e-6;  // the search works with floats
         return met && (met->face == point.face || length(met->place - point.place) <= kNear * size);
     }
 
-    const FlowScene& scene_;
+    const FlowTerrain& terrain_;
     const ScatterOptions& options_;
     std::optional<Vec3> up_;
 };
@@ -93,10 +93,10 @@ void ScatterOptions::validate() const
     }
 }
 
-std::vector<FlowStart> scatterDroplets(const FlowScene& scene, const ScatterOptions& options)
+std::vector<FlowStart> scatterDroplets(const FlowTerrain& terrain, const ScatterOptions& options)
 {
     options.validate();
-    const Places places(scene, options);
+    const Places places(terrain, options);
     std::vector<FlowStart> starts(options.count);
     const auto put = [&](std::size_t k) {
         const std::optional<FlowStart> start = places.startOf(k);
@@ -117,10 +117,10 @@ std::vector<FlowStart> scatterDroplets(const FlowScene& scene, const ScatterOpti
     return starts;
 }
 
-double scatterArea(const FlowScene& scene, const ScatterOptions& options)
+double scatterArea(const FlowTerrain& terrain, const ScatterOptions& options)
 {
     options.validate();
-    return Places(scene, options).share() * scene.area();
+    return Places(terrain, options).share() * terrain.area();
 }
 
 }  // namespace droplet

@@ -570,7 +570,7 @@ private:
 
     const std::vector<Face>& faces_;
     const Landing& landing_;
-    const WalkGround& ground_;
+    const WalkFaces& ground_;
     const WalkForces& f_;
     Vec3 drive_;  // acceleration along the surface, before roughness
     FlowDroplet& d_;

@@ -37,9 +37,9 @@ struct Grip {
 };
 
 /// State of all faces at the begin of a step. By default they are smooth and dry.
-struct WalkGround {
-    const FlowGround* faces = nullptr;  ///< properties that differ from face to face
-    double roughness = 0.0;             ///< height of bumps where `faces` has none [m]
+struct WalkFaces {
+    const FaceProperties* faces = nullptr;  ///< properties that differ from face to face
+    double roughness = 0.0;                 ///< height of bumps where `faces` has none [m]
     std::span<const FlowState::Wetness> wetness;
     double dry_before = 0.0;       ///< faces that were wet before this time only are dry [s]
     bool wet_is_slippery = false;  ///< streaks lower hysteresis as they do roughness
@@ -81,7 +81,7 @@ private:
 struct WalkField {
     const FlowSurface& surface;
     const Landing& landing;  ///< of the same surface
-    WalkGround ground = {};
+    WalkFaces ground = {};
 };
 
 /// Events of walking.

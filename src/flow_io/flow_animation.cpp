@@ -45,7 +45,7 @@ std::size_t addObject(const FlowObject& object, Scene& scene)
 {
     SceneMesh mesh{"object"};
     SceneGeometry& geometry = mesh.geometries.emplace_back();
-    geometry.positions = sceneVectors(object.positions);
+    geometry.vertices = sceneVectors(object.vertices);
     geometry.normals = sceneVectors(object.normals);
     geometry.uvs = sceneCoordinates(object.uvs);
     std::vector<std::string> names = object.material_names;
@@ -71,7 +71,7 @@ void addStreaks(const Surface& streaks, std::size_t object, Scene& scene)
     SceneMaterial wet = opaque("streaks", 0.05);
     wet.look.colour = {0.85, 0.92, 1.0};
     wet.opacity = 0.25;
-    const DropletMesh mesh{streaks.positions, streaks.normals, streaks.triangles, streaks.uvs};
+    const DropletMesh mesh{streaks.vertices, streaks.normals, streaks.triangles, streaks.uvs};
     const std::size_t material = scene.addMaterial(std::move(wet));
     scene.addNode({"streaks", scene.addMesh(sceneMesh(mesh, "streaks", material))}, object);
 }
@@ -92,7 +92,7 @@ struct FlowAnimation::Content {
     FlowAnimationOptions options;
     double unit_volume;  ///< of all meshes of a droplet
     DropletHistories histories = {};
-    std::vector<GroundPose> poses = {};      ///< of the object, if it moves
+    std::vector<CrowdPose> poses = {};       ///< of the object, if it moves
     std::array<Vec3, 2> corners = {};        ///< of the object and all droplets, in the object's frame
     std::array<Vec3, 2> moved_corners = {};  ///< the same in the world
     double logarithms = 0.0;                 ///< sum of the logarithms of volumes
@@ -147,7 +147,7 @@ FlowAnimation::FlowAnimation(FlowObject object, const DropletBodies& bodies, con
 {
     options.validate();
     content_ = std::make_unique<Content>(Content{std::move(object), bodies, options, unitVolume(bodies)});
-    content_->corners = cornersOf(content_->object.positions);
+    content_->corners = cornersOf(content_->object.vertices);
 }
 
 FlowAnimation::~FlowAnimation() = default;
@@ -173,7 +173,7 @@ void FlowAnimation::add(double time, std::span<const FlowSample> samples)
     content.include(at);
     if (!content.options.motion.rests()) {
         const Vec3 axis = yUp(at.axis);
-        GroundPose pose{floatsOf(yUp(at.place)), {toFloat(axis.x), toFloat(axis.y), toFloat(axis.z), toFloat(at.real)}};
+        CrowdPose pose{floatsOf(yUp(at.place)), {toFloat(axis.x), toFloat(axis.y), toFloat(axis.z), toFloat(at.real)}};
         if (!content.poses.empty()) {
             const auto& last = content.poses.back().turn;
             if (std::inner_product(last.begin(), last.end(), pose.turn.begin(), 0.0F) < 0.0F) {

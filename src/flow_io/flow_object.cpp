@@ -36,8 +36,8 @@ Extent extentOf(const FileMesh& mesh)
         double high = -kInfinity;
         for (const Triangle& triangle : mesh.triangles) {
             for (const std::uint32_t v : triangle) {
-                low = std::min(low, mesh.positions[v].*axis);
-                high = std::max(high, mesh.positions[v].*axis);
+                low = std::min(low, mesh.vertices[v].*axis);
+                high = std::max(high, mesh.vertices[v].*axis);
             }
         }
         extent.size = std::max(extent.size, high - low);
@@ -50,8 +50,8 @@ Extent extentOf(const FileMesh& mesh)
 bool hasArea(const FileMesh& mesh)
 {
     return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-        const Vec3 a = mesh.positions[t[1]] - mesh.positions[t[0]];
-        const Vec3 b = mesh.positions[t[2]] - mesh.positions[t[0]];
+        const Vec3 a = mesh.vertices[t[1]] - mesh.vertices[t[0]];
+        const Vec3 b = mesh.vertices[t[2]] - mesh.vertices[t[0]];
         const double longest = std::max({dot(a, a), dot(b, b), dot(b - a, b - a)});
         constexpr double kThin = 2e-12;
         return length(cross(a, b)) > kThin * longest;
@@ -81,7 +81,7 @@ void resize(FileMesh& mesh, const FlowObjectOptions& options, const std::string&
                numberText(kMaxDistance) + " times its size of " + numberText(extent.size) + " m; move it");
     }
     if (factor != 1.0) {
-        for (Vec3& p : mesh.positions) {
+        for (Vec3& p : mesh.vertices) {
             p = factor * p;
         }
     }
@@ -135,7 +135,7 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
     if (mesh.lacks_uv) {
         object.warnings.push_back(name + " has triangles without uv; pictures have their first pixel there");
     }
-    object.positions = std::move(mesh.positions);
+    object.vertices = std::move(mesh.vertices);
     object.normals = std::move(mesh.normals);
     object.uvs = std::move(mesh.uvs);
     object.triangles = std::move(mesh.triangles);

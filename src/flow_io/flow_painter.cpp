@@ -54,7 +54,7 @@ std::optional<ViewBox> framedOver(const FlowObject& object, const ObjectMotion& 
     for (int k = 0; k <= kPoses; ++k) {
         const ObjectPose pose = motion.at(duration * k / kPoses);
         std::vector<Vec3> moved;
-        for (const Vec3 p : object.positions) {
+        for (const Vec3 p : object.vertices) {
             moved.push_back(pose.place + pose.toWorld(p));
         }
         const ViewBox box = boxOf(moved);
@@ -64,26 +64,26 @@ std::optional<ViewBox> framedOver(const FlowObject& object, const ObjectMotion& 
 }
 
 struct FlowPainter::Content {
-    Content(const FlowObject& object, const FlowScene& of, const FlowPainterOptions& given)
-        : scene(of), options(given), faces(of.surface()), box(boxOf(object.positions))
+    Content(const FlowObject& object, const FlowTerrain& of, const FlowPainterOptions& given)
+        : terrain(of), options(given), faces(of.surface()), box(boxOf(object.vertices))
     {
         RenderOptions& render = options.render;
         render.extent = {1.0, 1.0};
         render.shows_whole_stand = true;
-        stand.positions = object.positions;
+        stand.vertices = object.vertices;
         stand.normals = object.normals;
         stand.triangles = object.triangles;
-        stand.uvs = object.uvs.empty() ? std::vector<Vec2>(object.positions.size()) : object.uvs;
+        stand.uvs = object.uvs.empty() ? std::vector<Vec2>(object.vertices.size()) : object.uvs;
         water.film = kFilmForLight * options.film;
         water.divisions.resize(stand.triangles.size());
         water.first.resize(stand.triangles.size());
         spots.middle = 0.5 * (box.low + box.high);
         // About one place for a pixel.
         spots.spacing = length(box.high - box.low) / std::max(render.width, render.height);
-        for (const FlowSurface::Face& face : scene.surface().faces) {
+        for (const FlowSurface::Face& face : terrain.surface().faces) {
             // Its front is where the droplets are.
             auto& [a, b, c] = stand.triangles[face.source];
-            const Vec3 front = cross(stand.positions[b] - stand.positions[a], stand.positions[c] - stand.positions[a]);
+            const Vec3 front = cross(stand.vertices[b] - stand.vertices[a], stand.vertices[c] - stand.vertices[a]);
             if (dot(front, face.normal) < 0.0) {
                 std::swap(b, c);
             }
@@ -96,9 +96,9 @@ struct FlowPainter::Content {
 
     void addPlaces(std::uint32_t triangle)
     {
-        const Vec3 a = stand.positions[stand.triangles[triangle][0]];
-        const Vec3 p = stand.positions[stand.triangles[triangle][1]] - a;
-        const Vec3 q = stand.positions[stand.triangles[triangle][2]] - a;
+        const Vec3 a = stand.vertices[stand.triangles[triangle][0]];
+        const Vec3 p = stand.vertices[stand.triangles[triangle][1]] - a;
+        const Vec3 q = stand.vertices[stand.triangles[triangle][2]] - a;
         const double longest = std::max({length(p), length(q), length(q - p)});
         const auto n = static_cast<std::uint32_t>(std::clamp(std::ceil(longest / spots.spacing), 1.0, kMostDivisions));
         water.divisions[triangle] = static_cast<std::uint16_t>(n);
@@ -141,7 +141,7 @@ struct FlowPainter::Content {
         wetTracks(spots, tracks, kSoftEdge, faces, *wet);
     }
 
-    const FlowScene& scene;
+    const FlowTerrain& terrain;
     FlowPainterOptions options;
     FacesAround faces;
     ViewBox box;         // around the object
@@ -151,14 +151,14 @@ struct FlowPainter::Content {
     std::optional<WetPlaces> wet;
 };
 
-FlowPainter::FlowPainter(const FlowObject& object, const FlowScene& scene, const FlowPainterOptions& options)
+FlowPainter::FlowPainter(const FlowObject& object, const FlowTerrain& terrain, const FlowPainterOptions& options)
 {
     options.validate();
     if (options.render.ground && object.uvs.empty()) {
         throw Error(ErrorCode::InvalidArgument,
                     "a texture needs an object with texture coordinates (uv), but this one has none");
     }
-    content_ = std::make_unique<Content>(object, scene, options);
+    content_ = std::make_unique<Content>(object, terrain, options);
 }
 FlowPainter::~FlowPainter() = default;
 FlowPainter::FlowPainter(FlowPainter&&) noexcept = default;
@@ -172,7 +172,7 @@ void FlowPainter::add(std::span<const FlowTrack> tracks)
 Picture FlowPainter::picture(const FlowMoment& moment, std::span<const FlowSample> samples, const Surface& droplets)
 {
     Content& c = *content_;
-    SettledDroplets water = settled(c.scene, samples, droplets, c.shownOf(samples));
+    SettledDroplets water = settled(c.terrain, samples, droplets, c.shownOf(samples));
     c.wetBelow(samples, water.bases, moment.time);
     RenderOptions render = c.options.render;
     render.azimuth += moment.azimuth;
@@ -190,8 +190,8 @@ Picture FlowPainter::picture(const FlowMoment& moment, std::span<const FlowSampl
             d = moment.pose.toWorld(d);
         }
     };
-    move(render.stand->positions, render.stand->normals);
-    move(water.surface.positions, water.surface.normals);
+    move(render.stand->vertices, render.stand->normals);
+    move(water.surface.vertices, water.surface.normals);
     for (DropletBase& base : render.stand_water->bases) {
         base.place = moment.pose.place + moment.pose.toWorld(base.place);
         base.ahead = moment.pose.toWorld(base.ahead);

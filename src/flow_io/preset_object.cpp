@@ -46,12 +46,12 @@ public:
     template <typename Place, typename Keeps>
     void add(Cells cells, const std::string& material, const Place& place, const Keeps& keeps)
     {
-        const auto first = static_cast<std::uint32_t>(object_.positions.size());
+        const auto first = static_cast<std::uint32_t>(object_.vertices.size());
         const auto share = [](double k, std::uint32_t of) { return k / of; };
         for (std::uint32_t j = 0; j <= cells.along; ++j) {
             for (std::uint32_t i = 0; i <= cells.across; ++i) {
                 const Vec2 uv{share(i, cells.across), share(j, cells.along)};
-                object_.positions.push_back(place(uv));
+                object_.vertices.push_back(place(uv));
                 object_.uvs.push_back({uv.x, 1.0 - uv.y});
             }
         }
@@ -79,13 +79,13 @@ public:
     FlowObject finish() &&
     {
         constexpr auto kUnused = std::numeric_limits<std::uint32_t>::max();
-        std::vector<std::uint32_t> kept(object_.positions.size(), kUnused);
+        std::vector<std::uint32_t> kept(object_.vertices.size(), kUnused);
         FlowObject whole;
         for (Triangle& triangle : object_.triangles) {
             for (std::uint32_t& corner : triangle) {
                 if (kept[corner] == kUnused) {
-                    kept[corner] = static_cast<std::uint32_t>(whole.positions.size());
-                    whole.positions.push_back(object_.positions[corner]);
+                    kept[corner] = static_cast<std::uint32_t>(whole.vertices.size());
+                    whole.vertices.push_back(object_.vertices[corner]);
                     whole.uvs.push_back(object_.uvs[corner]);
                 }
                 corner = kept[corner];
@@ -94,15 +94,15 @@ public:
         whole.triangles = std::move(object_.triangles);
         whole.materials = std::move(object_.materials);
         whole.material_names = std::move(object_.material_names);
-        whole.normals.resize(whole.positions.size());
-        fillNormals(whole.positions, whole.triangles, firstAtPlace(whole.positions), whole.normals);
+        whole.normals.resize(whole.vertices.size());
+        fillNormals(whole.vertices, whole.triangles, firstAtPlace(whole.vertices), whole.normals);
         return whole;
     }
 
 private:
     void addTriangle(const Triangle& triangle, std::uint32_t material)
     {
-        const auto at = [&](std::size_t k) { return object_.positions[triangle[k]]; };
+        const auto at = [&](std::size_t k) { return object_.vertices[triangle[k]]; };
         if (!(at(0) == at(1) || at(1) == at(2) || at(2) == at(0))) {  // at a pole
             object_.triangles.push_back(triangle);
             object_.materials.push_back(material);

@@ -43,12 +43,12 @@ std::vector<Edge> rimOf(std::span<const Triangle> triangles)
 }
 
 /// Height of the ground over a droplet's plane, by a ray along its normal; 0 if there is no ground near.
-double groundBelow(const FlowScene& scene, const DropletFrame& frame, Vec3 local, double size)
+double groundBelow(const FlowTerrain& terrain, const DropletFrame& frame, Vec3 local, double size)
 {
     const double from = 1.5 * size;
     const Vec3 origin = frame.place + local.x * frame.ahead + local.y * frame.left + from * frame.normal;
-    const std::optional<FlowScene::Point> hit = scene.firstAlong(origin, -1.0 * frame.normal);
-    if (!hit || dot(scene.surface().faces[hit->face].normal, frame.normal) <= 0.0) {
+    const std::optional<FlowTerrain::Point> hit = terrain.firstAlong(origin, -1.0 * frame.normal);
+    if (!hit || dot(terrain.surface().faces[hit->face].normal, frame.normal) <= 0.0) {
         return 0.0;
     }
     const double height = dot(hit->place - frame.place, frame.normal);
@@ -57,14 +57,14 @@ double groundBelow(const FlowScene& scene, const DropletFrame& frame, Vec3 local
 
 /// One droplet, as part of a surface.
 struct Part {
-    std::span<Vec3> positions;
+    std::span<Vec3> vertices;
     std::span<const std::uint32_t> rim;  ///< vertices
 };
 
-DropletBase settle(const FlowScene& scene, const DropletFrame& frame, const Part& part)
+DropletBase settle(const FlowTerrain& terrain, const DropletFrame& frame, const Part& part)
 {
     std::vector<Vec3> local;
-    for (const Vec3 p : part.positions) {
+    for (const Vec3 p : part.vertices) {
         const Vec3 d = p - frame.place;
         local.push_back({dot(d, frame.ahead), dot(d, frame.left), dot(d, frame.normal)});
     }
@@ -84,14 +84,14 @@ DropletBase settle(const FlowScene& scene, const DropletFrame& frame, const Part
     const double size = std::sqrt(base.half_length * base.half_width);
     for (std::size_t v = 0; v < local.size(); ++v) {
         base.height = std::max(base.height, local[v].z);
-        part.positions[v] = part.positions[v] + groundBelow(scene, frame, local[v], size) * frame.normal;
+        part.vertices[v] = part.vertices[v] + groundBelow(terrain, frame, local[v], size) * frame.normal;
     }
     return base;
 }
 
 }  // namespace
 
-SettledDroplets settled(const FlowScene& scene, std::span<const FlowSample> samples, const Surface& droplets,
+SettledDroplets settled(const FlowTerrain& terrain, std::span<const FlowSample> samples, const Surface& droplets,
                         const std::vector<bool>& is_shown)
 {
     SettledDroplets made;
@@ -105,44 +105,44 @@ SettledDroplets settled(const FlowScene& scene, std::span<const FlowSample> samp
     if (shown.empty()) {
         return made;
     }
-    const std::size_t vertices = droplets.positions.size() / samples.size();
+    const std::size_t vertex_count = droplets.vertices.size() / samples.size();
     const std::size_t triangles = droplets.triangles.size() / samples.size();
     const std::vector<Edge> rim = rimOf(std::span(droplets.triangles).first(triangles));
     std::vector<std::uint32_t> rim_vertices;
-    std::vector<std::uint32_t> lowered(vertices);  // copies of them below the rim
+    std::vector<std::uint32_t> lowered(vertex_count);  // copies of them below the rim
     for (const Edge& edge : rim) {
-        lowered[edge[0]] = static_cast<std::uint32_t>(vertices + rim_vertices.size());
+        lowered[edge[0]] = static_cast<std::uint32_t>(vertex_count + rim_vertices.size());
         rim_vertices.push_back(edge[0]);
     }
-    const std::size_t all = vertices + rim_vertices.size();
+    const std::size_t all = vertex_count + rim_vertices.size();
     Surface& surface = made.surface;
-    surface.positions.resize(all * shown.size());
-    surface.normals.resize(surface.positions.size());
-    surface.uvs.resize(surface.positions.size());
-    surface.weld.resize(surface.positions.size());
+    surface.vertices.resize(all * shown.size());
+    surface.normals.resize(surface.vertices.size());
+    surface.uvs.resize(surface.vertices.size());
+    surface.weld.resize(surface.vertices.size());
     std::iota(surface.weld.begin(), surface.weld.end(), std::uint32_t{0});
     std::vector<DropletBase> bases(shown.size());
     tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
         const FlowSample& sample = samples[shown[i]];
-        const std::size_t from = shown[i] * vertices;
-        const std::span<Vec3> positions = std::span(surface.positions).subspan(i * all, all);
+        const std::size_t from = shown[i] * vertex_count;
+        const std::span<Vec3> vertices = std::span(surface.vertices).subspan(i * all, all);
         const std::span<Vec3> normals = std::span(surface.normals).subspan(i * all, all);
-        std::copy_n(droplets.positions.begin() + static_cast<std::ptrdiff_t>(from), vertices, positions.begin());
-        std::copy_n(droplets.normals.begin() + static_cast<std::ptrdiff_t>(from), vertices, normals.begin());
+        std::copy_n(droplets.vertices.begin() + static_cast<std::ptrdiff_t>(from), vertex_count, vertices.begin());
+        std::copy_n(droplets.normals.begin() + static_cast<std::ptrdiff_t>(from), vertex_count, normals.begin());
         double depth = 0.0;
         const DropletFrame frame = frameOf(sample, {});
         if (sample.contact != FlowContact::Air) {
-            bases[i] = settle(scene, frame, {positions.first(vertices), rim_vertices});
+            bases[i] = settle(terrain, frame, {vertices.first(vertex_count), rim_vertices});
             depth = kSkirt * std::sqrt(bases[i].half_length * bases[i].half_width);
         }
         for (std::size_t k = 0; k < rim_vertices.size(); ++k) {
-            positions[vertices + k] = positions[rim_vertices[k]] - depth * frame.normal;
-            normals[vertices + k] = normals[rim_vertices[k]];
+            vertices[vertex_count + k] = vertices[rim_vertices[k]] - depth * frame.normal;
+            normals[vertex_count + k] = normals[rim_vertices[k]];
         }
     });
     for (std::size_t i = 0; i < shown.size(); ++i) {
         const auto first = static_cast<std::uint32_t>(i * all);
-        const auto from = static_cast<std::uint32_t>(shown[i] * vertices);
+        const auto from = static_cast<std::uint32_t>(shown[i] * vertex_count);
         for (const auto& [a, b, c] : std::span(droplets.triangles).subspan(shown[i] * triangles, triangles)) {
             surface.triangles.push_back({first + a - from, first + b - from, first + c - from});
         }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "droplet/flow/flow.h"
-#include "droplet/flow/flow_scene.h"
-#include "droplet/picture/stand_water.h"
+#include "droplet/flow/flow_terrain.h"
+#include "droplet/render/stand_water.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
@@ -22,7 +22,7 @@ struct SettledDroplets {
 /// @param samples   droplets
 /// @param droplets  dropletSurfaces() of them
 /// @param is_shown  for each; others are left out
-SettledDroplets settled(const FlowScene& scene, std::span<const FlowSample> samples, const Surface& droplets,
+SettledDroplets settled(const FlowTerrain& terrain, std::span<const FlowSample> samples, const Surface& droplets,
                         const std::vector<bool>& is_shown);
 
 }  // namespace droplet

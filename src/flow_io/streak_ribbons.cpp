@@ -55,14 +55,14 @@ void append(const std::vector<Station>& stations, double thickness, Surface& sur
         width += 2.0 * station.half_width / static_cast<double>(stations.size());
     }
     const double whole = stations.back().along;
-    const auto first = static_cast<std::uint32_t>(surface.positions.size());
+    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
     for (const Station& s : stations) {
         const double share = std::min(1.0, std::min(s.along, whole - s.along) / s.half_width);
         const double half = s.half_width * std::sqrt(share * (2.0 - share));
         const double tilt = 2.0 * thickness / s.half_width;  // slope of the sides of a parabola
         for (const double side : {1.0, 0.0, -1.0}) {
             const double height = thickness * (side == 0.0 ? 1.0 : kSides);
-            surface.positions.push_back(s.place + side * half * s.left + height * s.normal);
+            surface.vertices.push_back(s.place + side * half * s.left + height * s.normal);
             surface.normals.push_back(unit(s.normal + side * tilt * s.left));
             surface.uvs.push_back({0.5 - 0.5 * side, s.along / width});
         }
@@ -199,7 +199,7 @@ Surface StreakRibbons::surface(double time) const
             append(all, options_.thickness, surface);
         }
     }
-    surface.weld.resize(surface.positions.size());
+    surface.weld.resize(surface.vertices.size());
     std::iota(surface.weld.begin(), surface.weld.end(), std::uint32_t{0});
     return surface;
 }

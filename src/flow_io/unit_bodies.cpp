@@ -11,32 +11,32 @@ namespace droplet {
 namespace {
 
 struct Body {
-    std::vector<Vec3> positions;
+    std::vector<Vec3> vertices;
     std::vector<Vec3> normals;
 };
 
 Body bodyOf(const DropletBodies& bodies, const BodyConditions& conditions)
 {
     Body body{std::vector<Vec3>(bodies.vertices()), std::vector<Vec3>(bodies.vertices())};
-    bodies.make(conditions, body.positions, body.normals);
+    bodies.make(conditions, body.vertices, body.normals);
     return body;
 }
 
 /// Distance from the origin to the farthest of the triangles along a ray, or 0.
 /// T. Möller and B. Trumbore, "Fast, minimum storage ray-triangle intersection", J. Graphics Tools 2 (1997) 21.
-double farthest(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, Vec3 direction)
+double farthest(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles, Vec3 direction)
 {
     constexpr double kSlack = 1e-9;  // rays through an edge must meet one of its triangles
     double best = 0.0;
     for (const auto& [a, b, c] : triangles) {
-        const Vec3 first = positions[b] - positions[a];
-        const Vec3 second = positions[c] - positions[a];
+        const Vec3 first = vertices[b] - vertices[a];
+        const Vec3 second = vertices[c] - vertices[a];
         const Vec3 across = cross(direction, second);
         const double det = dot(first, across);
         if (det == 0.0) {
             continue;
         }
-        const Vec3 from = -1.0 * positions[a];
+        const Vec3 from = -1.0 * vertices[a];
         const double u = dot(from, across) / det;
         const Vec3 other = cross(from, first);
         const double v = dot(direction, other) / det;
@@ -48,12 +48,12 @@ double farthest(const std::vector<Vec3>& positions, const std::vector<Triangle>&
 }
 
 /// Distance from the origin to the rim.
-double farthestOnRim(const std::vector<Vec3>& positions, std::size_t rim, Vec2 direction)
+double farthestOnRim(const std::vector<Vec3>& vertices, std::size_t rim, Vec2 direction)
 {
     double best = 0.0;
     for (std::size_t k = 0; k < rim; ++k) {
-        const Vec2 a{positions[k].x, positions[k].y};
-        const Vec2 b{positions[(k + 1) % rim].x, positions[(k + 1) % rim].y};
+        const Vec2 a{vertices[k].x, vertices[k].y};
+        const Vec2 b{vertices[(k + 1) % rim].x, vertices[(k + 1) % rim].y};
         const double side_a = cross(direction, a);
         const double side_b = cross(direction, b);
         if ((side_a <= 0.0) != (side_b <= 0.0)) {
@@ -68,7 +68,7 @@ double volumeOf(const DropletMesh& mesh)
 {
     double volume = 0.0;
     for (const auto& [a, b, c] : mesh.triangles) {
-        volume += dot(mesh.positions[a], cross(mesh.positions[b], mesh.positions[c])) / 6.0;
+        volume += dot(mesh.vertices[a], cross(mesh.vertices[b], mesh.vertices[c])) / 6.0;
     }
     return volume;
 }
@@ -76,9 +76,9 @@ double volumeOf(const DropletMesh& mesh)
 /// Sets the normals to the mean of those of the triangles around each vertex.
 void setNormals(DropletMesh& mesh)
 {
-    mesh.normals.assign(mesh.positions.size(), {});
+    mesh.normals.assign(mesh.vertices.size(), {});
     for (const auto& [a, b, c] : mesh.triangles) {
-        const Vec3 area = cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+        const Vec3 area = cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
         for (const std::uint32_t i : {a, b, c}) {
             mesh.normals[i] = mesh.normals[i] + area;
         }
@@ -116,21 +116,21 @@ double unitVolume(const DropletBodies& bodies)
     const Body body = bodyOf(bodies, {kVolume, 0.0, {}, false});
     double radius = 0.0;
     for (std::size_t k = 0; k < bodies.rimVertices(); ++k) {
-        radius = std::max(radius, length(body.positions[k]));
+        radius = std::max(radius, length(body.vertices[k]));
     }
     return kVolume / (radius * radius * radius);
 }
 
 Vec2 halfSizes(const DropletBodies& bodies, const BodyConditions& conditions)
 {
-    const auto [low, high] = cornersOf(bodyOf(bodies, conditions).positions);
+    const auto [low, high] = cornersOf(bodyOf(bodies, conditions).vertices);
     return {0.5 * (high.x - low.x), 0.5 * (high.y - low.y)};
 }
 
 DropletMesh unitBody(const DropletBodies& bodies, const BodyConditions& conditions, const BodyDetail& detail,
                      double volume)
 {
-    std::vector<Vec3> positions = bodyOf(bodies, conditions).positions;
+    std::vector<Vec3> vertices = bodyOf(bodies, conditions).vertices;
     const auto scale = [](std::vector<Vec3>& all, Vec3 by) {
         for (Vec3& p : all) {
             p = {by.x * p.x, by.y * p.y, by.z * p.z};
@@ -140,58 +140,58 @@ DropletMesh unitBody(const DropletBodies& bodies, const BodyConditions& conditio
         const auto [low, high] = cornersOf(all);
         return Vec3{2.0 / (high.x - low.x), 2.0 / (high.y - low.y), 1.0 / high.z};
     };
-    scale(positions, half(positions));  // rays at equal angles then meet all parts of a long tail
+    scale(vertices, half(vertices));  // rays at equal angles then meet all parts of a long tail
     DropletMesh mesh;
-    mesh.positions.push_back({0.0, 0.0, farthest(positions, bodies.triangles(), {0.0, 0.0, 1.0})});
+    mesh.vertices.push_back({0.0, 0.0, farthest(vertices, bodies.triangles(), {0.0, 0.0, 1.0})});
     for (std::uint32_t ring = 1; ring <= detail.rings; ++ring) {
         const double rise = 0.5 * std::numbers::pi * (detail.rings - ring) / detail.rings;
         for (std::uint32_t k = 0; k < detail.around; ++k) {
             const Vec2 level{std::cos(angleOf(k, detail)), std::sin(angleOf(k, detail))};
             const Vec3 direction{std::cos(rise) * level.x, std::cos(rise) * level.y, std::sin(rise)};
             if (ring < detail.rings) {
-                mesh.positions.push_back(farthest(positions, bodies.triangles(), direction) * direction);
+                mesh.vertices.push_back(farthest(vertices, bodies.triangles(), direction) * direction);
             } else {
-                const double reach = farthestOnRim(positions, bodies.rimVertices(), level);
-                mesh.positions.push_back({reach * level.x, reach * level.y, 0.0});
+                const double reach = farthestOnRim(vertices, bodies.rimVertices(), level);
+                mesh.vertices.push_back({reach * level.x, reach * level.y, 0.0});
             }
         }
     }
     addRings(mesh, 0, detail);
-    const Vec3 by = half(mesh.positions);
-    scale(mesh.positions, {by.x, by.y, 1.0});
-    scale(mesh.positions, {1.0, 1.0, volume / volumeOf(mesh)});  // the base at z = 0 adds nothing
+    const Vec3 by = half(mesh.vertices);
+    scale(mesh.vertices, {by.x, by.y, 1.0});
+    scale(mesh.vertices, {1.0, 1.0, volume / volumeOf(mesh)});  // the base at z = 0 adds nothing
     setNormals(mesh);
     // The base on the ground.
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.emplace_back();
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.emplace_back();
     for (std::uint32_t k = 0; k < detail.around; ++k) {
-        mesh.positions.push_back(mesh.positions[first - detail.around + k]);
+        mesh.vertices.push_back(mesh.vertices[first - detail.around + k]);
         mesh.triangles.push_back({first, first + 1 + (k + 1) % detail.around, first + 1 + k});
     }
-    mesh.normals.resize(mesh.positions.size(), {0.0, 0.0, -1.0});
+    mesh.normals.resize(mesh.vertices.size(), {0.0, 0.0, -1.0});
     return mesh;
 }
 
 DropletMesh unitBall(const BodyDetail& detail, double volume)
 {
     DropletMesh mesh;
-    mesh.positions.push_back({0.0, 0.0, 1.0});
+    mesh.vertices.push_back({0.0, 0.0, 1.0});
     for (std::uint32_t ring = 1; ring < detail.rings; ++ring) {
         const double tilt = std::numbers::pi * ring / detail.rings;
         for (std::uint32_t k = 0; k < detail.around; ++k) {
-            mesh.positions.push_back({std::sin(tilt) * std::cos(angleOf(k, detail)),
-                                      std::sin(tilt) * std::sin(angleOf(k, detail)), std::cos(tilt)});
+            mesh.vertices.push_back({std::sin(tilt) * std::cos(angleOf(k, detail)),
+                                     std::sin(tilt) * std::sin(angleOf(k, detail)), std::cos(tilt)});
         }
     }
     addRings(mesh, 0, {detail.around, detail.rings - 1});
-    const auto last = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.push_back({0.0, 0.0, -1.0});
+    const auto last = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back({0.0, 0.0, -1.0});
     for (std::uint32_t k = 0; k < detail.around; ++k) {
         mesh.triangles.push_back({last, last - detail.around + (k + 1) % detail.around, last - detail.around + k});
     }
     setNormals(mesh);
     const double size = std::cbrt(volume / volumeOf(mesh));
-    for (Vec3& p : mesh.positions) {
+    for (Vec3& p : mesh.vertices) {
         p = size * p;
     }
     return mesh;

@@ -59,13 +59,13 @@ std::int64_t wrapped(std::int64_t at, std::int64_t count)
 /// Mean directions of growing u at the vertices.
 std::vector<Vec3> tangentsOf(const FlowObject& object)
 {
-    std::vector<Vec3> tangents(object.positions.size());
+    std::vector<Vec3> tangents(object.vertices.size());
     for (const auto& [a, b, c] : object.triangles) {
         const Vec2 p = object.uvs[b] - object.uvs[a];
         const Vec2 q = object.uvs[c] - object.uvs[a];
         const double area = cross(p, q);
-        const Vec3 along = std::copysign(1.0, area) * (q.y * (object.positions[b] - object.positions[a]) -
-                                                       p.y * (object.positions[c] - object.positions[a]));
+        const Vec3 along = std::copysign(1.0, area) * (q.y * (object.vertices[b] - object.vertices[a]) -
+                                                       p.y * (object.vertices[c] - object.vertices[a]));
         for (const std::uint32_t v : {a, b, c}) {
             tangents[v] = tangents[v] + unit(along);
         }
@@ -99,13 +99,13 @@ void WetMapOptions::validate() const
 }
 
 struct WetMapper::Content {
-    Content(const FlowObject& of, const FlowScene& scene_of, const WetMapOptions& given)
-        : object(of), scene(scene_of), options(given), faces(scene.surface()), tangents(tangentsOf(of))
+    Content(const FlowObject& of, const FlowTerrain& terrain_of, const WetMapOptions& given)
+        : object(of), terrain(terrain_of), options(given), faces(terrain.surface()), tangents(tangentsOf(of))
     {
-        spots.middle = of.positions.front();
+        spots.middle = of.vertices.front();
         const auto count = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
         std::vector<std::uint32_t> owner(count, kNobody);
-        for (const FlowSurface::Face& face : scene.surface().faces) {
+        for (const FlowSurface::Face& face : terrain.surface().faces) {
             spots.first.push_back(static_cast<std::uint32_t>(spots.places.size()));
             area.push_back(addTexels(object.triangles.at(face.source), owner));
         }
@@ -114,7 +114,7 @@ struct WetMapper::Content {
             throw Error(ErrorCode::InvalidInput,
                         "the object's texture coordinates have no area: unwrap it before wet maps are made");
         }
-        spots.spacing = std::sqrt(scene.area() / static_cast<double>(spots.places.size()));
+        spots.spacing = std::sqrt(terrain.area() / static_cast<double>(spots.places.size()));
         wet.emplace(spots.places.size(), options.drying);
         fillGutter(owner);
     }
@@ -148,12 +148,12 @@ struct WetMapper::Content {
                     continue;
                 }
                 owner[texel] = texel;
-                spots.add(mixed(object.positions, triangle, w));
+                spots.add(mixed(object.vertices, triangle, w));
                 texels.push_back(texel);
             }
         }
-        const Vec3 p = object.positions[triangle[1]] - object.positions[triangle[0]];
-        const Vec3 q = object.positions[triangle[2]] - object.positions[triangle[0]];
+        const Vec3 p = object.vertices[triangle[1]] - object.vertices[triangle[0]];
+        const Vec3 q = object.vertices[triangle[2]] - object.vertices[triangle[0]];
         return length(cross(p, q)) / std::abs(t.twice);
     }
 
@@ -195,10 +195,10 @@ struct WetMapper::Content {
     // Normal of the water in the tangent frame of a place.
     [[nodiscard]] Vec3 inTangentFrame(Vec3 normal, const WaterAt& at) const
     {
-        const Triangle& triangle = object.triangles[scene.surface().faces[at.face].source];
-        const Vec3 a = object.positions[triangle[0]];
-        const Vec3 p = object.positions[triangle[1]] - a;
-        const Vec3 q = object.positions[triangle[2]] - a;
+        const Triangle& triangle = object.triangles[terrain.surface().faces[at.face].source];
+        const Vec3 a = object.vertices[triangle[0]];
+        const Vec3 p = object.vertices[triangle[1]] - a;
+        const Vec3 q = object.vertices[triangle[2]] - a;
         const Vec3 across = cross(p, q);
         const Vec3 d = spots.place(at.spot) - a;
         const double v = dot(cross(d, q), across) / dot(across, across);
@@ -226,7 +226,7 @@ struct WetMapper::Content {
     template <typename Take>
     void draw(double time, std::span<const FlowSample> samples, const Surface& droplets, const Take& take)
     {
-        const auto water = waterOf(spots, scene.surface(), area, samples, droplets);
+        const auto water = waterOf(spots, terrain.surface(), area, samples, droplets);
         for (const std::vector<WaterAt>& droplet : water) {
             for (const WaterAt& at : droplet) {
                 wet->wet(at.spot, time, 1.0);
@@ -259,7 +259,7 @@ struct WetMapper::Content {
     }
 
     FlowObject object;
-    const FlowScene& scene;
+    const FlowTerrain& terrain;
     WetMapOptions options;
     FacesAround faces;
     std::vector<Vec3> tangents;
@@ -270,7 +270,7 @@ struct WetMapper::Content {
     std::optional<WetPlaces> wet;
 };
 
-WetMapper::WetMapper(const FlowObject& object, const FlowScene& scene, const WetMapOptions& options)
+WetMapper::WetMapper(const FlowObject& object, const FlowTerrain& terrain, const WetMapOptions& options)
 {
     options.validate();
     if (object.uvs.empty()) {
@@ -279,7 +279,7 @@ WetMapper::WetMapper(const FlowObject& object, const FlowScene& scene, const Wet
             "wet maps need an object with texture coordinates (uv), but this one has none: unwrap it, and save it "
             "as GLB, glTF or OBJ");
     }
-    content_ = std::make_unique<Content>(object, scene, options);
+    content_ = std::make_unique<Content>(object, terrain, options);
 }
 WetMapper::~WetMapper() = default;
 WetMapper::WetMapper(WetMapper&&) noexcept = default;

@@ -49,7 +49,7 @@ double distanceBetween(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2)
 class Columns {
 public:
     /// @param cell  [m]
-    Columns(const DropletFrame& frame, std::span<const Vec3> positions, std::span<const Vec3> normals,
+    Columns(const DropletFrame& frame, std::span<const Vec3> vertices, std::span<const Vec3> normals,
             std::span<const Triangle> triangles, std::uint32_t first, double cell)
         : frame_(frame)
     {
@@ -58,7 +58,7 @@ public:
         std::vector<Vec3> local;
         Vec2 high{-1e300, -1e300};
         low_ = {1e300, 1e300};
-        for (const Vec3 p : positions) {
+        for (const Vec3 p : vertices) {
             local.push_back(toLocal(p));
             low_ = {std::min(low_.x, local.back().x), std::min(low_.y, local.back().y)};
             high = {std::max(high.x, local.back().x), std::max(high.y, local.back().y)};
@@ -293,7 +293,7 @@ std::vector<std::vector<WaterAt>> waterOf(const WetSpots& spots, const FlowSurfa
     if (samples.empty()) {
         return water;
     }
-    const std::size_t vertices = droplets.positions.size() / samples.size();
+    const std::size_t vertices = droplets.vertices.size() / samples.size();
     const std::size_t triangles = droplets.triangles.size() / samples.size();
     tbb::enumerable_thread_specific<FacesAround> searches(surface);
     tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t d) {
@@ -301,7 +301,7 @@ std::vector<std::vector<WaterAt>> waterOf(const WetSpots& spots, const FlowSurfa
         if (!sample.face || sample.contact == FlowContact::Air) {
             return;
         }
-        const Columns columns(frameOf(sample, {}), std::span(droplets.positions).subspan(d * vertices, vertices),
+        const Columns columns(frameOf(sample, {}), std::span(droplets.vertices).subspan(d * vertices, vertices),
                               std::span(droplets.normals).subspan(d * vertices, vertices),
                               std::span(droplets.triangles).subspan(d * triangles, triangles),
                               static_cast<std::uint32_t>(d * vertices), spots.spacing);

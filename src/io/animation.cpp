@@ -49,7 +49,7 @@ std::uint64_t bytesOfTarget(std::size_t vertices)
 
 std::uint64_t bytesOf(const SceneGeometry& geometry)
 {
-    const std::size_t vertices = geometry.positions.size();
+    const std::size_t vertices = geometry.vertices.size();
     constexpr std::uint64_t kIndex = 2;  // at least
     return 8 * sizeof(float) * vertices + bytesOfTarget(vertices) * geometry.targets.size() +
            3 * kIndex * geometry.parts.front().triangles.size();
@@ -137,7 +137,7 @@ struct Animation::Content {
         constexpr double kSurely = 0.8;
         if (surfaces == 1 && options.frames) {
             const std::uint64_t expected =
-                bytes + bytesOfTarget(geometryOf(0).positions.size()) * (*options.frames - frames);
+                bytes + bytesOfTarget(geometryOf(0).vertices.size()) * (*options.frames - frames);
             if (kSurely * static_cast<double>(expected) >= static_cast<double>(kGltfFileLimit)) {
                 refuseSize(*options.frames, "about ", expected);
             }
@@ -217,7 +217,7 @@ void Animation::add(const Surface& surface, bool continues)
     if (continues) {
         const bool is_open = !content.runs.empty() && !content.runs.back().end;
         const SceneGeometry* const base = is_open ? &content.geometryOf(content.runs.size() - 1) : nullptr;
-        if (!base || base->positions.size() != surface.positions.size() ||
+        if (!base || base->vertices.size() != surface.vertices.size() ||
             base->parts.front().triangles != surface.triangles) {
             throw Error(ErrorCode::InvalidArgument, "frame " + std::to_string(content.frames + 1) +
                                                         " must have the same triangles as the frame before");
@@ -225,7 +225,7 @@ void Animation::add(const Surface& surface, bool continues)
         SceneMesh& mesh = content.scene.meshes.back();
         SceneGeometry& geometry = mesh.geometries.front();
         geometry.targets.push_back(
-            {changesFrom(geometry.positions, surface.positions), changesFrom(geometry.normals, surface.normals)});
+            {changesFrom(geometry.vertices, surface.vertices), changesFrom(geometry.normals, surface.normals)});
         mesh.targets.push_back("frame " + std::to_string(content.frames + 1));
         if (geometry.targets.size() == kMaxTargets) {
             content.begin(surface, content.frames);

@@ -15,7 +15,7 @@
 namespace droplet {
 
 /// Pose of the ground in a frame, in the file's frame.
-struct GroundPose {
+struct CrowdPose {
     Float3 place{};                       ///< [m]
     Float4 turn{0.0F, 0.0F, 0.0F, 1.0F};  ///< x first, w last
 };
@@ -29,7 +29,7 @@ struct CrowdOptions {
     double place_tolerance = 0.25;  ///< of a run across its path and of a rest, over the half width of the droplet
     double time_tolerance = 5e-3;   ///< additional, of a run along its path [s]
     std::size_t ground = 0;         ///< node that the droplets run over, a root
-    std::vector<GroundPose> poses;  ///< of it, in all frames; empty if it rests
+    std::vector<CrowdPose> poses;   ///< of it, in all frames; empty if it rests
     std::array<Vec3, 2> corners;    ///< of a box that holds all droplets at all times, z up
     std::string corner;             ///< name of the nodes of these corners
     DropletMesh resting;            ///< droplets at rest, which are scaled alike in all directions

@@ -10,17 +10,17 @@ SceneMesh sceneMesh(const DropletMesh& mesh, std::string name, std::size_t mater
 {
     SceneMesh made{std::move(name)};
     SceneGeometry& geometry = made.geometries.emplace_back();
-    geometry.positions = sceneVectors(mesh.positions);
+    geometry.vertices = sceneVectors(mesh.vertices);
     geometry.normals = sceneVectors(mesh.normals);
     geometry.uvs = sceneCoordinates(mesh.uvs);
     geometry.parts.push_back({material, mesh.triangles});
     return made;
 }
 
-std::array<Vec3, 2> cornersOf(const std::vector<Vec3>& positions)
+std::array<Vec3, 2> cornersOf(const std::vector<Vec3>& vertices)
 {
-    std::array<Vec3, 2> corners{positions.front(), positions.front()};
-    for (const Vec3& p : positions) {
+    std::array<Vec3, 2> corners{vertices.front(), vertices.front()};
+    for (const Vec3& p : vertices) {
         const auto& [low, high] = corners;
         corners = {Vec3{std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)},
                    Vec3{std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)}};

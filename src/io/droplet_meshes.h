@@ -15,7 +15,7 @@ namespace droplet {
 
 /// Arrays of a mesh, +Z up.
 struct DropletMesh {
-    std::vector<Vec3> positions;
+    std::vector<Vec3> vertices;
     std::vector<Vec3> normals;
     std::vector<Triangle> triangles;
     std::vector<Vec2> uvs;  ///< one per vertex, (0,0) top left; or empty
@@ -27,6 +27,6 @@ struct DropletMesh {
 SceneMesh sceneMesh(const DropletMesh& mesh, std::string name, std::size_t material);
 
 /// Lowest and highest coordinates of points, at least one.
-std::array<Vec3, 2> cornersOf(const std::vector<Vec3>& positions);
+std::array<Vec3, 2> cornersOf(const std::vector<Vec3>& vertices);
 
 }  // namespace droplet

@@ -8,7 +8,7 @@ namespace droplet {
 /// Whether a surface is empty, as in a frame without liquid.
 inline bool isDry(const Surface& surface)
 {
-    return surface.triangles.empty() && surface.positions.empty();
+    return surface.triangles.empty() && surface.vertices.empty();
 }
 
 /// Guarantees: returns only if a surface is valid or empty.

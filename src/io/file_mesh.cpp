@@ -106,9 +106,9 @@ private:
 void addTriangle(FileMesh& mesh, std::uint64_t a, std::uint64_t b, std::uint64_t c)
 {
     for (const std::uint64_t v : {a, b, c}) {
-        if (v >= mesh.positions.size()) {
+        if (v >= mesh.vertices.size()) {
             throw Damage("triangle " + std::to_string(mesh.triangles.size()) + " names vertex " + std::to_string(v) +
-                         " of " + std::to_string(mesh.positions.size()));
+                         " of " + std::to_string(mesh.vertices.size()));
         }
     }
     if (mesh.triangles.size() == kMaxTriangles) {
@@ -126,11 +126,10 @@ void addPolygon(FileMesh& mesh, const std::vector<std::uint64_t>& corners)
     const std::size_t n = corners.size();
     std::size_t apex = 0;
     if (n > 3 && n <= kMaxSearched &&
-        std::all_of(corners.begin(), corners.end(), [&](std::uint64_t v) { return v < mesh.positions.size(); })) {
+        std::all_of(corners.begin(), corners.end(), [&](std::uint64_t v) { return v < mesh.vertices.size(); })) {
         const auto facet = [&](std::size_t from, std::size_t i) {
-            const Vec3 at = mesh.positions[corners[from]];
-            return cross(mesh.positions[corners[(from + i) % n]] - at,
-                         mesh.positions[corners[(from + i + 1) % n]] - at);
+            const Vec3 at = mesh.vertices[corners[from]];
+            return cross(mesh.vertices[corners[(from + i) % n]] - at, mesh.vertices[corners[(from + i + 1) % n]] - at);
         };
         Vec3 normal;
         for (std::size_t i = 1; i + 1 < n; ++i) {
@@ -254,9 +253,9 @@ private:
         if (options_.uvs && !uv.empty()) {
             corner.uv = indexOf(uv, uvs_.size(), where);
         }
-        const auto [found, is_new] = vertices_.try_emplace(corner, static_cast<std::uint32_t>(mesh_.positions.size()));
+        const auto [found, is_new] = vertices_.try_emplace(corner, static_cast<std::uint32_t>(mesh_.vertices.size()));
         if (is_new) {
-            mesh_.positions.push_back(places_[corner.place]);
+            mesh_.vertices.push_back(places_[corner.place]);
             mesh_.normals.push_back(corner.direction != kNone ? directions_[corner.direction] : Vec3{});
             if (options_.uvs) {
                 mesh_.uvs.push_back(corner.uv != kNone ? uvs_[corner.uv] : Vec2{});
@@ -400,7 +399,7 @@ struct PlyElement {
 
 void readPlyVertices(const PlyElement& element, PlyNumbers& numbers, const FileMeshOptions& options, FileMesh& mesh)
 {
-    if (!mesh.positions.empty()) {
+    if (!mesh.vertices.empty()) {
         throw Damage("it has two vertex elements");
     }
     const auto has = [&](const char* name) {
@@ -443,7 +442,7 @@ void readPlyVertices(const PlyElement& element, PlyNumbers& numbers, const FileM
                                                            : other;
             to = numbers.next(property.scalar);
         }
-        mesh.positions.push_back(p);
+        mesh.vertices.push_back(p);
         if (normals) {
             mesh.normals.push_back(n);
         }
@@ -623,17 +622,17 @@ FileMesh readStl(std::string_view text)
     std::vector<std::uint32_t> first(places.size(), kNone);
     FileMesh mesh;
     for (const std::array<std::size_t, 3>& facet : facets) {
-        const auto begin = static_cast<std::uint32_t>(mesh.positions.size());
+        const auto begin = static_cast<std::uint32_t>(mesh.vertices.size());
         for (const std::size_t place : facet) {
             if (first[place] == kNone) {
-                first[place] = static_cast<std::uint32_t>(mesh.positions.size());
+                first[place] = static_cast<std::uint32_t>(mesh.vertices.size());
             }
             mesh.weld.push_back(first[place]);
-            mesh.positions.push_back({places[place].x(), places[place].y(), places[place].z()});
+            mesh.vertices.push_back({places[place].x(), places[place].y(), places[place].z()});
         }
         addTriangle(mesh, begin, begin + 1, begin + 2);
-        const Vec3 a = mesh.positions[begin];
-        const Vec3 normal = cross(mesh.positions[begin + 1] - a, mesh.positions[begin + 2] - a);
+        const Vec3 a = mesh.vertices[begin];
+        const Vec3 normal = cross(mesh.vertices[begin + 1] - a, mesh.vertices[begin + 2] - a);
         mesh.normals.insert(mesh.normals.end(), 3, normal);
     }
     return mesh;
@@ -647,9 +646,9 @@ void complete(FileMesh& mesh)
     if (mesh.triangles.empty()) {
         throw Damage("it has no triangles");
     }
-    mesh.normals.resize(mesh.positions.size());
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        const Vec3 p = mesh.positions[v];
+    mesh.normals.resize(mesh.vertices.size());
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const Vec3 p = mesh.vertices[v];
         const Vec3 n = mesh.normals[v];
         const Vec2 uv = mesh.uvs.empty() ? Vec2{} : mesh.uvs[v];
         const float angle = mesh.contact_angles.empty() ? 0.0F : mesh.contact_angles[v];
@@ -658,9 +657,9 @@ void complete(FileMesh& mesh)
         }
     }
     if (mesh.weld.empty()) {
-        mesh.weld = firstAtPlace(mesh.positions);
+        mesh.weld = firstAtPlace(mesh.vertices);
     }
-    fillNormals(mesh.positions, mesh.triangles, mesh.weld, mesh.normals);
+    fillNormals(mesh.vertices, mesh.triangles, mesh.weld, mesh.normals);
 }
 
 /// Unit that this library states in a comment at the beginning of its files; millimetre for other files.
@@ -685,7 +684,7 @@ FileMesh readAs(Format format, std::string_view text, const FileMeshOptions& opt
                                             : readPly(text, options);
     const double unit = format == Format::Ply ? 1.0 : unitIn(text);
     const bool turns = options.y_up.value_or(format == Format::Obj);
-    for (Vec3& p : mesh.positions) {
+    for (Vec3& p : mesh.vertices) {
         p = unit * (turns ? zUp(p) : p);
     }
     for (Vec3& n : mesh.normals) {

@@ -28,7 +28,7 @@ struct FileMotion {
 ///
 /// Invariants: there is a triangle, its indices are in range; numbers are finite; arrays of vertices have one length.
 struct FileMesh {
-    std::vector<Vec3> positions;              ///< in metres
+    std::vector<Vec3> vertices;               ///< in metres
     std::vector<Vec3> normals;                ///< unit
     std::vector<Vec2> uvs;                    ///< (0,0) top left; 0 for vertices without uv; empty: none has uv
     std::vector<float> contact_angles;        ///< [rad]; 0 for vertices without one; may be empty

@@ -17,7 +17,7 @@ void checkFileSize(const Surface& surface, const GltfOptions& options)
 {
     // Position 3, normal 3, uv 2, changes of position and normal 6 in every state of a refill.
     const std::uint64_t floats = 8 + 6 * (surface.refill ? surface.refill->states.size() : 0);
-    const std::uint64_t buffer = sizeof(float) * floats * surface.positions.size();
+    const std::uint64_t buffer = sizeof(float) * floats * surface.vertices.size();
     const std::uint64_t file = options.binary ? buffer : (buffer + 2) / 3 * 4;
     if (file >= kGltfFileLimit) {
         throw Error(ErrorCode::InvalidArgument, "surface with " + std::to_string(surface.triangles.size()) +

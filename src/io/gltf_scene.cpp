@@ -397,10 +397,10 @@ public:
             throw Damage("its scene has no triangles");
         }
         dropEmptyColumns();
-        mesh_.weld = firstAtPlace(mesh_.positions);
-        fillNormals(mesh_.positions, mesh_.triangles, mesh_.weld, mesh_.normals);
-        for (std::size_t v = 0; v < mesh_.positions.size(); ++v) {
-            mesh_.positions[v] = zUp(mesh_.positions[v]);
+        mesh_.weld = firstAtPlace(mesh_.vertices);
+        fillNormals(mesh_.vertices, mesh_.triangles, mesh_.weld, mesh_.normals);
+        for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+            mesh_.vertices[v] = zUp(mesh_.vertices[v]);
             mesh_.normals[v] = zUp(mesh_.normals[v]);
         }
         readMotion();
@@ -543,14 +543,14 @@ private:
         if (!found) {
             throw Damage(name + " has no POSITION");
         }
-        const Column& positions = *found;
+        const Column& vertices = *found;
         const std::optional<Column> uvs = column("TEXCOORD_0", TINYGLTF_TYPE_VEC2);
         if (!uvs && options_.needs_uv) {
             throw Damage(name + " has no texture coordinates (uv), which place the droplets; unwrap it first");
         }
         const std::optional<Column> normals = column("NORMAL", TINYGLTF_TYPE_VEC3);
         const std::optional<Column> angles = column("_CONTACT_ANGLE", TINYGLTF_TYPE_SCALAR);
-        const std::size_t count = positions.size();
+        const std::size_t count = vertices.size();
         const auto fits = [count](const std::optional<Column>& column) { return !column || column->size() == count; };
         if (!fits(uvs) || !fits(normals) || !fits(angles)) {
             throw Damage(name + " has attributes of different lengths");
@@ -560,19 +560,19 @@ private:
             return;
         }
         if (triangles.size() > kMaxTriangles - mesh_.triangles.size() ||
-            count > 3 * kMaxTriangles - mesh_.positions.size()) {
+            count > 3 * kMaxTriangles - mesh_.vertices.size()) {
             throw Damage("it has more than " + std::to_string(kMaxTriangles) + " triangles");
         }
-        const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+        const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
         for (std::size_t v = 0; v < count; ++v) {
-            const Vec3 p = placement.place(positions.vec3(v));
+            const Vec3 p = placement.place(vertices.vec3(v));
             const Vec3 n = normals ? placement.normal(normals->vec3(v)) : Vec3{};
             const Vec2 uv = uvs ? uvs->vec2(v) : Vec2{};
             const double angle = angles ? angles->number(v) : 0.0;
             if (!std::isfinite(p.x + p.y + p.z + n.x + n.y + n.z + uv.x + uv.y + angle)) {
                 throw Damage(name + " holds numbers that are not finite");
             }
-            mesh_.positions.push_back(p);
+            mesh_.vertices.push_back(p);
             mesh_.normals.push_back(n);
             mesh_.uvs.push_back(uv);
             mesh_.contact_angles.push_back(static_cast<float>(kDegree * angle));

@@ -13,7 +13,7 @@ struct SceneOptions {
 };
 
 /// Reads glTF 2.0: .glb, or .gltf with its buffers embedded or beside it.
-/// Guarantees: as FileMesh; positions are in metres, z up, in the rest pose; weld is filled.
+/// Guarantees: as FileMesh; vertices are in metres, z up, in the rest pose; weld is filled.
 /// @throws Damage, nlohmann::json::exception, std::bad_alloc, std::length_error: see readFile
 FileMesh readScene(const std::filesystem::path& path, const SceneOptions& options = {});
 

@@ -103,7 +103,7 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptio
     }
     bytes.text("o droplet\n");
     for (const std::uint32_t i : welded.first) {
-        const Vec3 at = yUp((1.0 / unit.metres) * surface.positions[i]);
+        const Vec3 at = yUp((1.0 / unit.metres) * surface.vertices[i]);
         writeLine(bytes, "v", at.x, at.y, at.z);
     }
     for (const Vec2& uv : surface.uvs) {
@@ -197,7 +197,7 @@ std::uint64_t writePly(const Surface& surface, std::ostream& out)
                (surface.contact_angle.empty() ? "" : "property float contact_angle\n") + "element face " +
                std::to_string(surface.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n");
     for (const std::uint32_t i : welded.first) {
-        writeVec3(bytes, surface.positions[i]);
+        writeVec3(bytes, surface.vertices[i]);
         writeVec3(bytes, surface.normals[i]);
         const Vec2 texture = fromBelow(surface.uvs[i]);
         bytes.f32(texture.x, texture.y);
@@ -221,7 +221,7 @@ std::uint64_t writeStl(const Surface& surface, std::ostream& out, LengthUnit uni
     }
     ByteStream bytes(out);
     const NamedUnit& named = namedUnit(unit);
-    const auto scaled = [&](std::uint32_t vertex) { return (1.0 / named.metres) * surface.positions[vertex]; };
+    const auto scaled = [&](std::uint32_t vertex) { return (1.0 / named.metres) * surface.vertices[vertex]; };
     std::string header =
         signature() + ", " + std::string(named.name) + "s, z up";  // must not begin with "solid", which marks text
     header.resize(kStlHeaderBytes, ' ');

@@ -18,7 +18,7 @@ TexturedMesh readObject(const std::filesystem::path& path)
     TexturedMesh mesh;
     readFile(path, [&] {
         FileMesh scene = readScene(path, {.needs_uv = true});
-        mesh.positions = std::move(scene.positions);
+        mesh.vertices = std::move(scene.vertices);
         mesh.normals = std::move(scene.normals);
         mesh.uvs = std::move(scene.uvs);
         mesh.triangles = std::move(scene.triangles);

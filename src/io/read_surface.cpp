@@ -27,12 +27,12 @@ ReadSurface readSurface(const std::filesystem::path& path)
             path.string() + " has animations, skins or morph targets; they are ignored, and the rest pose is read");
     }
     Surface& surface = result.surface;
-    surface.positions = std::move(mesh.positions);
+    surface.vertices = std::move(mesh.vertices);
     surface.triangles = std::move(mesh.triangles);
     surface.normals = std::move(mesh.normals);
     surface.weld = std::move(mesh.weld);
     surface.uvs = std::move(mesh.uvs);
-    surface.uvs.resize(surface.positions.size());
+    surface.uvs.resize(surface.vertices.size());
     if (std::any_of(mesh.contact_angles.begin(), mesh.contact_angles.end(), [](float a) { return a != 0.0F; })) {
         surface.contact_angle = std::move(mesh.contact_angles);
     }

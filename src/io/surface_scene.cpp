@@ -121,7 +121,7 @@ std::vector<Look> looksOf(const std::vector<FileDroplet>& droplets)
 // copies round alike. Normals are stored, so degenerate triangles need none.
 SceneGeometry geometryOf(const Surface& surface, std::size_t material)
 {
-    SceneGeometry geometry{sceneVectors(surface.positions), sceneVectors(surface.normals),
+    SceneGeometry geometry{sceneVectors(surface.vertices), sceneVectors(surface.normals),
                            sceneCoordinates(surface.uvs)};
     geometry.angles.resize(surface.contact_angle.size());
     std::transform(surface.contact_angle.begin(), surface.contact_angle.end(), geometry.angles.begin(),
@@ -129,7 +129,7 @@ SceneGeometry geometryOf(const Surface& surface, std::size_t material)
     geometry.weld = surface.weld;
     if (surface.refill) {
         for (const RefillState& state : surface.refill->states) {
-            geometry.targets.push_back({sceneVectors(state.positions), sceneVectors(state.normals)});
+            geometry.targets.push_back({sceneVectors(state.vertices), sceneVectors(state.normals)});
         }
     }
     geometry.parts.push_back({material, surface.triangles});

@@ -10,9 +10,9 @@
 
 namespace droplet {
 
-std::vector<std::uint32_t> firstAtPlace(const std::vector<Vec3>& positions)
+std::vector<std::uint32_t> firstAtPlace(const std::vector<Vec3>& vertices)
 {
-    const std::vector<Vec3>& p = positions;
+    const std::vector<Vec3>& p = vertices;
     std::vector<std::uint32_t> order(p.size());
     std::iota(order.begin(), order.end(), 0U);
     const auto key = [&p](std::uint32_t v) { return std::array{p[v].x, p[v].y, p[v].z}; };
@@ -28,10 +28,10 @@ std::vector<std::uint32_t> firstAtPlace(const std::vector<Vec3>& positions)
     return first;
 }
 
-void fillNormals(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles,
+void fillNormals(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
                  const std::vector<std::uint32_t>& place, std::vector<Vec3>& normals)
 {
-    const std::vector<Vec3>& p = positions;
+    const std::vector<Vec3>& p = vertices;
     std::vector<Vec3> sums(p.size());
     for (const Triangle& t : triangles) {
         const Vec3 normal = cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);

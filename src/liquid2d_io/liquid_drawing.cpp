@@ -143,7 +143,7 @@ const LiquidLook& liquidLookNamed(std::string_view name)
     throw Error(ErrorCode::InvalidArgument, fmt::format("there is no look '{}'; there are {}", name, names));
 }
 
-void writeLiquidSvg(const LiquidScene& scene, const LiquidView& view, const LiquidLook& look, std::ostream& out)
+void writeLiquidSvg(const DrawnLiquid& scene, const LiquidView& view, const LiquidLook& look, std::ostream& out)
 {
     validate(view);
     out << fmt::format(
@@ -183,7 +183,7 @@ void writeLiquidSvg(const LiquidScene& scene, const LiquidView& view, const Liqu
     out << "</svg>\n";
 }
 
-Layer liquidLayer(const LiquidScene& scene, const LiquidView& view, const LiquidLook& look)
+Layer liquidLayer(const DrawnLiquid& scene, const LiquidView& view, const LiquidLook& look)
 {
     validate(view);
     const std::unique_ptr<cairo_surface_t, Free> surface(

@@ -158,7 +158,7 @@ LiquidLottie::LiquidLottie(const LiquidView& view, LiquidLook look, double frame
             "finite and more than 0");
 }
 
-void LiquidLottie::add(const LiquidScene& scene)
+void LiquidLottie::add(const DrawnLiquid& scene)
 {
     const double width = lineWidth(look_, view_);
     std::string line;

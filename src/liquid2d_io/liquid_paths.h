@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bezier.h"
-#include "droplet/footprint/outline.h"
 #include "droplet/liquid2d_io/liquid_drawing.h"
+#include "droplet/outline/outline.h"
 
 namespace droplet {
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "droplet/error.h"
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 #include "droplet/printable.h"
 #include "droplet/units.h"
 #include "file_bytes.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "droplet/footprint/domain.h"
+#include "droplet/domain/domain.h"
 #include "droplet/vector.h"
 
 namespace droplet {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/domain/domain.h"
 #include "droplet/error.h"
-#include "droplet/footprint/domain.h"
 #include "droplet/mesh/triangulate.h"
 #include "mesh/mean_edge.h"
 #include "mesh/rim_corner.h"

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "droplet/footprint/outline.h"
 #include "droplet/liquid2d/fluid_scene.h"
+#include "droplet/outline/outline.h"
 
 namespace droplet {
 

@@ -83,12 +83,12 @@ Vec3 QuantizationCube::change(const QuantizedVector& quantized) const
     return side * vectorOf(quantized);
 }
 
-QuantizationCube cubeAround(std::span<const Vec3> positions, double longest)
+QuantizationCube cubeAround(std::span<const Vec3> vertices, double longest)
 {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Vec3 low{kInfinity, kInfinity, kInfinity};
     Vec3 high{-kInfinity, -kInfinity, -kInfinity};
-    for (const Vec3& p : positions) {
+    for (const Vec3& p : vertices) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
@@ -152,24 +152,24 @@ const char* name(Compression compression)
 CompressionError compressionError(const Surface& surface, Compression compression)
 {
     CompressionError error;
-    const std::vector<Vec3> positions = inFloats(surface.positions);
-    if (compression == Compression::None || positions.empty()) {
+    const std::vector<Vec3> vertices = inFloats(surface.vertices);
+    if (compression == Compression::None || vertices.empty()) {
         return error;
     }
     const std::vector<RefillState> none;
     const std::vector<RefillState>& states = surface.refill ? surface.refill->states : none;
     double longest = 0.0;
     for (const RefillState& state : states) {
-        for (const Vec3& change : state.positions) {
+        for (const Vec3& change : state.vertices) {
             longest = std::max({longest, std::abs(change.x), std::abs(change.y), std::abs(change.z)});
         }
     }
-    const QuantizationCube cube = cubeAround(positions, longest);
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        const Vec3 off = cube.place(cube.quantized(positions[i])) - yUp(surface.positions[i]);
+    const QuantizationCube cube = cubeAround(vertices, longest);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const Vec3 off = cube.place(cube.quantized(vertices[i])) - yUp(surface.vertices[i]);
         error.position = std::max(error.position, length(off));
         for (const RefillState& state : states) {
-            const Vec3 change = yUp(state.positions[i]);
+            const Vec3 change = yUp(state.vertices[i]);
             error.position = std::max(error.position, length(off + cube.change(cube.quantizedChange(change)) - change));
         }
     }

@@ -15,7 +15,7 @@ namespace droplet {
 using QuantizedPosition = std::array<std::uint16_t, 4>;
 using QuantizedVector = std::array<std::int16_t, 4>;
 
-/// Cube that quantized positions fill, by integers from 0 to 65535.
+/// Cube that quantized vertices fill, by integers from 0 to 65535.
 struct QuantizationCube {
     Vec3 low;
     double side = 1.0;  ///< > 0
@@ -29,9 +29,9 @@ struct QuantizationCube {
     [[nodiscard]] Vec3 change(const QuantizedVector& quantized) const;
 };
 
-/// Smallest cube around positions whose side is not exceeded by any change of a coordinate.
+/// Smallest cube around vertices whose side is not exceeded by any change of a coordinate.
 /// @param longest  largest change of a coordinate [m]
-QuantizationCube cubeAround(std::span<const Vec3> positions, double longest);
+QuantizationCube cubeAround(std::span<const Vec3> vertices, double longest);
 
 /// Vector whose coordinates are from −1 to 1; 32767 is 1.
 QuantizedVector quantized(Vec3 vector);

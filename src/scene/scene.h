@@ -42,13 +42,13 @@ struct ScenePart {
 
 /// Change of all vertices, by a weight.
 struct SceneTarget {
-    std::vector<Float3> positions;  ///< [m]
+    std::vector<Float3> vertices;  ///< [m]
     std::vector<Float3> normals;
 };
 
 /// Vertices and the triangles between them. All arrays of vertices have one length, unless they are empty.
 struct SceneGeometry {
-    std::vector<Float3> positions;          ///< [m]
+    std::vector<Float3> vertices;           ///< [m]
     std::vector<Float3> normals;            ///< unit vectors
     std::vector<Float2> uvs = {};           ///< origin at the upper left; or empty
     std::vector<float> angles = {};         ///< contact angles [degrees]; or empty

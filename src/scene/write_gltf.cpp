@@ -165,17 +165,17 @@ Copies copiesOf(const SceneGeometry& one)
     all.parts.push_back({one.parts.front().material, {}});
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     for (std::size_t k = 0; k < kCopiesOfMesh; ++k) {
-        const auto first = static_cast<std::uint32_t>(all.positions.size());
-        append(all.positions, one.positions);
+        const auto first = static_cast<std::uint32_t>(all.vertices.size());
+        append(all.vertices, one.vertices);
         append(all.normals, one.normals);
         append(all.uvs, one.uvs);
-        copies.joints.resize(all.positions.size(), {static_cast<std::uint8_t>(k), 0, 0, 0});
+        copies.joints.resize(all.vertices.size(), {static_cast<std::uint8_t>(k), 0, 0, 0});
         for (const auto& [a, b, c] : one.parts.front().triangles) {
             all.parts.front().triangles.push_back({first + a, first + b, first + c});
         }
     }
     for (std::size_t k = 0; k < 2; ++k) {
-        all.positions.push_back({0.0F, 0.0F, 0.0F});
+        all.vertices.push_back({0.0F, 0.0F, 0.0F});
         all.normals.push_back({0.0F, 1.0F, 0.0F});
         copies.joints.push_back({static_cast<std::uint8_t>(kCopiesOfMesh + k), 0, 0, 0});
         if (!one.uvs.empty()) {
@@ -199,7 +199,7 @@ void reorder(std::vector<Element>& elements, const std::vector<unsigned>& order)
 void optimize(Copies& copies)
 {
     SceneGeometry& geometry = copies.geometry;
-    const std::size_t vertices = geometry.positions.size();
+    const std::size_t vertices = geometry.vertices.size();
     std::vector<unsigned> all;
     for (ScenePart& part : geometry.parts) {
         static_assert(sizeof(Triangle) == 3 * sizeof(unsigned));
@@ -217,13 +217,13 @@ void optimize(Copies& copies)
             t = {order[t[0]], order[t[1]], order[t[2]]};
         }
     }
-    reorder(geometry.positions, order);
+    reorder(geometry.vertices, order);
     reorder(geometry.normals, order);
     reorder(geometry.uvs, order);
     reorder(geometry.angles, order);
     reorder(copies.joints, order);
     for (SceneTarget& target : geometry.targets) {
-        reorder(target.positions, order);
+        reorder(target.vertices, order);
         reorder(target.normals, order);
     }
 }
@@ -287,23 +287,23 @@ private:
         if (compression_ == Compression::None) {
             return;
         }
-        std::vector<Vec3> positions;
+        std::vector<Vec3> vertices;
         double longest = 0.0;
         for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
             for (const SceneGeometry& geometry : scene_.meshes[i].geometries) {
                 if (is_crowd_[i]) {
                     continue;
                 }
-                const std::vector<Vec3> own = vectorsOf(geometry.positions);
-                positions.insert(positions.end(), own.begin(), own.end());
+                const std::vector<Vec3> own = vectorsOf(geometry.vertices);
+                vertices.insert(vertices.end(), own.begin(), own.end());
                 for (const SceneTarget& target : geometry.targets) {
-                    for (const Float3& change : target.positions) {
+                    for (const Float3& change : target.vertices) {
                         longest = std::max(longest, largestOf(change));
                     }
                 }
             }
         }
-        cube_ = positions.empty() ? QuantizationCube{} : cubeAround(positions, longest);
+        cube_ = vertices.empty() ? QuantizationCube{} : cubeAround(vertices, longest);
     }
 
     void addMaterials()
@@ -350,7 +350,7 @@ private:
                 copies = &copies_.emplace_back(has_own ? copiesOf(geometry) : Copies{geometry, {}});
             }
             if (has_own && cube) {
-                cube = cubeAround(vectorsOf(copies->geometry.positions), 0.0);
+                cube = cubeAround(vectorsOf(copies->geometry.vertices), 0.0);
                 crowd_cubes_[index] = *cube;
             }
             if (compression_ == Compression::Meshopt) {
@@ -369,7 +369,7 @@ private:
         tinygltf::Primitive primitive;
         primitive.mode = TINYGLTF_MODE_TRIANGLES;
         std::map<std::string, int>& attributes = primitive.attributes;
-        attributes["POSITION"] = addPositions(geometry.positions, cube);
+        attributes["POSITION"] = addPositions(geometry.vertices, cube);
         attributes["NORMAL"] = addNormals(geometry.normals, cube.has_value());
         if (!geometry.uvs.empty()) {
             attributes["TEXCOORD_0"] = addCoordinates(geometry.uvs, cube.has_value());
@@ -386,23 +386,23 @@ private:
                             GltfContent::Vertices);
         }
         for (const SceneTarget& target : geometry.targets) {
-            primitive.targets.push_back({{"POSITION", addChanges(target.positions, cube)},
+            primitive.targets.push_back({{"POSITION", addChanges(target.vertices, cube)},
                                          {"NORMAL", addTurns(target.normals, cube.has_value())}});
         }
         for (const ScenePart& part : geometry.parts) {
             primitive.material = static_cast<int>(part.material);
-            primitive.indices = buffer_.add(arrayOf(part.triangles, geometry.positions.size()), GltfContent::Indices);
+            primitive.indices = buffer_.add(arrayOf(part.triangles, geometry.vertices.size()), GltfContent::Indices);
             mesh.primitives.push_back(primitive);
         }
     }
 
-    int addPositions(const std::vector<Float3>& positions, const std::optional<QuantizationCube>& cube)
+    int addPositions(const std::vector<Float3>& vertices, const std::optional<QuantizationCube>& cube)
     {
         if (!cube) {
-            return addBounded(positions);
+            return addBounded(vertices);
         }
         return addBounded(
-            quantizedAll<QuantizedPosition>(positions, [&](Vec3 position) { return cube->quantized(position); }),
+            quantizedAll<QuantizedPosition>(vertices, [&](Vec3 position) { return cube->quantized(position); }),
             TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
     }
 

@@ -143,17 +143,17 @@ SceneGeometry joined(const SceneMesh& mesh)
     SceneGeometry all;
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     for (const SceneGeometry& one : mesh.geometries) {
-        const auto first = static_cast<std::uint32_t>(all.positions.size());
-        append(all.positions, one.positions);
+        const auto first = static_cast<std::uint32_t>(all.vertices.size());
+        append(all.vertices, one.vertices);
         append(all.normals, one.normals);
         append(all.uvs, one.uvs);
         append(all.angles, one.angles);
         all.targets.resize(one.targets.size());
         for (std::size_t k = 0; k < one.targets.size(); ++k) {
-            append(all.targets[k].positions, one.targets[k].positions);
+            append(all.targets[k].vertices, one.targets[k].vertices);
             append(all.targets[k].normals, one.targets[k].normals);
         }
-        for (std::uint32_t v = 0; v < one.positions.size(); ++v) {
+        for (std::uint32_t v = 0; v < one.vertices.size(); ++v) {
             all.weld.push_back(first + (one.weld.empty() ? v : one.weld[v]));
         }
         for (const auto& [material, triangles] : one.parts) {
@@ -266,16 +266,16 @@ public:
             bytes_.text(indent_ + "uniform bool doubleSided = 1\n");
         }
         bytes_.text(indent_ + "float3[] extent");
-        overTime(&SceneGeometry::positions, &SceneTarget::positions,
-                 [&](const Vectors& positions) { writeExtent(positions); });
+        overTime(&SceneGeometry::vertices, &SceneTarget::vertices,
+                 [&](const Vectors& vertices) { writeExtent(vertices); });
         attribute("int[] faceVertexCounts", triangles_.size(), [](std::size_t) { return std::uint32_t{3}; });
         attribute("int[] faceVertexIndices", corners(), [&](std::size_t i) { return welded_.number[vertexAt(i)]; });
         // Subsets go before it; readers that do not know them show it.
         bytes_.text("\n" + indent_ + "rel material:binding = <" +
                     place.material_paths[geometry_.parts.front().material] + ">\n" + indent_ +
                     "uniform token orientation = \"rightHanded\"\n" + indent_ + "point3f[] points");
-        overTime(&SceneGeometry::positions, &SceneTarget::positions, [&](const Vectors& positions) {
-            writeList(bytes_, welded_.first.size(), [&](std::size_t i) { return positions[welded_.first[i]]; });
+        overTime(&SceneGeometry::vertices, &SceneTarget::vertices, [&](const Vectors& vertices) {
+            writeList(bytes_, welded_.first.size(), [&](std::size_t i) { return vertices[welded_.first[i]]; });
         });
         if (!geometry_.angles.empty()) {
             attribute("float[] primvars:contact_angle", welded_.first.size(),
@@ -334,7 +334,7 @@ private:
 
     using Vectors = std::vector<Float3>;
 
-    /// Writes a value of the positions or normals, or its samples where weights change.
+    /// Writes a value of the vertices or normals, or its samples where weights change.
     template <class WriteValue>
     void overTime(Vectors SceneGeometry::*base, Vectors SceneTarget::*change, const WriteValue& write_value)
     {
@@ -371,11 +371,11 @@ private:
         bytes_.text("\"\n" + indent_ + ")");
     }
 
-    void writeExtent(const Vectors& positions)
+    void writeExtent(const Vectors& vertices)
     {
-        Float3 low = positions.front();
+        Float3 low = vertices.front();
         Float3 high = low;
-        for (const Float3& point : positions) {
+        for (const Float3& point : vertices) {
             for (std::size_t k = 0; k < point.size(); ++k) {
                 low[k] = std::min(low[k], point[k]);
                 high[k] = std::max(high[k], point[k]);
@@ -718,7 +718,7 @@ void checkCorners(const Scene& scene)
         std::size_t triangles = 0;
         std::size_t vertices = 0;
         for (const SceneGeometry& geometry : mesh.geometries) {
-            vertices += geometry.positions.size();
+            vertices += geometry.vertices.size();
             for (const ScenePart& part : geometry.parts) {
                 triangles += part.triangles.size();
             }

@@ -15,8 +15,8 @@
 #include <string>
 #include <utility>
 
+#include "droplet/domain/overlap.h"
 #include "droplet/error.h"
-#include "droplet/footprint/overlap.h"
 #include "droplet/mesh/follow.h"
 #include "droplet/mesh/patch.h"
 #include "droplet/units.h"

@@ -65,7 +65,7 @@ FrameReport reportOf(const Frame& frame, const SequenceOptions& options)
     if (has_one_pressure || droplet.meshes.size() == 1) {
         report.pressure = droplet.solution.droplets.front().pressure;
     }
-    report.vertices = droplet.surface.positions.size();
+    report.vertices = droplet.surface.vertices.size();
     report.triangles = droplet.surface.triangles.size();
     report.closed = isClosed(droplet.surface);
     report.ancestry = frame.droplets;

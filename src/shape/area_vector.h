@@ -10,9 +10,9 @@
 namespace droplet {
 
 /// Half the cross product of two edges: outward, as long as the triangle's area.
-inline Vec3 areaVector(const std::vector<Vec3>& places, const Triangle& t)
+inline Vec3 areaVector(const std::vector<Vec3>& vertices, const Triangle& t)
 {
-    return 0.5 * cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]);
+    return 0.5 * cross(vertices[t[1]] - vertices[t[0]], vertices[t[2]] - vertices[t[0]]);
 }
 
 /// Whether the ground under a triangle is dry: all its vertices are on the ground, and it is not upside down, as under

@@ -486,9 +486,9 @@ struct Box {
     Vec3 low;
     Vec3 high;
 
-    explicit Box(const std::vector<Vec3>& places) : low(places.front()), high(low)
+    explicit Box(const std::vector<Vec3>& vertices) : low(vertices.front()), high(low)
     {
-        for (const Vec3& p : places) {
+        for (const Vec3& p : vertices) {
             low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
         }

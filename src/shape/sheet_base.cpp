@@ -12,10 +12,10 @@ GroundPoint SheetBase::under(Vec3 place) const
     return ground.find({place.x, place.y}).value_or(kBottomless);
 }
 
-void SheetBase::lift(std::vector<Vec3>& places, std::size_t first) const
+void SheetBase::lift(std::vector<Vec3>& vertices, std::size_t first) const
 {
-    for (std::size_t v = first; v < places.size(); ++v) {
-        places[v].z = std::max(places[v].z, under(places[v]).height);
+    for (std::size_t v = first; v < vertices.size(); ++v) {
+        vertices[v].z = std::max(vertices[v].z, under(vertices[v]).height);
     }
 }
 

@@ -20,9 +20,9 @@ struct SheetBase {
     [[nodiscard]] GroundPoint under(Vec3 place) const;
     /// Height of a place above the ground [m].
     [[nodiscard]] double clearance(Vec3 place) const { return place.z - under(place).height; }
-    /// Lifts places that are below the ground onto it.
+    /// Lifts vertices that are below the ground onto it.
     /// @param first  index of the first place that may be moved
-    void lift(std::vector<Vec3>& places, std::size_t first) const;
+    void lift(std::vector<Vec3>& vertices, std::size_t first) const;
 };
 
 /// Gradient of gravity's potential over the surface tension, as of integrate() [1/m²].

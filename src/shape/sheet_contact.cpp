@@ -29,11 +29,11 @@ struct Shadow {
     Vec2 low;
     Vec2 high;
 
-    Shadow(const std::vector<Vec3>& places, const Triangle& t) : low{places[t[0]].x, places[t[0]].y}, high(low)
+    Shadow(const std::vector<Vec3>& vertices, const Triangle& t) : low{vertices[t[0]].x, vertices[t[0]].y}, high(low)
     {
         for (const std::uint32_t v : t) {
-            low = {std::min(low.x, places[v].x), std::min(low.y, places[v].y)};
-            high = {std::max(high.x, places[v].x), std::max(high.y, places[v].y)};
+            low = {std::min(low.x, vertices[v].x), std::min(low.y, vertices[v].y)};
+            high = {std::max(high.x, vertices[v].x), std::max(high.y, vertices[v].y)};
         }
     }
 };

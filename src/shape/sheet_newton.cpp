@@ -34,8 +34,8 @@ constexpr double kReleased = 0.2;
 constexpr double kUndamped = 0.05;
 /// Relative residual of a linear system that needs no refinement: that of Newton's next step is larger.
 constexpr double kSolved = 1e-11;
-/// Relative residual of an equilibrium from which on its matrix serves for the next place as well: the places differ by
-/// as much, and Newton's next step ends.
+/// Relative residual of an equilibrium from which on its matrix serves for the next place as well: the vertices differ
+/// by as much, and Newton's next step ends.
 constexpr double kSamePlace = 1e-5;
 /// Relative residual of a place from which on its factors serve for chord steps, and show the inertia at their end; and
 /// the most of its residual that a chord step may leave. Full steps leave less, but cost three times as much.
@@ -245,14 +245,14 @@ std::optional<SheetSolver::Step> SheetSolver::chord(const CapillarySurface& shee
 
 bool SheetSolver::damp(const CapillarySurface& sheet, const Step& step)
 {
-    std::vector<Vec3> places = sheet.vertices;
+    std::vector<Vec3> vertices = sheet.vertices;
     for (Eigen::Index i = 0; i < step.motion.size(); ++i) {
         const std::size_t v = rim_ + static_cast<std::size_t>(i);
-        places[v] = places[v] + step.motion[i] * linear_.directions[v];
+        vertices[v] = vertices[v] + step.motion[i] * linear_.directions[v];
     }
     std::vector<std::uint8_t> is_wild(damping_.size(), 0);
     for (const Triangle& t : sheet.triangles) {
-        if (!isGentle(areaVector(sheet.vertices, t), areaVector(places, t), {})) {
+        if (!isGentle(areaVector(sheet.vertices, t), areaVector(vertices, t), {})) {
             for (const std::uint32_t v : t) {
                 if (v >= rim_) {
                     is_wild[v - rim_] = 1;

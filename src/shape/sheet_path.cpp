@@ -102,11 +102,11 @@ struct Renewal {
 /// Place of every vertex after a motion along the tangent, for a change of the volume.
 std::vector<Vec3> movedPlaces(const State& state, double size)
 {
-    std::vector<Vec3> places = state.sheet.vertices;
-    for (std::size_t v = state.sheet.rimVertexCount(); v < places.size(); ++v) {
-        places[v] = places[v] + size * state.newton.tangent[v];
+    std::vector<Vec3> vertices = state.sheet.vertices;
+    for (std::size_t v = state.sheet.rimVertexCount(); v < vertices.size(); ++v) {
+        vertices[v] = vertices[v] + size * state.newton.tangent[v];
     }
-    return places;
+    return vertices;
 }
 
 /// Path of one sheet.

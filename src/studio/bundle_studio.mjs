@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Bundles Studio into one HTML file: node bundle_studio.mjs SOURCES WASM OUTPUT.html
-// SOURCES is this folder, WASM the solver. Run it in the folder of `npm ci` for src/page.
+// SOURCES is this folder, WASM the solver. Run it in the folder of `npm ci` for src/html.
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { bundleScript, bundleStyle, fill, policyOf, solverElement, threeLicence, withWorker } from '../page/bundling.mjs';
+import { bundleScript, bundleStyle, fill, policyOf, solverElement, threeLicence, withWorker } from '../html/bundling.mjs';
 
 const [sources, wasm, output] = process.argv.slice(2);
 const script = await bundleScript(join(sources, 'alone.js'), await withWorker(sources));
-const style = await bundleStyle([join(sources, '../page/page.css'), join(sources, 'studio.css')]);
+const style = await bundleStyle([join(sources, '../html/page.css'), join(sources, 'studio.css')]);
 writeFileSync(output, fill(readFileSync(join(sources, 'studio.html'), 'utf8'), {
     script, style, policy: policyOf(script, style, true), solver: solverElement(wasm), three_licence: threeLicence(),
 }));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Studio in the page that --html writes.
-import { loadDroplet } from '../page/model.js';
+import { loadDroplet } from '../html/model.js';
 import { projectFromDroplet } from './from_droplet.js';
 import { openStudio } from './studio.js';
 import { unpackSolver } from './unpack.js';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The dialog about a picture: where its liquid begins, and what it is for.
-import { find } from '../page/controls.js';
+import { find } from '../html/controls.js';
 import { levelsOf, maskOfLevels } from './pictures.js';
 
 /** Shows a mask in a colour. */

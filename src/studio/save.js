@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What Studio saves.
-import { download, fileStem } from '../page/controls.js';
+import { download, fileStem } from '../html/controls.js';
 import { merged } from './merge.js';
 import { pictureOf, selectedLayer, textOf } from './project.js';
 

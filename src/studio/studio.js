@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Studio: wires the drawing, the solver and the view to one project.
-import { complain, drawScale, find, offerGrounds, tabulate } from '../page/controls.js';
-import { length, rows, volume } from '../page/figures.js';
-import { readPicture } from '../page/read_picture.js';
-import { roundLength } from '../page/stage.js';
+import { complain, drawScale, find, offerGrounds, tabulate } from '../html/controls.js';
+import { length, rows, volume } from '../html/figures.js';
+import { readPicture } from '../html/read_picture.js';
+import { roundLength } from '../html/stage.js';
 import { blank, isDry, overlap } from './coverage.js';
 import { History } from './history.js';
 import { askPicture } from './import_dialog.js';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The solver in the document: WebAssembly in #solver, and the worker's script, which the bundle put in this script.
-import { decodeBase64 } from '../page/model.js';
+import { decodeBase64 } from '../html/model.js';
 
 /* global WORKER */
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The droplets of all layers on the page's stage.
 import { Box3, BufferAttribute, BufferGeometry, Group, Mesh, Vector3 } from 'three';
-import { Stage } from '../page/stage.js';
+import { Stage } from '../html/stage.js';
 import { materialOf, thicken } from './materials.js';
 
 /** Meshes of layers, as the stage wants a droplet (model.js). */

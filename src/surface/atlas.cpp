@@ -62,7 +62,7 @@ std::vector<AtlasCorner> cornersOf(const TexturedMesh& object, const std::vector
         const std::array<double, 3> angles = anglesOf(facet);
         std::array<Vec3, 3> places;
         for (std::size_t k = 0; k < 3; ++k) {
-            places[k] = object.positions[vertices[f][k]];
+            places[k] = object.vertices[vertices[f][k]];
         }
         const double stretch = length(cross(places[1] - places[0], places[2] - places[0])) / std::abs(facet.twice_flat);
         for (std::size_t k = 0; k < 3; ++k) {

@@ -38,8 +38,8 @@ std::uint32_t numberEqual(const std::vector<Key>& keys, std::vector<std::uint32_
 double facingOf(const TexturedMesh& object, const Facet& facet)
 {
     const auto [i, j, k] = facet.corners;
-    const Vec3 a = object.positions[i];
-    const Vec3 normal = cross(object.positions[j] - a, object.positions[k] - a);
+    const Vec3 a = object.vertices[i];
+    const Vec3 normal = cross(object.vertices[j] - a, object.vertices[k] - a);
     const double out = dot(normal, object.normals[i] + object.normals[j] + object.normals[k]);
     return std::copysign(1.0, facet.twice_flat) * (out < 0.0 ? -1.0 : 1.0);
 }
@@ -57,8 +57,8 @@ std::vector<Facet> facetsOf(const TexturedMesh& object, Vec2 extent)
             facet.corners[k] = t[k];
         }
         facet.twice_flat = cross(facet.flat[1] - facet.flat[0], facet.flat[2] - facet.flat[0]);
-        const Vec3 a = object.positions[t[0]];
-        const double twice = length(cross(object.positions[t[1]] - a, object.positions[t[2]] - a));
+        const Vec3 a = object.vertices[t[0]];
+        const double twice = length(cross(object.vertices[t[1]] - a, object.vertices[t[2]] - a));
         if (std::isnormal(facet.twice_flat) && std::isnormal(twice) && std::isnormal(1.0 / facet.twice_flat)) {
             facets.push_back(facet);
         }
@@ -72,15 +72,15 @@ std::vector<Facet> facetsOf(const TexturedMesh& object, Vec2 extent)
 std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& facets)
 {
     std::vector<std::array<double, 5>> keys;
-    for (std::size_t v = 0; v < object.positions.size(); ++v) {
-        const Vec3 p = object.positions[v];
+    for (std::size_t v = 0; v < object.vertices.size(); ++v) {
+        const Vec3 p = object.vertices[v];
         keys.push_back({p.x, p.y, p.z, object.uvs[v].x, object.uvs[v].y});
     }
     std::vector<std::uint32_t> welded;
     const std::uint32_t welded_count = numberEqual(keys, welded);
 
-    // Only triangles that face the same way share places. All are made to wind outward.
-    std::vector<Vec3> places(2 * std::size_t{welded_count});
+    // Only triangles that face the same way share vertices. All are made to wind outward.
+    std::vector<Vec3> vertices(2 * std::size_t{welded_count});
     std::vector<Triangle> outward;
     std::vector<double> facing;
     for (const Facet& facet : facets) {
@@ -88,14 +88,14 @@ std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& f
         Triangle t{};
         for (std::size_t k = 0; k < 3; ++k) {
             t[k] = 2 * welded[facet.corners[k]] + (facing.back() < 0.0 ? 1U : 0U);
-            places[t[k]] = object.positions[facet.corners[k]];
+            vertices[t[k]] = object.vertices[facet.corners[k]];
         }
         if (facing.back() * facet.twice_flat < 0.0) {
             std::swap(t[1], t[2]);
         }
         outward.push_back(t);
     }
-    UnionFind charts = joinedAcrossEdges(halfEdges(places, outward), outward);
+    UnionFind charts = joinedAcrossEdges(halfEdges(vertices, outward), outward);
     std::vector<std::uint32_t> number(facets.size(), kNone);
     std::vector<double> chart_facing;
     for (std::uint32_t f = 0; f < facets.size(); ++f) {
@@ -131,8 +131,8 @@ double metresPerUv(const TexturedMesh& object)
     double whole = 0.0;
     for (const Facet& facet : facetsOf(object, {1.0, 1.0})) {
         const auto [i, j, k] = facet.corners;
-        const Vec3 a = object.positions[i];
-        const double area = length(cross(object.positions[j] - a, object.positions[k] - a));
+        const Vec3 a = object.vertices[i];
+        const double area = length(cross(object.vertices[j] - a, object.vertices[k] - a));
         stretches.push_back({std::sqrt(area / std::abs(facet.twice_flat)), area});
         whole += area;
     }

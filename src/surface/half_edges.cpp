@@ -48,20 +48,20 @@ bool isDegenerate(const Triangle& t)
 
 }  // namespace
 
-HalfEdges halfEdges(const std::vector<Vec3>& places, const std::vector<Triangle>& triangles)
+HalfEdges halfEdges(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles)
 {
     constexpr std::size_t kMax = std::size_t{1} << 28;  // indices of half-edges are int, with up to six for a triangle
-    if (triangles.size() > kMax || places.size() > kMax) {
+    if (triangles.size() > kMax || vertices.size() > kMax) {
         throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(triangles.size()) + " triangles and " +
-                                                    std::to_string(places.size()) + " vertices; up to " +
+                                                    std::to_string(vertices.size()) + " vertices; up to " +
                                                     std::to_string(kMax) + " can be examined");
     }
     const Silence silence;
     HalfEdges result;
     auto& mesh = result.mesh;
-    mesh.reserve(places.size(), triangles.size() * 3 / 2 + places.size() / 8, triangles.size());
+    mesh.reserve(vertices.size(), triangles.size() * 3 / 2 + vertices.size() / 8, triangles.size());
     const auto add_vertex = [&](Vec3 p) { return mesh.add_vertex({p.x, p.y, p.z}); };
-    for (const Vec3 p : places) {
+    for (const Vec3 p : vertices) {
         add_vertex(p);
     }
     const auto add_face = [&](std::uint32_t t, const auto& vertex) {
@@ -79,7 +79,7 @@ HalfEdges halfEdges(const std::vector<Vec3>& places, const std::vector<Triangle>
         }
     }
     for (const std::uint32_t t : result.separate) {
-        add_face(t, [&](std::uint32_t v) { return add_vertex(places[v]); });
+        add_face(t, [&](std::uint32_t v) { return add_vertex(vertices[v]); });
     }
     return result;
 }
@@ -158,7 +158,7 @@ HalfEdges halfEdges(const Surface& surface)
             v = surface.weld[v];
         }
     }
-    return halfEdges(surface.positions, welded);
+    return halfEdges(surface.vertices, welded);
 }
 
 }  // namespace droplet

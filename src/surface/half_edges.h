@@ -21,7 +21,7 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
 /// Half-edges of any triangles from outside. Half-edges can only store manifolds. So a triangle gets copies of its
 /// vertices if its edge is taken, if one of its vertices is closed already, or if it contains a place twice.
 struct HalfEdges {
-    OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> mesh;  ///< its first vertices are the given places
+    OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> mesh;  ///< its first vertices are the given vertices
     std::vector<std::uint32_t> triangles;                 ///< triangle of every face
     std::vector<std::uint32_t> separate;                  ///< triangles with vertices of their own
 };
@@ -30,7 +30,7 @@ struct HalfEdges {
 /// @param places     vertices [m]
 /// @param triangles  indices of places
 /// @throws Error     InvalidArgument: more than 2²⁸ triangles
-HalfEdges halfEdges(const std::vector<Vec3>& places, const std::vector<Triangle>& triangles);
+HalfEdges halfEdges(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);
 
 /// Joins triangles that share an edge, also those with vertices of their own.
 /// @param triangles  argument of halfEdges

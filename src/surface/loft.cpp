@@ -67,7 +67,7 @@ void fillRefill(const CapillarySurface& field, const FillGain& gain, std::size_t
     forBlocks(normals.size(), [&](std::size_t from, std::size_t to) {
         for (std::size_t v = from; v < to; ++v) {
             const double shortened = surface.normals[first + v].z / normals[v].z;
-            refill.positions[first + v] = {0.0, 0.0, gain.height[v]};
+            refill.vertices[first + v] = {0.0, 0.0, gain.height[v]};
             refill.normals[first + v] = {shortened * normals[v].x, shortened * normals[v].y, 0.0};
         }
     });
@@ -86,7 +86,7 @@ void fillLiquid(Piece& piece, const LoftOptions& options, Surface& surface)
     forBlocks(liquid.vertices.size(), [&](std::size_t from, std::size_t to) {
         for (std::size_t v = from; v < to; ++v) {
             const Vec3& p = liquid.vertices[v];
-            surface.positions[first + v] = p;
+            surface.vertices[first + v] = p;
             surface.normals[first + v] = normals[v];
             surface.uvs[first + v] = textureAt(map ? map->places[v] : Vec2{p.x, p.y}, options);
             surface.weld[first + v] = first + static_cast<std::uint32_t>(v);
@@ -112,8 +112,8 @@ void fillBase(const Piece& piece, const LoftOptions& options, Surface& surface)
             const auto v = static_cast<std::uint32_t>(i);
             const Vec2 p = piece.base.vertices[v];
             const GroundPoint ground = options.ground.at(p);
-            surface.positions[first + v] =
-                piece.base.onRim(v) ? surface.positions[liquid + v] : Vec3{p.x, p.y, ground.height};
+            surface.vertices[first + v] =
+                piece.base.onRim(v) ? surface.vertices[liquid + v] : Vec3{p.x, p.y, ground.height};
             surface.normals[first + v] = -1.0 * normalOf(ground);
             surface.uvs[first + v] = textureAt(p, options);
             surface.weld[first + v] = piece.base.onRim(v) ? liquid + v : first + v;
@@ -276,7 +276,7 @@ Surface loft(const std::vector<CapillarySurface>& surfaces, const LoftOptions& o
     }
     const Counts total = assignPlaces(pieces);
     Surface surface;
-    surface.positions.resize(total.vertices);
+    surface.vertices.resize(total.vertices);
     surface.normals.resize(total.vertices);
     surface.uvs.resize(total.vertices);
     surface.contact_angle.resize(total.vertices, 0.0F);
@@ -314,7 +314,7 @@ void append(Surface& surface, const Surface& more)
     if (more.triangles.empty()) {
         return;
     }
-    const auto first = static_cast<std::uint32_t>(surface.positions.size());
+    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
     if ((surface.parts.empty() && first > 0) || more.parts.empty()) {
         surface.parts.clear();
     } else {
@@ -325,7 +325,7 @@ void append(Surface& surface, const Surface& more)
         }
     }
     const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-    add(surface.positions, more.positions);
+    add(surface.vertices, more.vertices);
     add(surface.normals, more.normals);
     add(surface.uvs, more.uvs);
     add(surface.contact_angle, more.contact_angle);

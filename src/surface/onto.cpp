@@ -115,14 +115,14 @@ Extent extentOf(const Surface& droplets, const std::vector<PlacedVertex>& placed
     double area = 0.0;
     for (std::size_t i = first; i < end; ++i) {
         const auto& [a, b, c] = droplets.triangles[i];
-        const Vec3 p = droplets.positions[a];
-        const Vec3 q = droplets.positions[b] - p;
-        const Vec3 r = droplets.positions[c] - p;
+        const Vec3 p = droplets.vertices[a];
+        const Vec3 q = droplets.vertices[b] - p;
+        const Vec3 r = droplets.vertices[c] - p;
         const double flat = cross(Vec2{q.x, q.y}, Vec2{r.x, r.y});
         // The liquid's triangles; those that lean out have a negative area in the plane.
         if (kept[a] && cross(droplets.uvs[c] - droplets.uvs[a], droplets.uvs[b] - droplets.uvs[a]) > 0.0) {
             const double s = (placed[a].scale + placed[b].scale + placed[c].scale) / 3.0;
-            const double z = (p.z + droplets.positions[b].z + droplets.positions[c].z) / 3.0;
+            const double z = (p.z + droplets.vertices[b].z + droplets.vertices[c].z) / 3.0;
             volume += flat * s * s * s * z;
             area += flat * s * s;
         }
@@ -175,11 +175,11 @@ OntoResult placeOnto(const Surface& droplets, const TexturedMesh& object, const 
     droplets.validate();
     object.validate();
     const Atlas atlas = atlasOf(object, options.extent);
-    const std::size_t count = droplets.positions.size();
+    const std::size_t count = droplets.vertices.size();
     std::vector<Vec2> flat(count);
     for (std::size_t v = 0; v < count; ++v) {
         // Texture coordinates of a sheet that leans out are not those of the place below it.
-        flat[v] = {droplets.positions[v].x, droplets.positions[v].y};
+        flat[v] = {droplets.vertices[v].x, droplets.vertices[v].y};
     }
     const DropletNumbers numbers = numberDroplets(droplets);
     const std::vector<std::uint32_t>& droplet = numbers.of;
@@ -195,7 +195,7 @@ OntoResult placeOnto(const Surface& droplets, const TexturedMesh& object, const 
             if (is_placed(v)) {
                 const Hit& hit = *hits.on(v, placements[droplet[v]].chart);
                 const std::uint32_t first = droplets.weld[v];  // copies must have the same position, bit for bit
-                placed[v] = atlas.placeVertex(atlas.facets[hit.facet], flat[first], droplets.positions[first].z,
+                placed[v] = atlas.placeVertex(atlas.facets[hit.facet], flat[first], droplets.vertices[first].z,
                                               droplets.normals[v]);
             }
         }
@@ -219,8 +219,8 @@ OntoResult placeOnto(const Surface& droplets, const TexturedMesh& object, const 
             continue;
         }
         kept[v] = true;
-        renamed[v] = static_cast<std::uint32_t>(surface.positions.size());
-        surface.positions.push_back(placed[v].position);
+        renamed[v] = static_cast<std::uint32_t>(surface.vertices.size());
+        surface.vertices.push_back(placed[v].position);
         surface.normals.push_back(placed[v].normal);
         surface.uvs.push_back(droplets.uvs[v]);
         surface.weld.push_back(renamed[droplets.weld[v]]);

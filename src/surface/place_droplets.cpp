@@ -11,7 +11,7 @@ namespace droplet {
 
 DropletNumbers numberDroplets(const Surface& surface)
 {
-    UnionFind sets(surface.positions.size());
+    UnionFind sets(surface.vertices.size());
     for (std::uint32_t v = 0; v < surface.weld.size(); ++v) {
         sets.join(v, surface.weld[v]);
     }
@@ -20,7 +20,7 @@ DropletNumbers numberDroplets(const Surface& surface)
         sets.join(t[1], t[2]);
     }
     constexpr std::uint32_t kNone = DropletNumbers::kNone;
-    std::vector<std::uint32_t> number(surface.positions.size(), kNone);
+    std::vector<std::uint32_t> number(surface.vertices.size(), kNone);
     DropletNumbers droplets;
     for (const Triangle& t : surface.triangles) {
         std::uint32_t& own = number[sets.find(t[0])];

@@ -71,7 +71,7 @@ struct Wedge {
 class Corners {
 public:
     explicit Corners(const Surface& surface)
-        : surface_(surface), first_(surface.positions.size(), kNone), next_(3 * surface.triangles.size())
+        : surface_(surface), first_(surface.vertices.size(), kNone), next_(3 * surface.triangles.size())
     {
         if (surface.triangles.size() > kNone / 3) {
             throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(surface.triangles.size()) +
@@ -256,7 +256,7 @@ std::size_t countJoins(const Surface& surface)
 void checkRefill(const Surface& surface)
 {
     const Refill& refill = *surface.refill;
-    const std::size_t count = surface.positions.size();
+    const std::size_t count = surface.vertices.size();
     if (!(refill.min >= 0.0 && refill.min <= 1.0 && refill.max >= 1.0 && refill.min < refill.max &&
           std::isfinite(refill.max))) {
         throw Error(ErrorCode::InvalidArgument, "surface.refill from " + numberText(refill.min) + " to " +
@@ -273,15 +273,15 @@ void checkRefill(const Surface& surface)
                                                         "; fills must ascend from 0 or more, without 1, and be finite");
         }
         before = state.fill;
-        if (state.positions.size() != count || state.normals.size() != count) {
+        if (state.vertices.size() != count || state.normals.size() != count) {
             throw Error(ErrorCode::InvalidArgument,
                         "surface has " + std::to_string(count) + " positions, and a refill of " +
-                            std::to_string(state.positions.size()) + " positions and " +
+                            std::to_string(state.vertices.size()) + " positions and " +
                             std::to_string(state.normals.size()) + " normals; there must be equally many");
         }
         const std::size_t i = firstOf(count, [&](std::size_t v) {
-            return !finite(state.positions[v]) || !finite(state.normals[v]) ||
-                   state.positions[surface.weld[v]] != state.positions[v];
+            return !finite(state.vertices[v]) || !finite(state.normals[v]) ||
+                   state.vertices[surface.weld[v]] != state.vertices[v];
         });
         if (i < count) {
             refuse("refill.positions", i, "must be finite, as its normal, and equal for all copies of a vertex");
@@ -296,7 +296,7 @@ void checkParts(const Surface& surface)
     for (std::size_t k = 0; k < surface.parts.size(); ++k) {
         const SurfacePart& part = surface.parts[k];
         if (part.first_vertex != vertex || part.first_triangle != triangle || part.triangles == 0 ||
-            part.vertices > surface.positions.size() - vertex || part.triangles > surface.triangles.size() - triangle) {
+            part.vertices > surface.vertices.size() - vertex || part.triangles > surface.triangles.size() - triangle) {
             refuse("parts", k, "must follow the part before it, with at least one triangle, within the surface");
         }
         if (!(part.volume >= 0.0 && part.area > 0.0 && std::isfinite(part.volume) && std::isfinite(part.area))) {
@@ -315,7 +315,7 @@ void checkParts(const Surface& surface)
             refuse("parts", k, "must not share vertices with another part");
         }
     }
-    if (!surface.parts.empty() && (vertex != surface.positions.size() || triangle != surface.triangles.size())) {
+    if (!surface.parts.empty() && (vertex != surface.vertices.size() || triangle != surface.triangles.size())) {
         refuse("parts", surface.parts.size() - 1, "must end at the last vertex and triangle");
     }
 }
@@ -324,7 +324,7 @@ void checkParts(const Surface& surface)
 
 void Surface::validate() const
 {
-    const std::size_t count = positions.size();
+    const std::size_t count = vertices.size();
     if (triangles.empty()) {
         throw Error(ErrorCode::InvalidArgument, "surface.triangles is empty; there must be at least one");
     }
@@ -345,7 +345,7 @@ void Surface::validate() const
     }
     const auto unit = [](Vec3 normal) { return std::abs(length(normal) - 1.0) <= kUnitTolerance; };
     const auto first_place = [&](std::size_t i) {
-        return weld[i] <= i && weld[weld[i]] == weld[i] && positions[weld[i]] == positions[i];
+        return weld[i] <= i && weld[weld[i]] == weld[i] && vertices[weld[i]] == vertices[i];
     };
     const std::size_t angle =
         firstOf(contact_angle.size(), [&](std::size_t v) { return !std::isfinite(contact_angle[v]); });
@@ -353,11 +353,11 @@ void Surface::validate() const
         refuse("contact_angle", angle, "must be finite");
     }
     const std::size_t i = firstOf(count, [&](std::size_t v) {
-        return !finite(positions[v]) || !unit(normals[v]) || !finite(uvs[v]) || !first_place(v);
+        return !finite(vertices[v]) || !unit(normals[v]) || !finite(uvs[v]) || !first_place(v);
     });
     if (i < count) {
-        if (!finite(positions[i])) {
-            refuse("positions", i, "must be finite");
+        if (!finite(vertices[i])) {
+            refuse("vertices", i, "must be finite");
         }
         if (!unit(normals[i])) {
             refuse("normals", i, "must have length 1");
@@ -403,16 +403,16 @@ Surface extract(const Surface& surface, const std::vector<std::size_t>& which)
             const auto begin = from.begin() + static_cast<std::ptrdiff_t>(part.first_vertex);
             to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(part.vertices));
         };
-        const std::size_t first = result.positions.size();
+        const std::size_t first = result.vertices.size();
         const auto renamed = [&](std::uint32_t v) { return static_cast<std::uint32_t>(v - part.first_vertex + first); };
-        copy(result.positions, surface.positions);
+        copy(result.vertices, surface.vertices);
         copy(result.normals, surface.normals);
         copy(result.uvs, surface.uvs);
         if (!surface.contact_angle.empty()) {
             copy(result.contact_angle, surface.contact_angle);
         }
         for (std::size_t i = 0; surface.refill && i < surface.refill->states.size(); ++i) {
-            copy(result.refill->states[i].positions, surface.refill->states[i].positions);
+            copy(result.refill->states[i].vertices, surface.refill->states[i].vertices);
             copy(result.refill->states[i].normals, surface.refill->states[i].normals);
         }
         for (std::size_t v = 0; v < part.vertices; ++v) {
@@ -471,10 +471,10 @@ Surface refilled(const Surface& surface, double fill)
     for (SurfacePart& part : result.parts) {
         part.volume *= fill;
     }
-    for (std::size_t v = 0; v < result.positions.size(); ++v) {
+    for (std::size_t v = 0; v < result.vertices.size(); ++v) {
         Vec3 normal = result.normals[v];
         for (std::size_t k = 0; k < weights.size(); ++k) {
-            result.positions[v] = result.positions[v] + weights[k] * surface.refill->states[k].positions[v];
+            result.vertices[v] = result.vertices[v] + weights[k] * surface.refill->states[k].vertices[v];
             normal = normal + weights[k] * surface.refill->states[k].normals[v];
         }
         result.normals[v] = (1.0 / length(normal)) * normal;
@@ -513,9 +513,9 @@ double enclosedVolume(const Surface& surface)
     // ∫ div(0, 0, z) dV: sum of signed areas in the plane times mean heights.
     double volume = 0.0;
     for (const auto& [ia, ib, ic] : surface.triangles) {
-        const Vec3 a = surface.positions[ia];
-        const Vec3 b = surface.positions[ib];
-        const Vec3 c = surface.positions[ic];
+        const Vec3 a = surface.vertices[ia];
+        const Vec3 b = surface.vertices[ib];
+        const Vec3 c = surface.vertices[ic];
         const double double_area = cross(Vec2{b.x - a.x, b.y - a.y}, Vec2{c.x - a.x, c.y - a.y});
         volume += double_area * (a.z + b.z + c.z) / 6.0;
     }

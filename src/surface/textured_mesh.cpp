@@ -13,7 +13,7 @@ void TexturedMesh::validate() const
 {
     constexpr double kUnitTolerance = 1e-6;  // as Surface
     const auto refuse = [](const std::string& what) { throw Error(ErrorCode::InvalidArgument, "object." + what); };
-    const std::size_t count = positions.size();
+    const std::size_t count = vertices.size();
     if (triangles.empty()) {
         refuse("triangles is empty; there must be at least one");
     }
@@ -22,7 +22,7 @@ void TexturedMesh::validate() const
                std::to_string(normals.size()) + ", " + std::to_string(uvs.size()));
     }
     for (std::size_t v = 0; v < count; ++v) {
-        const Vec3 p = positions[v];
+        const Vec3 p = vertices[v];
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
             refuse("positions[" + std::to_string(v) + "] must be finite");
         }

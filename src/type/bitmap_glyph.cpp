@@ -9,8 +9,8 @@
 
 #include <utility>
 
-#include "droplet/footprint/mask.h"
-#include "droplet/footprint/outline.h"
+#include "droplet/mask/mask.h"
+#include "droplet/outline/outline.h"
 #include "type/text_layout.h"
 
 namespace droplet {

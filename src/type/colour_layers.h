@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "droplet/footprint/css_colour.h"
+#include "droplet/image/css_colour.h"
 #include "droplet/type/font.h"
 
 struct FT_FaceRec_;

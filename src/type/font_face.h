@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "droplet/error.h"
-#include "droplet/footprint/css_colour.h"
+#include "droplet/image/css_colour.h"
 #include "droplet/type/font.h"
 #include "type/colour_layers.h"
 #include "type/contour_union.h"

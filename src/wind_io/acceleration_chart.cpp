@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "droplet/picture/paint.h"
+#include "droplet/render/paint.h"
 #include "wind_io/plot.h"
 
 namespace droplet {

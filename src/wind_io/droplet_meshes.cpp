@@ -24,7 +24,7 @@ DropletMesh capMesh(double angle, const CapDetail& detail)
     DropletMesh mesh;
     const double radius = 1.0 / std::sin(angle);
     const double centre = -radius * std::cos(angle);
-    mesh.positions.push_back({0.0, 0.0, radius + centre});
+    mesh.vertices.push_back({0.0, 0.0, radius + centre});
     mesh.normals.push_back({0.0, 0.0, 1.0});
     const auto turned = [&](std::uint32_t k) { return 2.0 * std::numbers::pi * (k % around) / around; };
     for (std::uint32_t ring = 1; ring <= rings; ++ring) {
@@ -33,9 +33,9 @@ DropletMesh capMesh(double angle, const CapDetail& detail)
             const Vec3 normal{std::sin(tilt) * std::cos(turned(k)), std::sin(tilt) * std::sin(turned(k)),
                               std::cos(tilt)};
             mesh.normals.push_back(normal);
-            mesh.positions.push_back(radius * normal + Vec3{0.0, 0.0, centre});
+            mesh.vertices.push_back(radius * normal + Vec3{0.0, 0.0, centre});
             if (ring == rings) {
-                mesh.positions.back().z = 0.0;  // exactly on the glass
+                mesh.vertices.back().z = 0.0;  // exactly on the glass
             }
         }
     }
@@ -50,11 +50,11 @@ DropletMesh capMesh(double angle, const CapDetail& detail)
         }
     }
     // The base on the glass.
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.push_back({0.0, 0.0, 0.0});
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back({0.0, 0.0, 0.0});
     mesh.normals.push_back({0.0, 0.0, -1.0});
     for (std::uint32_t k = 0; k < around; ++k) {
-        mesh.positions.push_back({std::cos(turned(k)), std::sin(turned(k)), 0.0});
+        mesh.vertices.push_back({std::cos(turned(k)), std::sin(turned(k)), 0.0});
         mesh.normals.push_back({0.0, 0.0, -1.0});
     }
     for (std::uint32_t k = 0; k < around; ++k) {
@@ -65,9 +65,9 @@ DropletMesh capMesh(double angle, const CapDetail& detail)
                           (3.0 * std::pow(std::sin(angle), 3));
     double meshed = 0.0;
     for (const auto& [a, b, c] : mesh.triangles) {
-        meshed += dot(mesh.positions[a], cross(mesh.positions[b], mesh.positions[c])) / 6.0;
+        meshed += dot(mesh.vertices[a], cross(mesh.vertices[b], mesh.vertices[c])) / 6.0;
     }
-    for (Vec3& position : mesh.positions) {
+    for (Vec3& position : mesh.vertices) {
         position = std::cbrt(volume / meshed) * position;
     }
     return mesh;
@@ -82,8 +82,8 @@ DropletMesh glassMesh(const Glass& glass)
     for (int j = 0; j <= kUpward; ++j) {
         for (int i = 0; i <= kAcross; ++i) {
             if (const auto place = glass.place({glass.width() * i / kAcross, glass.height() * j / kUpward})) {
-                knots[{i, j}] = static_cast<std::uint32_t>(mesh.positions.size());
-                mesh.positions.push_back(halfTurned(place->point));
+                knots[{i, j}] = static_cast<std::uint32_t>(mesh.vertices.size());
+                mesh.vertices.push_back(halfTurned(place->point));
                 mesh.normals.push_back(halfTurned(place->normal));
             }
         }

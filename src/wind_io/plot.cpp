@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "droplet/error.h"
-#include "droplet/picture/paint.h"
+#include "droplet/render/paint.h"
 #include "number_text.h"
 
 namespace droplet {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "droplet/picture/drawing.h"
+#include "droplet/drawing/drawing.h"
 #include "droplet/wind_io/chart.h"
 
 namespace droplet {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "picture/lettering.h"
+#include "drawing/lettering.h"
 #include "wind_io/plot.h"
 
 namespace droplet {

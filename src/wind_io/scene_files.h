@@ -4,15 +4,15 @@
 
 #include <cstddef>
 
-#include "droplet/wind_io/droplet_scene.h"
+#include "droplet/wind_io/windshield_animation.h"
 #include "io/droplet_histories.h"
 #include "scene/scene.h"
 
 namespace droplet {
 
-/// Scene of droplets as a texture; see SceneAnimation::Texture.
+/// Scene of droplets as a texture; see AnimationMethod::Texture.
 /// @throws Error InvalidArgument as checkTexture()
-Scene sceneOfTexture(const DropletHistories& histories, const Glass& glass, const DropletSceneOptions& options);
+Scene sceneOfTexture(const DropletHistories& histories, const Glass& glass, const WindshieldAnimationOptions& options);
 
 /// Rejects textures that are too large for viewers.
 /// @param slots  number of droplets at once, or more

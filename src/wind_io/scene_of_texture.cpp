@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "droplet/drawing/picture.h"
 #include "droplet/error.h"
-#include "droplet/picture/picture.h"
 #include "wind_io/droplet_meshes.h"
 #include "wind_io/scene_files.h"
 
@@ -46,7 +46,7 @@ struct Range {
 
 class SceneOfTexture {
 public:
-    SceneOfTexture(const DropletHistories& histories, const Glass& glass, const DropletSceneOptions& options)
+    SceneOfTexture(const DropletHistories& histories, const Glass& glass, const WindshieldAnimationOptions& options)
         : frames_(histories.frames()),
           options_(options),
           pane_(glassMesh(glass)),
@@ -164,7 +164,7 @@ private:
     }
 
     std::uint32_t frames_;
-    DropletSceneOptions options_;
+    WindshieldAnimationOptions options_;
     DropletMesh pane_;
     DropletMesh cap_;
     std::array<Range, 3> places_;
@@ -189,7 +189,7 @@ void checkTexture(std::size_t slots, std::size_t frames)
     }
 }
 
-Scene sceneOfTexture(const DropletHistories& histories, const Glass& glass, const DropletSceneOptions& options)
+Scene sceneOfTexture(const DropletHistories& histories, const Glass& glass, const WindshieldAnimationOptions& options)
 {
     return SceneOfTexture(histories, glass, options).scene();
 }

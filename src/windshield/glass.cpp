@@ -221,7 +221,7 @@ Glass::Glass(const TexturedMesh& object, const Developed& developed)
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec2 uv = object.uvs[t[k]];
             f.flat[k] = {scale * uv.x, -scale * uv.y};
-            f.points[k] = turned(object.positions[t[k]]);
+            f.points[k] = turned(object.vertices[t[k]]);
             f.normals[k] = turned(object.normals[t[k]]);
         }
         const Vec3 facet = cross(f.points[1] - f.points[0], f.points[2] - f.points[0]);

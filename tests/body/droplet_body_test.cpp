@@ -31,14 +31,14 @@ constexpr double kVolume = 20e-9;
 constexpr Vec3 kDown{0.0, 0.0, -9.81};
 
 struct Made {
-    std::vector<Vec3> positions;
+    std::vector<Vec3> vertices;
     std::vector<Vec3> normals;
 };
 
 Made make(const DropletBodies& bodies, const BodyConditions& conditions)
 {
     Made made{std::vector<Vec3>(bodies.vertices()), std::vector<Vec3>(bodies.vertices())};
-    bodies.make(conditions, made.positions, made.normals);
+    bodies.make(conditions, made.vertices, made.normals);
     return made;
 }
 
@@ -49,11 +49,11 @@ DropletBodies bodiesOf(BodyShape shape, double degrees = 105.0)
     return DropletBodies(shape, model);
 }
 
-double volumeOf(const DropletBodies& bodies, const std::vector<Vec3>& positions)
+double volumeOf(const DropletBodies& bodies, const std::vector<Vec3>& vertices)
 {
     double sum = 0.0;
     for (const Triangle& t : bodies.triangles()) {
-        sum += dot(positions[t[0]], cross(positions[t[1]], positions[t[2]]));
+        sum += dot(vertices[t[0]], cross(vertices[t[1]], vertices[t[2]]));
     }
     return sum / 6.0;
 }
@@ -105,24 +105,24 @@ TEST(DropletBodies, HaveTheirVolumeAndFaceOutward)
                                          std::to_string(conditions.speed) + " " + std::to_string(conditions.gravity.x) +
                                          " " + std::to_string(conditions.gravity.z);
                 const Made made = make(bodies, conditions);
-                ASSERT_NEAR(volumeOf(bodies, made.positions) / conditions.volume, 1.0, 1e-9) << name;
+                ASSERT_NEAR(volumeOf(bodies, made.vertices) / conditions.volume, 1.0, 1e-9) << name;
                 Vec2 centre;
                 for (std::size_t v = 0; v < bodies.vertices(); ++v) {
                     ASSERT_NEAR(length(made.normals[v]), 1.0, 1e-12) << name;
                     if (v < bodies.rimVertices()) {
-                        ASSERT_EQ(made.positions[v].z, 0.0) << name;
-                        const Vec3 next = made.positions[(v + 1) % bodies.rimVertices()];
-                        const double twice = cross(made.positions[v], next).z;
+                        ASSERT_EQ(made.vertices[v].z, 0.0) << name;
+                        const Vec3 next = made.vertices[(v + 1) % bodies.rimVertices()];
+                        const double twice = cross(made.vertices[v], next).z;
                         ASSERT_GT(twice, 0.0) << name;
-                        centre = centre + twice * Vec2{made.positions[v].x + next.x, made.positions[v].y + next.y};
+                        centre = centre + twice * Vec2{made.vertices[v].x + next.x, made.vertices[v].y + next.y};
                     } else {
-                        ASSERT_GT(made.positions[v].z, 0.0) << name;
+                        ASSERT_GT(made.vertices[v].z, 0.0) << name;
                     }
                 }
                 ASSERT_LE(length(centre), 1e-9 * conditions.volume) << name;
                 for (const Triangle& t : bodies.triangles()) {
                     const Vec3 outward =
-                        cross(made.positions[t[1]] - made.positions[t[0]], made.positions[t[2]] - made.positions[t[0]]);
+                        cross(made.vertices[t[1]] - made.vertices[t[0]], made.vertices[t[2]] - made.vertices[t[0]]);
                     for (const std::uint32_t v : t) {
                         ASSERT_GT(dot(outward, made.normals[v]), 0.0) << name << " vertex " << v;
                     }
@@ -162,10 +162,10 @@ TEST(DropletBodies, AreBallsInTheAir)
 {
     const DropletBodies bodies = bodiesOf(BodyShape::Capillary);
     const Made made = make(bodies, {kVolume, 1.0, kDown, true});
-    EXPECT_NEAR(volumeOf(bodies, made.positions) / kVolume, 1.0, 1e-12);
-    const double radius = length(made.positions[0]);
+    EXPECT_NEAR(volumeOf(bodies, made.vertices) / kVolume, 1.0, 1e-12);
+    const double radius = length(made.vertices[0]);
     for (std::size_t v = 0; v < bodies.vertices(); ++v) {
-        EXPECT_LE(length(made.positions[v] - radius * made.normals[v]), 1e-12 * radius);
+        EXPECT_LE(length(made.vertices[v] - radius * made.normals[v]), 1e-12 * radius);
     }
 }
 
@@ -176,9 +176,9 @@ TEST(DropletBodies, AtRestAreRound)
         for (const Vec3 gravity : {Vec3{}, kDown, Vec3{0.0, 0.0, 9.81}}) {
             const Made made = make(bodies, {kVolume, 0.0, gravity});
             for (std::size_t v = 0; v + 1 < bodies.vertices(); ++v) {
-                const Vec3 first = made.positions[v - v % bodies.rimVertices()];
-                EXPECT_NEAR(std::hypot(made.positions[v].x, made.positions[v].y), first.x, 1e-9 * first.x);
-                EXPECT_NEAR(made.positions[v].z, first.z, 1e-9 * first.x);
+                const Vec3 first = made.vertices[v - v % bodies.rimVertices()];
+                EXPECT_NEAR(std::hypot(made.vertices[v].x, made.vertices[v].y), first.x, 1e-9 * first.x);
+                EXPECT_NEAR(made.vertices[v].z, first.z, 1e-9 * first.x);
             }
         }
     }
@@ -189,13 +189,12 @@ TEST(DropletBodies, WithoutGravityAreCapsOfAnyAngle)
     for (const double angle : {2.0, 30.0, 60.0, 90.0, 105.0, 140.0, 165.0, 178.0}) {
         const DropletBodies bodies = bodiesOf(BodyShape::Capillary, angle);
         const Made made = make(bodies, {kVolume, 0.0, {}});
-        const double foot = made.positions[0].x;
+        const double foot = made.vertices[0].x;
         const double radius = foot / std::sin(angle * kDegree);
         const Vec3 centre{0.0, 0.0, -radius * std::cos(angle * kDegree)};
         for (std::size_t v = 0; v < bodies.vertices(); ++v) {
-            EXPECT_NEAR(length(made.positions[v] - centre), radius, 1e-9 * radius) << angle;
-            EXPECT_LE(length(radius * made.normals[v] - made.positions[v] + centre), 1e-6 * radius)
-                << angle << " " << v;
+            EXPECT_NEAR(length(made.vertices[v] - centre), radius, 1e-9 * radius) << angle;
+            EXPECT_LE(length(radius * made.normals[v] - made.vertices[v] + centre), 1e-6 * radius) << angle << " " << v;
         }
         // The mesh is inscribed, so it is larger than the cap of the same volume.
         EXPECT_NEAR(foot / capOf(kVolume, angle * kDegree).contact_radius, 1.01, 0.01) << angle;
@@ -219,7 +218,7 @@ TEST(DropletBodies, WidePuddlesHaveTheHeightOfThePuddle)
         const Liquid water;
         const double capillary_length = std::sqrt(water.surface_tension / (water.density * 9.81));
         const Made made = make(bodies, {angle < 80.0 ? 3e-6 : 20e-6, 0.0, kDown});
-        EXPECT_NEAR(made.positions.back().z / (2.0 * capillary_length * std::sin(0.5 * angle * kDegree)), 1.0, 0.15)
+        EXPECT_NEAR(made.vertices.back().z / (2.0 * capillary_length * std::sin(0.5 * angle * kDegree)), 1.0, 0.15)
             << angle;
     }
 }
@@ -233,7 +232,7 @@ double solvedHeight(const DropletBodies& bodies, const Made& made, double volume
     for (std::size_t ring = 0; ring < kRings; ++ring) {
         for (std::size_t j = 0; j < n; ++j) {
             const double share = 1.0 - static_cast<double>(ring) / kRings;
-            mesh.vertices.push_back({share * made.positions[j].x, share * made.positions[j].y});
+            mesh.vertices.push_back({share * made.vertices[j].x, share * made.vertices[j].y});
             const auto a = static_cast<std::uint32_t>(ring * n + j);
             const auto b = static_cast<std::uint32_t>(ring * n + (j + 1) % n);
             if (ring + 1 == kRings) {
@@ -266,7 +265,7 @@ TEST(DropletBodies, AgreeWithTheExactSolver)
             const auto check = [&](double speed, Vec3 gravity, double g, double tilt, double tolerance) {
                 const Made made = make(bodies, {volume, speed, gravity});
                 double height = 0.0;
-                for (const Vec3 p : made.positions) {
+                for (const Vec3 p : made.vertices) {
                     height = std::max(height, p.z);
                 }
                 EXPECT_NEAR(height / solvedHeight(bodies, made, volume, g, tilt), 1.0, tolerance)
@@ -293,7 +292,7 @@ TEST(DropletBodies, RunningHaveAHeadAndATail)
         double width = 0.0;
         double widest_at = 0.0;
         for (std::size_t v = 0; v < bodies.rimVertices(); ++v) {
-            const Vec3 p = made.positions[v];
+            const Vec3 p = made.vertices[v];
             front = std::max(front, p.x);
             back = std::min(back, p.x);
             if (p.y > width) {
@@ -308,8 +307,8 @@ TEST(DropletBodies, RunningHaveAHeadAndATail)
         EXPECT_GT(std::acos(made.normals[0].z), std::acos(made.normals[bodies.rimVertices() / 2].z));
         // Left and right are mirror images.
         for (std::size_t v = 1; v < bodies.rimVertices(); ++v) {
-            const Vec3 other = made.positions[bodies.rimVertices() - v];
-            EXPECT_LE(length(Vec3{other.x, -other.y, other.z} - made.positions[v]), 1e-8 * front);
+            const Vec3 other = made.vertices[bodies.rimVertices() - v];
+            EXPECT_LE(length(Vec3{other.x, -other.y, other.z} - made.vertices[v]), 1e-8 * front);
         }
     }
     EXPECT_LT(last, 4.0) << "elongation is bounded";
@@ -323,15 +322,15 @@ TEST(DropletBodies, LeanWithTheForce)
         const Made left = make(bodies, {kVolume, 0.0, {0.0, 9.81, 0.0}});
         double lean = 0.0;
         for (std::size_t v = 0; v < bodies.vertices(); ++v) {
-            lean += left.positions[v].y * left.positions[v].z;
+            lean += left.vertices[v].y * left.vertices[v].z;
             const std::size_t ring = v / bodies.rimVertices();
             const std::size_t slice = v % bodies.rimVertices();
             const std::size_t mirrored =
                 v + 1 == bodies.vertices()
                     ? v
                     : ring * bodies.rimVertices() + (bodies.rimVertices() - slice) % bodies.rimVertices();
-            const Vec3 other = right.positions[mirrored];
-            EXPECT_LE(length(Vec3{other.x, -other.y, other.z} - left.positions[v]), 1e-5 * left.positions.back().z);
+            const Vec3 other = right.vertices[mirrored];
+            EXPECT_LE(length(Vec3{other.x, -other.y, other.z} - left.vertices[v]), 1e-5 * left.vertices.back().z);
         }
         EXPECT_GT(lean, 0.0);
     }
@@ -346,7 +345,7 @@ TEST(DropletBodies, ChangeSmoothly)
             // Speed rises and the ground turns over.
             const double t = step / 400.0;
             const Made next = make(bodies, {kVolume, t, 9.81 * Vec3{std::sin(3.0 * t), 0.0, -std::cos(3.0 * t)}});
-            EXPECT_LE(farthest(last.positions, next.positions), 0.05e-3) << t;
+            EXPECT_LE(farthest(last.vertices, next.vertices), 0.05e-3) << t;
             EXPECT_LE(farthest(last.normals, next.normals), 0.1) << t;
             last = next;
         }
@@ -359,10 +358,10 @@ TEST(DropletBodies, CapsulesLieOnTheRunningShape)
     const Made made = make(bodies, {kVolume, 0.5, {}});
     const RunningShape shape = runningShape(kVolume, 0.5, {.contact_angle = 95.0 * kDegree});
     // The mesh is inscribed and has the volume, so it is a little larger.
-    const double scale = made.positions.back().z / shape.height();
+    const double scale = made.vertices.back().z / shape.height();
     EXPECT_NEAR(scale, 1.02, 0.02);
     for (std::size_t v = 0; v < bodies.vertices(); ++v) {
-        const Vec3 p = (1.0 / scale) * made.positions[v];
+        const Vec3 p = (1.0 / scale) * made.vertices[v];
         const double beyond = std::max(std::abs(p.x) - shape.half_length, 0.0);
         EXPECT_NEAR(std::hypot(beyond, p.y, p.z - shape.centre_height), shape.radius, 1e-9 * shape.radius);
     }
@@ -374,7 +373,7 @@ TEST(DropletBodies, AreTheSameAtAnyNumberOfThreads)
     const Made many = make(bodiesOf(BodyShape::Capillary), conditions);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
     const Made one = make(bodiesOf(BodyShape::Capillary), conditions);
-    EXPECT_EQ(one.positions, many.positions);
+    EXPECT_EQ(one.vertices, many.vertices);
     EXPECT_EQ(one.normals, many.normals);
 }
 

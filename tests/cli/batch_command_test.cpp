@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "droplet/picture/picture.h"
+#include "droplet/drawing/picture.h"
 #include "droplet/version.h"
 #include "support/command.h"
 #include "support/hostile_drawings.h"

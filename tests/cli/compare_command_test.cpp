@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "cli/in_process.h"
+#include "droplet/drawing/picture.h"
 #include "droplet/io/output.h"
-#include "droplet/picture/picture.h"
 #include "support/command.h"
 #include "support/paths.h"
 #include "support/surfaces.h"

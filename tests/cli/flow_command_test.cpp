@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "cli/in_process.h"
+#include "droplet/drawing/picture.h"
 #include "droplet/io/read_surface.h"
-#include "droplet/picture/picture.h"
 #include "droplet/units.h"
 #include "support/command.h"
 #include "support/paths.h"
@@ -90,8 +90,8 @@ TEST_F(FlowCommand, IsTheFormulaOnASlope)
 {
     const double slope = 30.0 * kDegree;
     testing::writeFile(path("start.csv"), "x_m,y_m,z_m,volume_m3\n0.5,0.519615242270663,-0.9,2e-8\n");
-    const CommandResult run = flow("out.glb", {"--start", path("start.csv"), "--model", "paper", "--friction", "1e-4",
-                                               "--droplets", path("paths.csv"), "--time", "1s", "--fps", "24"});
+    const CommandResult run = flow("out.glb", {"--start", path("start.csv"), "--retention", "paper", "--friction",
+                                               "1e-4", "--droplets", path("paths.csv"), "--time", "1s", "--fps", "24"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const double decay = 1e-4 / (998.2 * 2e-8);
     const double pull = 9.81 * std::sin(slope);
@@ -124,7 +124,7 @@ TEST_F(FlowCommand, WritesAllThatItSays)
         // They lie on the slope, y = −tan 30° z in the file.
         const Surface surface = readSurface(first).surface;
         const bool is_turned = first.ends_with(".stl") || first.ends_with(".ply");
-        for (const Vec3& p : surface.positions) {
+        for (const Vec3& p : surface.vertices) {
             const Vec3 in_file = is_turned ? p : Vec3{p.x, p.z, -p.y};
             EXPECT_NEAR(in_file.y, -std::tan(30.0 * kDegree) * in_file.z, 5e-3) << first;
         }
@@ -155,8 +155,8 @@ TEST_F(FlowCommand, IsTheSameWithAnyNumberOfThreadsAndIfItResumes)
     for (const char* folder : {"a", "b"}) {
         std::filesystem::create_directory(path(folder));
     }
-    const std::vector<std::string> options{"--drops", "20",  "--size", "20cm", "--rain", "50mm/h",
-                                           "--film",  "5um", "--fps",  "10",   "--time"};
+    const std::vector<std::string> options{"--drops", "20",  "--object-size", "20cm", "--rain", "50mm/h",
+                                           "--film",  "5um", "--fps",         "10",   "--time"};
     const auto with = [&](std::vector<std::string> more) {
         std::vector<std::string> all = options;
         all.insert(all.end(), more.begin(), more.end());
@@ -266,7 +266,7 @@ TEST_F(FlowCommand, ShowsPresetsWithTheirOwnObjects)
     EXPECT_EQ(preset({"bottle", path("b.glb"), "--time", "0.1s", "--quiet"}).exit_code, 0);
     EXPECT_THAT(preset({"tears", path("x.glb")}).error, HasSubstr("masses, viscosities, adhesions"));
     EXPECT_THAT(preset({"tear", path("slope.obj"), path("x.glb")}).error, HasSubstr("its own object"));
-    EXPECT_THAT(preset({"tear", path("x.glb"), "--size", "3cm"}).error, HasSubstr("--size needs OBJECT"));
+    EXPECT_THAT(preset({"tear", path("x.glb"), "--object-size", "3cm"}).error, HasSubstr("--object-size needs OBJECT"));
     EXPECT_THAT(preset({"tear"}).error, HasSubstr("OUTPUT"));
     EXPECT_FALSE(std::filesystem::exists(path("x.glb")));
 }
@@ -282,10 +282,10 @@ TEST_F(FlowCommand, TellsOfFullCoverAndOfTrianglesThatDoNotJoin)
         std::erase_if(lines, [](const std::string& line) { return !line.starts_with("warning: "); });
         return lines;
     };
-    EXPECT_THAT(warned("slope.obj", {"--size", "2cm", "--drops", "10"}), IsEmpty());
-    EXPECT_THAT(warned("slope.obj", {"--size", "2cm", "--drops", "100"}),
+    EXPECT_THAT(warned("slope.obj", {"--object-size", "2cm", "--drops", "10"}), IsEmpty());
+    EXPECT_THAT(warned("slope.obj", {"--object-size", "2cm", "--drops", "100"}),
                 ElementsAre(AllOf(HasSubstr("--drops: 100 droplets cover"), HasSubstr("cm2"))));
-    EXPECT_THAT(warned("slope.obj", {"--size", "2cm", "--drops", "100", "--no-merge"}), IsEmpty());
+    EXPECT_THAT(warned("slope.obj", {"--object-size", "2cm", "--drops", "100", "--no-merge"}), IsEmpty());
     // Two triangles whose common corners differ by rounding.
     testing::writeFile(path("soup.obj"),
                        "v 0 0 0\nv 100 0 0\nv 100 50 -100\nv 0.001 0 0\nv 100.001 50 -100\nv 0 50 -100\n"
@@ -327,7 +327,7 @@ TEST_F(FlowCommand, RefusesWhatItCannotUse)
     expectRefused({"--drops", "3", "--spin", "30deg"}, 2, "--spin");
     expectRefused({"--emitter", "0,1,0"}, 2, "--emitter");
     expectRefused({"--start", path("no.csv")}, 3, "no.csv");
-    expectRefused({"--drops", "3", "--size", "20mm", "--volume", "1L"}, 2, "the object");
+    expectRefused({"--drops", "3", "--object-size", "20mm", "--volume", "1L"}, 2, "the object");
     expectRefused({"--drops", "3", "--json", path("slope.obj")}, 2, "slope.obj");
     testing::writeFile(path("points.obj"), "v 0 0 0\nv 1 0 0\n");
     expectRefused({"--drops", "3"}, 3, "points.obj", "points.obj");

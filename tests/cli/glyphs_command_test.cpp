@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "droplet/picture/picture.h"
+#include "cli/refusal.h"
+#include "droplet/drawing/picture.h"
 #include "support/command.h"
 #include "support/fonts.h"
-#include "cli/refusal.h"
 
 namespace droplet {
 namespace {

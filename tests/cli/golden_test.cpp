@@ -92,12 +92,12 @@ TriangleMesh readGlb(const std::filesystem::path& path)
         throw std::runtime_error(path.string() + ": " + error);
     }
     const tinygltf::Primitive& primitive = model.meshes.at(0).primitives.at(0);
-    const auto positions = values<float>(model, primitive.attributes.at("POSITION"), 3);
+    const auto vertices = values<float>(model, primitive.attributes.at("POSITION"), 3);
     // Golden droplets are small enough for 16-bit indices.
     const auto corners = values<std::uint16_t>(model, primitive.indices, 1);
     TriangleMesh mesh;
-    for (std::size_t k = 0; k + 2 < positions.size(); k += 3) {
-        mesh.positions.push_back({positions[k], positions[k + 1], positions[k + 2]});
+    for (std::size_t k = 0; k + 2 < vertices.size(); k += 3) {
+        mesh.vertices.push_back({vertices[k], vertices[k + 1], vertices[k + 2]});
     }
     for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
         mesh.triangles.push_back({corners[k], corners[k + 1], corners[k + 2]});
@@ -108,7 +108,7 @@ TriangleMesh readGlb(const std::filesystem::path& path)
 double height(const TriangleMesh& mesh)
 {
     double top = 0.0;
-    for (const Vec3 p : mesh.positions) {
+    for (const Vec3 p : mesh.vertices) {
         top = std::max(top, p.y);
     }
     return top;
@@ -217,18 +217,18 @@ TEST(Golden, EveryCaseHasItsFile)
 TEST(CompareSurfaces, MeasuresKnownDistances)
 {
     const TriangleMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-    const TriangleMesh other_diagonal{square.positions, {{0, 1, 3}, {1, 2, 3}}};
+    const TriangleMesh other_diagonal{square.vertices, {{0, 1, 3}, {1, 2, 3}}};
     EXPECT_EQ(compare(square, other_diagonal).distance.largest, 0.0);
 
     TriangleMesh lifted = square;
-    for (Vec3& p : lifted.positions) {
+    for (Vec3& p : lifted.vertices) {
         p.z = 0.25;
     }
     EXPECT_NEAR(compare(lifted, square).distance.mean, 0.25, 1e-15);
     EXPECT_NEAR(compare(lifted, square).distance.largest, 0.25, 1e-15);
 
     // Every point of the half lies on the square, but not the reverse: the far centre is 1/3 · 1/√2 away.
-    const TriangleMesh half{square.positions, {{0, 1, 2}}};
+    const TriangleMesh half{square.vertices, {{0, 1, 2}}};
     const Difference missing = compare(half, square);
     EXPECT_NEAR(missing.distance.mean, 0.5 * std::sqrt(0.5) / 3.0, 1e-15);
     EXPECT_NEAR(missing.distance.largest, std::sqrt(0.5), 1e-15);

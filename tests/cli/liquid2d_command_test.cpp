@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/in_process.h"
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 #include "support/command.h"
 #include "support/paths.h"
 
@@ -31,8 +31,8 @@ protected:
 
     [[nodiscard]] static CommandResult liquid(std::vector<std::string> more)
     {
-        std::vector<std::string> arguments{"liquid2d", "--scene",          "dam", "--time",  "1s",  "--fps",
-                                           "8",        "--particle-count", "300", "--width", "160", "--quiet"};
+        std::vector<std::string> arguments{"liquid2d", "--scene",          "dam", "--time",        "1s",  "--fps",
+                                           "8",        "--particle-count", "300", "--frame-width", "160", "--quiet"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return runDroplet(arguments);
     }
@@ -151,8 +151,8 @@ TEST_F(Liquid2dCommand, DrawsParticlesOfOtherPrograms)
         }
         testing::writeFile(path("sim" + std::to_string(frame) + ".csv"), rows);
     }
-    const CommandResult run = runDroplet(
-        {"liquid2d", "--particles", path("sim%d.csv"), path("out%d.png"), "--width", "100", "--json", "-", "--quiet"});
+    const CommandResult run = runDroplet({"liquid2d", "--particles", path("sim%d.csv"), path("out%d.png"),
+                                          "--frame-width", "100", "--json", "-", "--quiet"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto report = nlohmann::json::parse(run.output);
     EXPECT_NEAR(report.at("frames").at(2).at("area_m2").get<double>(), 1.0, 0.05);
@@ -160,7 +160,7 @@ TEST_F(Liquid2dCommand, DrawsParticlesOfOtherPrograms)
 
     // A file without a number is one frame.
     const CommandResult single = runDroplet(
-        {"liquid2d", "--particles", path("sim1.csv"), path("one.png"), "--width", "100", "--json", "-", "-q"});
+        {"liquid2d", "--particles", path("sim1.csv"), path("one.png"), "--frame-width", "100", "--json", "-", "-q"});
     ASSERT_EQ(single.exit_code, 0) << single.error;
     const auto frames = nlohmann::json::parse(single.output).at("frames");
     ASSERT_EQ(frames.size(), 1U);
@@ -183,8 +183,8 @@ TEST_F(Liquid2dCommand, IdsMayBeAsLargeAsTheyLike)
                     std::to_string(0.1 * (k / 10)) + "\n";
         }
         testing::writeFile(path(name + ".csv"), rows);
-        const CommandResult run =
-            runDroplet({"liquid2d", "--particles", path(name + ".csv"), path(name + ".svg"), "--width", "100", "-q"});
+        const CommandResult run = runDroplet(
+            {"liquid2d", "--particles", path(name + ".csv"), path(name + ".svg"), "--frame-width", "100", "-q"});
         EXPECT_EQ(run.exit_code, 0) << run.error;
         return readFile(path(name + ".svg"));
     };

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cli/in_process.h"
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 #include "support/command.h"
 #include "support/paths.h"
 
@@ -192,7 +192,7 @@ TEST_F(MorphCommand, RefusesWhatCannotFlow)
     expectRefused({square, square, path("%d.png"), "--volume", "3uL"}, 2, "--volume needs droplets as OUTPUT");
     expectRefused({square, square, square, square, out}, 2, "3 transitions need at least 7 frames");
     expectRefused({square, square, out, "--look", "ink"}, 2, "--look needs drawings as OUTPUT");
-    expectRefused({square, square, out, "--font", "serif"}, 2, "--font needs --text");
+    expectRefused({square, square, out, "--font-family", "serif"}, 2, "--font-family needs --text");
     expectRefused({square, square, out, "--rounding", "11"}, 2, "--rounding: '11' must be a number from 0 to 10");
     EXPECT_FALSE(fs::exists(out));
 }

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "droplet/drawing/picture.h"
 #include "droplet/error.h"
-#include "droplet/picture/picture.h"
 
 namespace {
 

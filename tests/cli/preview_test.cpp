@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "droplet/picture/picture.h"
-#include "support/command.h"
 #include "cli/refusal.h"
+#include "droplet/drawing/picture.h"
+#include "support/command.h"
 
 namespace droplet {
 namespace {
@@ -96,7 +96,7 @@ TEST_F(PreviewTest, TurntablePicturesAreNumberedAndTurned)
 
 TEST_F(PreviewTest, TurntableIsOneVideo)
 {
-    made({"--preview", "turn.mp4", "--turntable", "2", "--background", "none"});
+    made({"--preview", "turn.mp4", "--turntable", "2", "--preview-background", "none"});
     EXPECT_EQ(readFile(directory() / "turn.mp4").substr(4, 4), "ftyp");
     EXPECT_FALSE(fs::exists(directory() / "turn-001.mp4"));
     made({"--preview", "best.mkv", "--turntable", "2", "--quality", "100"});
@@ -115,10 +115,10 @@ TEST_F(PreviewTest, TurntableAloneNamesItsVideo)
 
 TEST_F(PreviewTest, BackgroundNoneIsTransparent)
 {
-    made({"--preview", "cut.png", "--background", "none"});
+    made({"--preview", "cut.png", "--preview-background", "none"});
     constexpr std::size_t kColourType = 25;  // offset in a PNG
     EXPECT_EQ(readFile(directory() / "cut.png").at(kColourType), 6) << "with alpha";
-    made({"--preview", "cut.png", "--background", "ground"});
+    made({"--preview", "cut.png", "--preview-background", "ground"});
     EXPECT_EQ(readFile(directory() / "cut.png").at(kColourType), 2);
 }
 
@@ -128,7 +128,7 @@ TEST_F(PreviewTest, WarnsAboutOptionsWithoutEffect)
                                                    {"--ground", "disc.pgm"},
                                                    {"--colour", "contours"},
                                                    {"--camera", "0deg,9deg"},
-                                                   {"--background", "none"},
+                                                   {"--preview-background", "none"},
                                                    {"--environment", "disc.pgm"},
                                                    {"--turntable", "2"}}) {
         EXPECT_THAT(made(option).error, HasSubstr("warning: " + option[0] + " has no effect without --preview"));
@@ -159,11 +159,11 @@ TEST_F(PreviewTest, RefusesWrongOptions)
             {"--preview-colour", "look, contours, contact-angle"});
     refused({"--preview", "a.png", "--camera", "20deg"}, 2, {"--camera", "-60deg,30deg"});
     refused({"--preview", "a.png", "--camera", "0deg,91deg"}, 2, {"--camera: elevation", "from 0deg to 90deg"});
-    refused({"--preview", "a.png", "--background", "white"}, 2, {"--background", "ground, none"});
-    refused({"--preview", "a.png", "--background", "none", "--colour", "contours"}, 2,
-            {"--background none", "--colour"});
-    refused({"--preview", "a.png", "--background", "none", "--ground", "old.json"}, 2,
-            {"--background none", "--ground"});
+    refused({"--preview", "a.png", "--preview-background", "white"}, 2, {"--preview-background", "ground, none"});
+    refused({"--preview", "a.png", "--preview-background", "none", "--colour", "contours"}, 2,
+            {"--preview-background none", "--colour"});
+    refused({"--preview", "a.png", "--preview-background", "none", "--ground", "old.json"}, 2,
+            {"--preview-background none", "--ground"});
     refused({"--preview", "a.png", "--turntable", "0"}, 2, {"--turntable"});
     refused({"--preview", "a.png", "--turntable", "361"}, 2, {"--turntable", "360"});
     refused({"--preview", "-", "--turntable", "3"}, 2, {"--turntable", "--preview must name a file"});

@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "droplet/picture/picture.h"
+#include "cli/refusal.h"
+#include "droplet/drawing/picture.h"
 #include "droplet/units.h"
 #include "droplet/wind/tunnel.h"
 #include "support/command.h"
 #include "support/paths.h"
-#include "cli/refusal.h"
 
 namespace droplet {
 namespace {
@@ -52,12 +52,12 @@ Json reportOf(std::vector<std::string> arguments)
 
 std::vector<double> windsOf(const std::string& list)
 {
-    return reportOf({"--volume", "30uL", "--wind", list}).at("runs").at(0).at("wind_m_per_s");
+    return reportOf({"--volume", "30uL", "--wind-speed", list}).at("runs").at(0).at("wind_m_per_s");
 }
 
 std::vector<double> volumesOf(const std::string& list)
 {
-    const Json report = reportOf({"--wind", "5m/s", "--volume", list});
+    const Json report = reportOf({"--wind-speed", "5m/s", "--volume", list});
     std::vector<double> volumes;
     for (const Json& one : report.at("runs").at(0).at("cases")) {
         volumes.push_back(one.at("volume_m3"));
@@ -101,7 +101,7 @@ TEST(ValueList, RangesContainExactlyTheWrittenNumbers)
 
 TEST(ValueList, PlainNumbersHaveNoUnit)
 {
-    const Json report = reportOf({"--hysteresis", "0.05,0.1..0.3:0.1", "--volume", "30uL", "--wind", "5m/s"});
+    const Json report = reportOf({"--hysteresis", "0.05,0.1..0.3:0.1", "--volume", "30uL", "--wind-speed", "5m/s"});
     std::vector<double> found;
     for (const Json& one : report.at("runs").at(0).at("cases")) {
         found.push_back(one.at("hysteresis"));
@@ -130,17 +130,18 @@ TEST_F(WindTunnelRefusal, RefusesWrongLists)
     expectRefused({"--volume", "nanuL"}, {"--volume"});
     expectRefused({"--volume", "0uL"}, {"--volume", "'0uL'", "from 0.001nL to 1L"});
     expectRefused({"--volume", "10uL,2L"}, {"--volume", "'2L'"});
-    expectRefused({"--wind", "-1m/s"}, {"--wind", "from 0m/s to 300m/s"});
-    expectRefused({"--wind", "0..16m/s:0"}, {"--wind", "step over 0"});
-    expectRefused({"--wind", "0..16m/s:-1"}, {"--wind", "step over 0"});
-    expectRefused({"--wind", "16..0m/s:1"}, {"--wind", "smaller to a larger"});
-    expectRefused({"--wind", "0..300m/s:0.0000001"}, {"--wind", "at most 1000000"});
-    expectRefused({"--wind", "0..16m/s:1kg"}, {"--wind", "not a speed"});
-    expectRefused({"--wind", "0..8..16m/s:1"}, {"--wind"});
+    expectRefused({"--wind-speed", "-1m/s"}, {"--wind-speed", "from 0m/s to 300m/s"});
+    expectRefused({"--wind-speed", "0..16m/s:0"}, {"--wind-speed", "step over 0"});
+    expectRefused({"--wind-speed", "0..16m/s:-1"}, {"--wind-speed", "step over 0"});
+    expectRefused({"--wind-speed", "16..0m/s:1"}, {"--wind-speed", "smaller to a larger"});
+    expectRefused({"--wind-speed", "0..300m/s:0.0000001"}, {"--wind-speed", "at most 1000000"});
+    expectRefused({"--wind-speed", "0..16m/s:1kg"}, {"--wind-speed", "not a speed"});
+    expectRefused({"--wind-speed", "0..8..16m/s:1"}, {"--wind-speed"});
     expectRefused({"--hysteresis", "0.5uL"}, {"--hysteresis", "from 0 to 2"});
     expectRefused({"--hysteresis", "2.1"}, {"--hysteresis", "from 0 to 2"});
     expectRefused({"--slope", "91deg"}, {"--slope", "from 0deg to 90deg"});
-    expectRefused({"--volume", "1..1000uL:1", "--wind", "0..100m/s:0.001"}, {"--volume", "100001000", "10000000"});
+    expectRefused({"--volume", "1..1000uL:1", "--wind-speed", "0..100m/s:0.001"},
+                  {"--volume", "100001000", "10000000"});
 }
 
 TEST_F(WindTunnelRefusal, RefusesWrongParameters)
@@ -170,7 +171,7 @@ TEST_F(WindTunnelRefusal, RefusesWrongParameters)
 
 TEST_F(WindTunnelRefusal, NamesOptionsByTheirNewNamesAndAcceptsTheOld)
 {
-    const std::vector<std::string> volume{"--volume", "10uL", "--wind", "5m/s"};
+    const std::vector<std::string> volume{"--volume", "10uL", "--wind-speed", "5m/s"};
     const auto cases = [](std::vector<std::string> arguments, const std::string& prefix) {
         for (const std::string& argument :
              {"--" + prefix + "-angle", std::string("12deg"), "--" + prefix + "-volume", std::string("40uL")}) {
@@ -193,13 +194,14 @@ TEST_F(WindTunnelRefusal, RefusesWrongOutputs)
     expectRefused({"-", "--json", "-"}, {"-", "different files"});
     expectRefused({"--time", "1s"}, {"--time needs --trace"});
     expectRefused({"--trace", "t.csv"}, {"--trace", "--volume must be one value, not 4"});
-    expectRefused({"--trace", "t.csv", "--volume", "30uL", "--wind", "9m/s", "--preset", "thesis,hashimoto"},
+    expectRefused({"--trace", "t.csv", "--volume", "30uL", "--wind-speed", "9m/s", "--preset", "thesis,hashimoto"},
                   {"--trace", "--preset"});
-    expectRefused({"--trace", "t.csv", "--volume", "30uL", "--wind", "9m/s", "--time", "0s"}, {"--time"});
-    expectRefused({"--trace", "t.csv", "--volume", "30uL", "--wind", "9m/s", "--time", "24h", "--trace-step", "1ms"},
-                  {"--trace-step"});
+    expectRefused({"--trace", "t.csv", "--volume", "30uL", "--wind-speed", "9m/s", "--time", "0s"}, {"--time"});
     expectRefused(
-        {"--trace", "t.csv", "--volume", "30uL", "--wind", "9m/s", "--gust", "1m/s", "--gust-period", "0.001ms"},
+        {"--trace", "t.csv", "--volume", "30uL", "--wind-speed", "9m/s", "--time", "24h", "--trace-step", "1ms"},
+        {"--trace-step"});
+    expectRefused(
+        {"--trace", "t.csv", "--volume", "30uL", "--wind-speed", "9m/s", "--gust", "1m/s", "--gust-period", "0.001ms"},
         {"--gust-period", "100000"});
     expectRefused({"--chart", "c.svg", "--slope", "1..13deg:1"}, {"panel", "12"});
     expectRefusal({"wind-tunnel", "--json", "old.json", "--no-clobber"}, 4, {"old.json"});
@@ -325,7 +327,7 @@ struct Table {
 TEST(WindTunnelCommand, TableAgreesWithTheReport)
 {
     const std::vector<std::string> sweep{
-        "--preset", "thesis,hashimoto", "--volume",           "3,30uL", "--wind", "0..16m/s:0.5",
+        "--preset", "thesis,hashimoto", "--volume",           "3,30uL", "--wind-speed", "0..16m/s:0.5",
         "--slope",  "20,35deg",         "--viscosity-factor", "wedge"};
     std::vector<std::string> arguments = sweep;
     arguments.insert(arguments.end(), {"-", "-q"});
@@ -361,7 +363,8 @@ TEST(WindTunnelCommand, TableAgreesWithTheReport)
 TEST(WindTunnelCommand, SameBytesWithAnyNumberOfThreads)
 {
     const auto on = [](const char* threads) {
-        return tunnel({"--volume", "1..30uL:1", "--wind", "0..16m/s:0.02", "-", "-q", "--threads", threads}).output;
+        return tunnel({"--volume", "1..30uL:1", "--wind-speed", "0..16m/s:0.02", "-", "-q", "--threads", threads})
+            .output;
     };
     const std::string one = on("1");
     EXPECT_THAT(one, SizeIs(::testing::Gt(1'000'000U)));
@@ -419,7 +422,7 @@ TEST(WindTunnelCommand, EveryOptionReachesTheModel)
                                "50deg",
                                "--hysteresis",
                                "0.3",
-                               "--wind",
+                               "--wind-speed",
                                "9m/s"})
                          .at("runs")
                          .at(0);
@@ -485,8 +488,8 @@ TEST(WindTunnelCommand, TakesOptionsFromAFile)
 
 TEST(WindTunnelCommand, TraceFollowsOneDroplet)
 {
-    const std::vector<std::string> droplet{"--volume", "30uL",   "--wind", "9.3m/s",       "--gust",
-                                           "2m/s",     "--time", "3s",     "--trace-step", "50ms"};
+    const std::vector<std::string> droplet{"--volume", "30uL",   "--wind-speed", "9.3m/s",       "--gust",
+                                           "2m/s",     "--time", "3s",           "--trace-step", "50ms"};
     const testing::ScratchDirectory scratch;
     const std::string path = (scratch.path() / "run.json").string();
     std::vector<std::string> arguments = droplet;
@@ -515,7 +518,8 @@ TEST(WindTunnelCommand, TraceFollowsOneDroplet)
 TEST(WindTunnelCommand, TraceEndsAtTheTerminalSpeed)
 {
     const Table table(
-        tunnel({"--volume", "30uL", "--wind", "0m/s", "--viscosity-factor", "artistic", "--trace", "-", "-q"}).output);
+        tunnel({"--volume", "30uL", "--wind-speed", "0m/s", "--viscosity-factor", "artistic", "--trace", "-", "-q"})
+            .output);
     EXPECT_NEAR(table.number("velocity_m_per_s", 100), -0.11, 0.005);
     EXPECT_NEAR(table.number("acceleration_m_per_s2", 0), -3.92, 0.005);
 }

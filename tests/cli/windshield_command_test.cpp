@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "cli/in_process.h"
-#include "droplet/picture/picture.h"
+#include "droplet/drawing/picture.h"
 #include "support/command.h"
 #include "support/paths.h"
 
@@ -68,7 +68,7 @@ protected:
             add("--glass-height", "250mm");
         }
         if (!is_given("--background")) {
-            add("--size", "96x54");
+            add("--frame-size", "96x54");
         }
         arguments.insert(arguments.end(), more.begin(), more.end());
         return arguments;
@@ -128,10 +128,10 @@ TEST_F(WindshieldCommand, PresetsOfTheThesisDrawCapsules)
 TEST_F(WindshieldCommand, WritesAllOutputs)
 {
     std::filesystem::create_directory(path("f"));
-    const CommandResult run =
-        simulate(path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets",
-                                    path("d.csv"), "--model", path("d.glb"), "--model-animation", "texture", "--json",
-                                    "-", "--wiper-period", "1.5s", "--background-blur", "1deg", "--shutter", "180deg"});
+    const CommandResult run = simulate(
+        path("f/%d.png"), {"--layer", "--maps", path("f/m%d.png"), "--map-width", "64", "--droplets", path("d.csv"),
+                           "--animation", path("d.glb"), "--animation-method", "texture", "--json", "-",
+                           "--wiper-period", "1.5s", "--background-blur", "1deg", "--shutter", "180deg"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto report = nlohmann::json::parse(run.output);
     EXPECT_EQ(report.at("schema"), "droplet-shape.windshield/1");
@@ -271,7 +271,7 @@ TEST_F(WindshieldCommand, KeepsFilesOfOthers)
 TEST_F(WindshieldCommand, ReportsFilesBeyondTheSizeLimit)
 {
     std::vector<std::string> command{"bash", "-c", "ulimit -f 4; exec \"$@\"", "bash", testing::kCommand};
-    for (const std::string& argument : argumentsOf(path("x.png"), {"--size", "320x180"})) {
+    for (const std::string& argument : argumentsOf(path("x.png"), {"--frame-size", "320x180"})) {
         command.push_back(argument);
     }
     const CommandResult result = testing::runProgram(command);
@@ -283,7 +283,7 @@ TEST_F(WindshieldCommand, ReportsFilesBeyondTheSizeLimit)
 TEST_F(WindshieldCommand, ResumingWithATableIncludesAllFrames)
 {
     std::filesystem::create_directory(path("f"));
-    const std::vector<std::string> options{"--fps", "5", "--droplets", path("d.csv"), "--model", path("d.glb")};
+    const std::vector<std::string> options{"--fps", "5", "--droplets", path("d.csv"), "--animation", path("d.glb")};
     const auto with_time = [&](const char* time, bool resumes) {
         std::vector<std::string> all = options;
         all.insert(all.end(), {"--time", time});
@@ -323,8 +323,8 @@ TEST_F(WindshieldCommand, BackgroundsFillTheFrame)
     ASSERT_EQ(own.exit_code, 0) << own.error;
     EXPECT_EQ(readPicture(path("own.png")).width, 80);
     EXPECT_EQ(readPicture(path("own.png")).height, 60);
-    expectRefused({"--background", road, "--size", "96x54"}, 3, "has 80x60 pixels, but the frame has 96x54");
-    ASSERT_EQ(simulate(path("fit.png"), {"--background", road, "--size", "96x54", "--fit"}).exit_code, 0);
+    expectRefused({"--background", road, "--frame-size", "96x54"}, 3, "has 80x60 pixels, but the frame has 96x54");
+    ASSERT_EQ(simulate(path("fit.png"), {"--background", road, "--frame-size", "96x54", "--fit"}).exit_code, 0);
     EXPECT_EQ(readPicture(path("fit.png")).width, 96);
 }
 
@@ -336,7 +336,7 @@ TEST_F(WindshieldCommand, ReadsAndWritesVideos)
     ASSERT_EQ(simulate(path("behind.png"), {"--background", path("rain.mp4"), "--time", "0.4s"}).exit_code, 0)
         << "a video of six frames repeats";
     EXPECT_EQ(readPicture(path("behind.png")).width, 96);
-    const CommandResult odd = simulate(path("odd.mp4"), {"--size", "97x54"});
+    const CommandResult odd = simulate(path("odd.mp4"), {"--frame-size", "97x54"});
     EXPECT_EQ(odd.exit_code, 2);
     EXPECT_THAT(odd.errorLines(), ElementsAre(HasSubstr("even")));
     const CommandResult codec = simulate(path("x.mp4"), {"--codec", "no-such-codec"});
@@ -477,7 +477,7 @@ TEST_F(WindshieldCommand, PresetsBehaveLikeTheFiguresOfTheThesis)
 {
     const auto moving = [&](const char* preset) {
         const CommandResult run = runDroplet({"windshield", path("x.png"), "--preset", preset, "--json", "-", "--quiet",
-                                              "--noise", "0m/s2", "--warm-up", "2s", "--time", "0.1s", "--size",
+                                              "--noise", "0m/s2", "--warm-up", "2s", "--time", "0.1s", "--frame-size",
                                               "64x36", "--glass-width", "500mm", "--glass-height", "400mm"});
         EXPECT_EQ(run.exit_code, 0) << run.error;
         const auto row = nlohmann::json::parse(run.output).at("balance").back();
@@ -553,7 +553,7 @@ TEST_F(WindshieldCommand, UsesASurfaceAsGlass)
 TEST_F(WindshieldCommand, ReportsProgressOfEveryFrame)
 {
     const CommandResult run =
-        simulate(path("%d.png"), {"--progress", "json", "--time", "100ms", "--rain", "0mm/h", "--size", "16x16"});
+        simulate(path("%d.png"), {"--progress", "json", "--time", "100ms", "--rain", "0mm/h", "--frame-size", "16x16"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.errorLines(), ElementsAre(HasSubstr(R"({"frame":1,"of":3,)"), HasSubstr(R"({"frame":2,"of":3,)"),
                                               HasSubstr(R"({"frame":3,"of":3,)")));
@@ -578,8 +578,8 @@ TEST_F(WindshieldCommand, ReportsErrorsInOneLine)
     expectRefused({"--maps", "m.png"}, 2, "%d");
     expectRefused({"--droplets", "d.txt"}, 2, ".csv or .json");
     expectRefused({"--moving-only"}, 2, "--moving-only needs --droplets");
-    expectRefused({"--model-animation", "texture"}, 2, "--model-animation needs --model");
-    expectRefused({"--model", "m.glb", "--model-animation", "bones"}, 2, "--model-animation");
+    expectRefused({"--animation-method", "texture"}, 2, "--animation-method needs --animation");
+    expectRefused({"--animation", "m.glb", "--animation-method", "bones"}, 2, "--animation-method");
     expectRefused({"--highlight-boost", "5"}, 2, "from 0 to 4");
     expectRefused({"--exposure", "9"}, 2, "from -8 to 8");
     expectRefused({"--background-blur", "21deg"}, 2, "from 0deg to 20deg");
@@ -589,7 +589,7 @@ TEST_F(WindshieldCommand, ReportsErrorsInOneLine)
     expectRefused({"--look-at", "0m,-5m,0m"}, 2, "must be in front of the eye");
     expectRefused({"--fit"}, 2, "--background");
     expectRefused({"--samples", "5"}, 2, "from 1 to 4");
-    expectRefused({"--size", "10x10"}, 2, "WIDTHxHEIGHT");
+    expectRefused({"--frame-size", "10x10"}, 2, "WIDTHxHEIGHT");
     expectRefused({"--wiper-period", "1s"}, 2, "from 1.2s to 60s");
     expectRefused({"--seed", "-1"}, 2, "whole number");
     expectRefused({"--hysteresis", "3"}, 2, "from 0 to 2");

@@ -37,10 +37,10 @@ Surface faceted(const std::vector<std::array<Vec3, 3>>& facets)
         const Vec3 normal = cross(b - a, c - a);
         const double size = length(normal);
         for (const Vec3 p : {a, b, c}) {
-            const auto index = static_cast<std::uint32_t>(surface.positions.size());
-            const auto first = std::find(surface.positions.begin(), surface.positions.end(), p);
-            surface.weld.push_back(static_cast<std::uint32_t>(first - surface.positions.begin()));
-            surface.positions.push_back(p);
+            const auto index = static_cast<std::uint32_t>(surface.vertices.size());
+            const auto first = std::find(surface.vertices.begin(), surface.vertices.end(), p);
+            surface.weld.push_back(static_cast<std::uint32_t>(first - surface.vertices.begin()));
+            surface.vertices.push_back(p);
             surface.normals.push_back(size > 0.0 ? (1.0 / size) * normal : Vec3{0.0, 0.0, 1.0});
             surface.uvs.emplace_back();
             if (index % 3 == 2) {
@@ -115,8 +115,8 @@ Facets sphereFacets(double radius, int n)
 
 Surface moved(Surface surface, const std::function<Vec3(Vec3)>& place, const std::function<Vec3(Vec3)>& turn)
 {
-    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
-        surface.positions[v] = place(surface.positions[v]);
+    for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+        surface.vertices[v] = place(surface.vertices[v]);
         surface.normals[v] = turn(surface.normals[v]);
     }
     return surface;
@@ -146,7 +146,7 @@ Vec3 turned(Vec3 p)
 Surface shuffled(const Surface& surface)
 {
     std::mt19937 random(5);
-    std::vector<std::uint32_t> new_place(surface.positions.size());
+    std::vector<std::uint32_t> new_place(surface.vertices.size());
     for (std::uint32_t v = 0; v < new_place.size(); ++v) {
         new_place[v] = v;
     }
@@ -155,7 +155,7 @@ Surface shuffled(const Surface& surface)
     }
     Surface result = surface;
     for (std::size_t v = 0; v < new_place.size(); ++v) {
-        result.positions[new_place[v]] = surface.positions[v];
+        result.vertices[new_place[v]] = surface.vertices[v];
         result.normals[new_place[v]] = surface.normals[v];
         result.uvs[new_place[v]] = surface.uvs[v];
     }
@@ -282,9 +282,9 @@ TEST(Compare, BoundsContainTheDistancesOfManySamples)
     double sum = 0.0;
     double area = 0.0;
     for (const auto& [i, j, k] : a.triangles) {
-        const Vec3 p = a.positions[i];
-        const Vec3 u = a.positions[j] - p;
-        const Vec3 v = a.positions[k] - p;
+        const Vec3 p = a.vertices[i];
+        const Vec3 u = a.vertices[j] - p;
+        const Vec3 v = a.vertices[k] - p;
         double mean = 0.0;
         constexpr int kSamples = 60;
         for (int s = 0; s < kSamples; ++s) {
@@ -297,7 +297,7 @@ TEST(Compare, BoundsContainTheDistancesOfManySamples)
             const Vec3 at = p + x * u + y * v;
             double min = std::numeric_limits<double>::infinity();
             for (const auto& [l, m, n] : b.triangles) {
-                min = std::min(min, testing::distance(at, b.positions[l], b.positions[m], b.positions[n]));
+                min = std::min(min, testing::distance(at, b.vertices[l], b.vertices[m], b.vertices[n]));
             }
             largest = std::max(largest, min);
             mean += min / kSamples;
@@ -630,7 +630,7 @@ TEST(Compare, SignedDistancesAreNegativeInside)
     const std::vector<Vec3> inside = {{0.9, 0.5, 0.5}, {0.99, 0.98, 0.5}, {0.97, 0.98, 0.99}, {0.001, 0.5, 0.9}};
     const auto at = [](const std::vector<Vec3>& points) {
         Surface surface = testing::soup({{0, 1, 2}, {1, 2, 3}}, points.size());
-        surface.positions = points;
+        surface.vertices = points;
         return surface;
     };
     const std::vector<double> out = signedDistances(at(outside), unit);
@@ -662,7 +662,7 @@ TEST(Compare, RefusesInvalidSurfaces)
         }
     };
     Surface broken = sound;
-    broken.positions[3].y = std::numeric_limits<double>::quiet_NaN();
+    broken.vertices[3].y = std::numeric_limits<double>::quiet_NaN();
     expect_refused(broken, sound, {}, "positions[3] must be finite");
     expect_refused(sound, broken, {}, "positions[3] must be finite");
     EXPECT_THROW((void)signedDistances(sound, broken), Error);

@@ -22,17 +22,17 @@ namespace droplet {
 namespace {
 
 struct Mesh {
-    std::vector<Vec3> positions;
+    std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
 
     /// A rectangle that slopes down to −y, cut into n × n cells; upward or downward.
     void addSlope(double size, double slope, std::uint32_t n, double z = 0.0, bool is_upward = true)
     {
-        const auto first = static_cast<std::uint32_t>(positions.size());
+        const auto first = static_cast<std::uint32_t>(vertices.size());
         for (std::uint32_t j = 0; j <= n; ++j) {
             for (std::uint32_t i = 0; i <= n; ++i) {
                 const double y = size * j / n;
-                positions.push_back({size * i / n, y, z + std::tan(slope) * y});
+                vertices.push_back({size * i / n, y, z + std::tan(slope) * y});
             }
         }
         for (std::uint32_t j = 0; j < n; ++j) {
@@ -51,12 +51,12 @@ struct Mesh {
     }
 };
 
-FlowScene sceneOf(const Mesh& mesh)
+FlowTerrain sceneOf(const Mesh& mesh)
 {
-    return FlowScene(flowSurface(mesh.positions, mesh.triangles));
+    return FlowTerrain(flowSurface(mesh.vertices, mesh.triangles));
 }
 
-FlowScene slope(double angle = 30.0 * kDegree, std::uint32_t n = 20, double size = 0.2)
+FlowTerrain slope(double angle = 30.0 * kDegree, std::uint32_t n = 20, double size = 0.2)
 {
     Mesh mesh;
     mesh.addSlope(size, angle, n);
@@ -105,7 +105,7 @@ FlowParameters everything()
 
 TEST(Flow, BytesDependOnNeitherFramesNorThreads)
 {
-    const FlowScene scene = slope();
+    const FlowTerrain scene = slope();
     const FlowParameters parameters = everything();
     const auto run = [&](int frames, std::size_t threads) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
@@ -123,7 +123,7 @@ TEST(Flow, BytesDependOnNeitherFramesNorThreads)
 
 TEST(Flow, AccountsForAllLiquid)
 {
-    const FlowScene scene = slope(60.0 * kDegree);
+    const FlowTerrain scene = slope(60.0 * kDegree);
     const FlowParameters parameters = everything();
     FlowState state = startFlow(scene, parameters, many(100, 60.0 * kDegree));
     for (int second = 1; second <= 4; ++second) {
@@ -139,7 +139,7 @@ TEST(Flow, AccountsForAllLiquid)
 
 TEST(Flow, ResumesFromItsBytes)
 {
-    const FlowScene scene = slope();
+    const FlowTerrain scene = slope();
     const FlowParameters parameters = everything();
     const FlowState half = advanceFlow(startFlow(scene, parameters, many(60)), scene, parameters, 0.5);
     const std::string bytes = bytesOf(half);
@@ -155,7 +155,7 @@ TEST(Flow, ResumesFromItsBytes)
 
 TEST(Flow, MergingKeepsMassAndMomentum)
 {
-    const FlowScene scene = slope(0.0, 7);
+    const FlowTerrain scene = slope(0.0, 7);
     FlowParameters parameters = paper(0.0);
     const std::vector<FlowStart> starts{{{0.05, 0.1, 0.0}, 30e-9, {0.2, 0.008, 0.0}}, {{0.08, 0.1, 0.0}, 10e-9, {}}};
     const FlowState state = advanceFlow(startFlow(scene, parameters, starts), scene, parameters, 0.25);
@@ -176,7 +176,7 @@ TEST(Flow, DoesNotMergeThroughAThinSheet)
     mesh.addSlope(0.2, 0.0, 10);
     mesh.addSlope(0.2, 0.0, 10, -2e-4, false);
     mesh.addSlope(0.2, 0.0, 10, -3e-4, true);
-    const FlowScene scene = sceneOf(mesh);
+    const FlowTerrain scene = sceneOf(mesh);
     FlowParameters parameters;
     parameters.adhesion = 1e6;
     const std::vector<FlowStart> starts{
@@ -187,7 +187,7 @@ TEST(Flow, DoesNotMergeThroughAThinSheet)
 
 TEST(Flow, HysteresisHoldsSmallDropletsUntilTheyGrow)
 {
-    const FlowScene scene = slope();
+    const FlowTerrain scene = slope();
     FlowParameters parameters;
     parameters.forces.wetting.hysteresis = 0.3;
     parameters.emitters = {{{0.1, 0.15, std::tan(30.0 * kDegree) * 0.15}, 20e-9, {5e-9, 0.0}}};
@@ -211,7 +211,7 @@ TEST(Flow, HysteresisHoldsSmallDropletsUntilTheyGrow)
 
 TEST(Flow, FollowersCatchUpOnAStreak)
 {
-    const FlowScene scene = slope(30.0 * kDegree, 200);
+    const FlowTerrain scene = slope(30.0 * kDegree, 200);
     FlowParameters parameters = paper(2e-4);
     parameters.merges = false;
     parameters.roughness = 1e-3;
@@ -242,7 +242,7 @@ TEST(Flow, FollowersCatchUpOnAStreak)
 
 TEST(Flow, RainIsWhatFallsOnTheObject)
 {
-    const FlowScene scene = slope(0.0, 4);
+    const FlowTerrain scene = slope(0.0, 4);
     FlowParameters parameters;
     parameters.rain = rainOf(20.0 * kMillimetrePerHour);
     const FlowState state = advanceFlow(startFlow(scene, parameters, {}), scene, parameters, 20.0);
@@ -255,7 +255,7 @@ TEST(Flow, RainIsWhatFallsOnTheObject)
 
 TEST(Flow, CountsRainOnTheBackOfASheet)
 {
-    const FlowScene scene = slope(0.0, 4);
+    const FlowTerrain scene = slope(0.0, 4);
     FlowParameters parameters;
     parameters.rain = rainOf(20.0 * kMillimetrePerHour);
     parameters.rain->from = {0.0, 0.0, -1.0};
@@ -269,7 +269,7 @@ TEST(Flow, CountsRainOnTheBackOfASheet)
 
 TEST(Flow, DewGrowsAndRunsAndWipes)
 {
-    const FlowScene scene = slope(80.0 * kDegree, 10, 0.08);
+    const FlowTerrain scene = slope(80.0 * kDegree, 10, 0.08);
     FlowParameters parameters;
     parameters.forces.wetting.hysteresis = 0.1;
     parameters.condensation = FlowCondensation{2e-6, 6e-3};
@@ -286,7 +286,7 @@ TEST(Flow, DewGrowsAndRunsAndWipes)
 
 TEST(Flow, RejectsDropletsLargerThanTheObject)
 {
-    const FlowScene scene = slope();
+    const FlowTerrain scene = slope();
     EXPECT_THROW(startFlow(scene, {}, {{{0.1, 0.1, 0.05}, 1.0, {}}}), Error);
     EXPECT_THROW(startFlow(scene, {}, {{{0.1, 0.1, 0.05}, -1e-9, {}}}), Error);
     FlowParameters parameters;

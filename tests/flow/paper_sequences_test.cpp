@@ -15,17 +15,17 @@ namespace droplet {
 namespace {
 
 struct Mesh {
-    std::vector<Vec3> positions;
+    std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
 
     /// A grid of n × m cells over the unit square, mapped into space.
     template <typename Place>
     void addGrid(std::uint32_t n, std::uint32_t m, const Place& place)
     {
-        const auto first = static_cast<std::uint32_t>(positions.size());
+        const auto first = static_cast<std::uint32_t>(vertices.size());
         for (std::uint32_t j = 0; j <= m; ++j) {
             for (std::uint32_t i = 0; i <= n; ++i) {
-                positions.push_back(place(static_cast<double>(i) / n, static_cast<double>(j) / m));
+                vertices.push_back(place(static_cast<double>(i) / n, static_cast<double>(j) / m));
             }
         }
         for (std::uint32_t j = 0; j < m; ++j) {
@@ -45,11 +45,11 @@ Vec3 onSlope(double x, double y)
     return {x, y, std::tan(kSlope) * y};
 }
 
-FlowScene slope(std::uint32_t n)
+FlowTerrain slope(std::uint32_t n)
 {
     Mesh mesh;
     mesh.addGrid(n, n, [](double u, double v) { return onSlope(0.3 * u, 0.3 * v); });
-    return FlowScene(flowSurface(mesh.positions, mesh.triangles));
+    return FlowTerrain(flowSurface(mesh.vertices, mesh.triangles));
 }
 
 FlowParameters paper(double friction)
@@ -68,7 +68,7 @@ double speedOf(const FlowSample& sample)
 
 TEST(PaperSequences, HeavyDropletsAreFasterAndMergeWithLightOnes)
 {
-    const FlowScene scene = slope(16);
+    const FlowTerrain scene = slope(16);
     const FlowParameters parameters = paper(2e-4);
     // Masses 1 to 4 side by side; in the last column a heavy droplet behind a light one.
     std::vector<FlowStart> starts;
@@ -97,7 +97,7 @@ TEST(PaperSequences, HeavyDropletsAreFasterAndMergeWithLightOnes)
 
 TEST(PaperSequences, SpeedFallsWithTheViscosityOfTheGround)
 {
-    const FlowScene scene = slope(3);
+    const FlowTerrain scene = slope(3);
     FlowParameters parameters = paper(1e-3);
     for (const FlowSurface::Face& face : scene.surface().faces) {
         const double x = (face.corners[0].x + face.corners[1].x + face.corners[2].x) / 3.0;
@@ -126,7 +126,7 @@ TEST(PaperSequences, DropletsLeaveASphereLaterTheStrongerTheyAdhere)
         const double s = v == 0.0 || v == 1.0 ? 0.0 : std::sin(polar);
         return Vec3{kRadius * s * std::cos(around), kRadius * s * std::sin(around), kRadius * std::cos(polar)};
     });
-    const FlowScene scene(flowSurface(mesh.positions, mesh.triangles));
+    const FlowTerrain scene(flowSurface(mesh.vertices, mesh.triangles));
     double angle = 0.0;
     for (const double adhesion : {0.0, 2.5, 5.0, 10.0}) {
         FlowParameters parameters = paper(1e-5);
@@ -149,7 +149,7 @@ TEST(PaperSequences, DropletsLeaveASphereLaterTheStrongerTheyAdhere)
 
 TEST(PaperSequences, RoughGroundHoldsSmallDroplets)
 {
-    const FlowScene scene = slope(16);
+    const FlowTerrain scene = slope(16);
     FlowParameters parameters = paper(2e-4);
     const double small = capOf(1e-9, parameters.forces.wetting.contact_angle).height;
     parameters.roughness = 0.98 * small;
@@ -162,7 +162,7 @@ TEST(PaperSequences, RoughGroundHoldsSmallDroplets)
 
 TEST(PaperSequences, ADropletSpeedsUpOnAStreakAndMergesWithItsMaker)
 {
-    const FlowScene scene = slope(240);
+    const FlowTerrain scene = slope(240);
     FlowParameters parameters = paper(4e-4);
     parameters.roughness = 1.5e-3;
     // The large droplet begins above the small one, which leaves a streak.
@@ -200,11 +200,11 @@ TEST(PaperSequences, ATearLeavesTheMaskAtTheChin)
         const double front = std::sqrt(std::max(1.0 - 0.8 * x * x - 0.95 * z * z, 0.0));
         return Vec3{0.075 * x, -0.09 * (front + nose + chin), 0.11 * z};
     });
-    const FlowScene scene(flowSurface(mesh.positions, mesh.triangles));
+    const FlowTerrain scene(flowSurface(mesh.vertices, mesh.triangles));
     FlowParameters parameters = paper(5e-4);
     parameters.adhesion = 60.0;
     FlowState state = startFlow(scene, parameters, {});
-    const FlowScene::Point eye = scene.nearest({0.03, -0.2, 0.03});
+    const FlowTerrain::Point eye = scene.nearest({0.03, -0.2, 0.03});
     state = startFlow(scene, parameters, {{eye.place, 20e-9, {}}});
     Vec3 place;
     while (state.counts.launches == 0 && state.time < 10.0) {

@@ -15,17 +15,17 @@ namespace droplet {
 namespace {
 
 /// The unit square at z = 0 and, 0.5 above it, its half with x < 0.5; both look up.
-FlowScene shelf()
+FlowTerrain shelf()
 {
-    return FlowScene(flowSurface({{0.0, 0.0, 0.0},
-                                  {1.0, 0.0, 0.0},
-                                  {1.0, 1.0, 0.0},
-                                  {0.0, 1.0, 0.0},
-                                  {0.0, 0.0, 0.5},
-                                  {0.5, 0.0, 0.5},
-                                  {0.5, 1.0, 0.5},
-                                  {0.0, 1.0, 0.5}},
-                                 {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}));
+    return FlowTerrain(flowSurface({{0.0, 0.0, 0.0},
+                                    {1.0, 0.0, 0.0},
+                                    {1.0, 1.0, 0.0},
+                                    {0.0, 1.0, 0.0},
+                                    {0.0, 0.0, 0.5},
+                                    {0.5, 0.0, 0.5},
+                                    {0.5, 1.0, 0.5},
+                                    {0.0, 1.0, 0.5}},
+                                   {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}));
 }
 
 bool areEqual(const std::vector<FlowStart>& a, const std::vector<FlowStart>& b)
@@ -43,7 +43,7 @@ std::size_t countOf(const std::vector<FlowStart>& starts, const std::function<bo
 
 TEST(Scatter, IsUniformByAreaAndReproducible)
 {
-    const FlowScene scene = shelf();
+    const FlowTerrain scene = shelf();
     const auto all = scatterDroplets(scene, {.count = 3000, .volumes = {.median = 5e-9, .spread = 0.5}});
     ASSERT_EQ(all.size(), 3000U);
     // Standard deviations: 26 and 27.
@@ -66,7 +66,7 @@ TEST(Scatter, IsUniformByAreaAndReproducible)
 
 TEST(Scatter, RainMeetsWhatIsFirstAndFacesIt)
 {
-    const FlowScene scene = shelf();
+    const FlowTerrain scene = shelf();
     const auto wet = scatterDroplets(scene, {.count = 500, .from = Vec3{0.0, 0.0, 2.0}});
     EXPECT_EQ(countOf(wet, [](Vec3 p) { return p.z < 0.4 && p.x < 0.5 - 1e-5; }), 0U);
     EXPECT_GT(countOf(wet, [](Vec3 p) { return p.z < 0.4; }), 150U);
@@ -77,16 +77,16 @@ TEST(Scatter, RainMeetsWhatIsFirstAndFacesIt)
 
 TEST(Scatter, FollowsTheMask)
 {
-    const FlowScene scene = shelf();
+    const FlowTerrain scene = shelf();
     ScatterOptions options{.count = 1000};
-    options.coverage = [](const FlowScene::Point& point) { return point.place.x < 0.1 ? 1.0 : 0.25; };
+    options.coverage = [](const FlowTerrain::Point& point) { return point.place.x < 0.1 ? 1.0 : 0.25; };
     const auto starts = scatterDroplets(scene, options);
     // On 0.2 m² with certainty, on 1.3 m² with a quarter.
     EXPECT_NEAR(static_cast<double>(countOf(starts, [](Vec3 p) { return p.x < 0.1; })), 1000.0 * 0.2 / 0.525, 65.0);
     EXPECT_NEAR(scatterArea(scene, options), 0.525, 0.05);
     EXPECT_NEAR(scatterArea(scene, {.from = Vec3{0.0, 0.0, 1.0}}), 1.0, 0.08);
     EXPECT_EQ(scatterArea(scene, {}), scene.area());
-    options.coverage = [](const FlowScene::Point&) { return 0.0; };
+    options.coverage = [](const FlowTerrain::Point&) { return 0.0; };
     EXPECT_EQ(scatterArea(scene, options), 0.0);
     try {
         (void)scatterDroplets(scene, options);

@@ -17,7 +17,7 @@ namespace {
 constexpr Vec3 kGravity{0.0, 0.0, -9.81};
 
 struct Mesh {
-    std::vector<Vec3> positions;
+    std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
 };
 
@@ -30,7 +30,7 @@ Mesh gridOf(std::uint32_t n, std::uint32_t m, const Height& height)
         for (std::uint32_t i = 0; i <= n; ++i) {
             const double x = static_cast<double>(i) / n;
             const double y = static_cast<double>(j) / m;
-            mesh.positions.push_back({x, y, height(x, y)});
+            mesh.vertices.push_back({x, y, height(x, y)});
         }
     }
     for (std::uint32_t j = 0; j < m; ++j) {
@@ -53,7 +53,7 @@ Mesh sphere(std::uint32_t rings, double radius)
             const double turn = 2.0 * std::numbers::pi * (i + 0.5 * (j % 2)) / around;
             const double s = j == 0 || j == rings ? 0.0 : std::sin(polar);
             const double c = j == 0 ? 1.0 : j == rings ? -1.0 : std::cos(polar);
-            mesh.positions.push_back({radius * s * std::cos(turn), radius * s * std::sin(turn), radius * c});
+            mesh.vertices.push_back({radius * s * std::cos(turn), radius * s * std::sin(turn), radius * c});
         }
     }
     for (std::uint32_t j = 0; j < rings; ++j) {
@@ -88,7 +88,7 @@ WalkForces forces(double decay = 0.0)
 
 class Ground {
 public:
-    explicit Ground(const Mesh& mesh) : surface(flowSurface(mesh.positions, mesh.triangles)), landing(surface) {}
+    explicit Ground(const Mesh& mesh) : surface(flowSurface(mesh.vertices, mesh.triangles)), landing(surface) {}
 
     /// A droplet on the face above or below (x, y).
     FlowDroplet dropletAt(const WalkForces& f, Vec2 at, Vec3 velocity = {}, bool on_top = true) const
@@ -259,9 +259,9 @@ TEST(Walk, FallsOffTheBoundaryAndLandsBelow)
 {
     Mesh mesh = gridOf(3, 3, [](double, double y) { return 1.0 + 0.5 * y; });
     const Mesh floor = gridOf(2, 2, [](double, double) { return 0.0; });
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const Vec3 p : floor.positions) {
-        mesh.positions.push_back({4.0 * p.x - 2.0, 4.0 * p.y - 2.0, 0.0});
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const Vec3 p : floor.vertices) {
+        mesh.vertices.push_back({4.0 * p.x - 2.0, 4.0 * p.y - 2.0, 0.0});
     }
     for (const auto& [a, b, c] : floor.triangles) {
         mesh.triangles.push_back({a + first, b + first, c + first});
@@ -295,10 +295,10 @@ TEST(Walk, GoesOnOverPartsThatTouch)
     Mesh mesh;
     for (std::uint32_t k = 0; k < 6; ++k) {
         const Mesh strip = gridOf(2 * k + 1, k % 3 + 1, [](double, double) { return 0.0; });
-        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        for (const Vec3 p : strip.positions) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        for (const Vec3 p : strip.vertices) {
             const double y = (k + p.y) / 6.0 + (k % 2 == 0 ? 3e-8 : -3e-8) * std::sin(40.0 * p.x);
-            mesh.positions.push_back({p.x, y, std::tan(slope) * y + 3e-8 * std::cos(30.0 * p.x + k)});
+            mesh.vertices.push_back({p.x, y, std::tan(slope) * y + 3e-8 * std::cos(30.0 * p.x + k)});
         }
         for (const auto& [a, b, c] : strip.triangles) {
             mesh.triangles.push_back({a + first, b + first, c + first});
@@ -362,7 +362,7 @@ TEST(Walk, RestsInAPit)
 TEST(Walk, NeverLeavesTheSurfaceOverAMillionCrossings)
 {
     Mesh mesh = sphere(70, 0.1);
-    for (Vec3& p : mesh.positions) {
+    for (Vec3& p : mesh.vertices) {
         p = (1.0 + 0.01 * std::sin(170.0 * p.x) * std::cos(130.0 * p.y + 90.0 * p.z)) * p;
     }
     const Ground run(mesh);
@@ -393,7 +393,7 @@ TEST(FlowSurface, TurnsPartsToFaceOutward)
     for (std::size_t t = 0; t < whole; t += 3) {
         std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
     }
-    const FlowSurface surface = flowSurface(mesh.positions, mesh.triangles);
+    const FlowSurface surface = flowSurface(mesh.vertices, mesh.triangles);
     EXPECT_EQ(surface.report.parts, 1U);
     EXPECT_EQ(surface.report.boundary_edges, 0U);
     EXPECT_GT(surface.report.turned, 0U);
@@ -413,11 +413,11 @@ TEST(FlowSurface, LeavesOutWhatHasNoArea)
     mesh.triangles.push_back({0, 0, 1});
     mesh.triangles.push_back({0, 1, 2});  // in one line
     mesh.triangles.push_back(mesh.triangles[0]);
-    const FlowSurface surface = flowSurface(mesh.positions, mesh.triangles);
+    const FlowSurface surface = flowSurface(mesh.vertices, mesh.triangles);
     EXPECT_EQ(surface.faces.size(), 8U);
     EXPECT_EQ(surface.report.without_area, 2U);
     EXPECT_EQ(surface.report.duplicates, 1U);
-    EXPECT_THROW(flowSurface(mesh.positions, {{0, 0, 1}}), Error);
+    EXPECT_THROW(flowSurface(mesh.vertices, {{0, 0, 1}}), Error);
 }
 
 }  // namespace

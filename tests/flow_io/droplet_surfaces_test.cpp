@@ -78,7 +78,7 @@ TEST(DropletSurfaces, HaveTheVolumesOfTheSamplesAtTheirPlaces)
     const std::vector<FlowSample> samples{onSlope(0.0), onSlope(0.7, {0.2, 0.0, -0.2}), falling};
     const Surface open = dropletSurfaces(samples, bodies, kGravity);
     open.validate();
-    ASSERT_EQ(open.positions.size(), samples.size() * bodies.vertices());
+    ASSERT_EQ(open.vertices.size(), samples.size() * bodies.vertices());
     const Surface closed = withBases(open, bodies);
     closed.validate();
     EXPECT_TRUE(isClosed(closed));
@@ -87,13 +87,13 @@ TEST(DropletSurfaces, HaveTheVolumesOfTheSamplesAtTheirPlaces)
     // Rims lie on the ground, the rest above it.
     for (std::size_t i = 0; i < 2; ++i) {
         for (std::size_t k = 0; k < bodies.vertices(); ++k) {
-            const double height = dot(open.positions[i * bodies.vertices() + k] - samples[i].place, samples[i].normal);
+            const double height = dot(open.vertices[i * bodies.vertices() + k] - samples[i].place, samples[i].normal);
             EXPECT_GE(height, -1e-12);
             EXPECT_TRUE(k >= bodies.rimVertices() || height < 1e-12);
         }
     }
-    EXPECT_TRUE(dropletSurfaces({}, bodies, kGravity).positions.empty());
-    EXPECT_TRUE(withBases({}, bodies).positions.empty());
+    EXPECT_TRUE(dropletSurfaces({}, bodies, kGravity).vertices.empty());
+    EXPECT_TRUE(withBases({}, bodies).vertices.empty());
 }
 
 }  // namespace

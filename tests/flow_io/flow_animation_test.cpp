@@ -49,7 +49,7 @@ FlowObject sphere(double radius)
             const double turn = 2.0 * std::numbers::pi * k / kAround;
             object.normals.push_back(
                 {std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)});
-            object.positions.push_back(radius * object.normals.back());
+            object.vertices.push_back(radius * object.normals.back());
             object.uvs.push_back({static_cast<double>(k) / kAround, static_cast<double>(ring) / kRings});
             if (ring < kRings && k < kAround) {
                 const std::uint32_t a = ring * (kAround + 1) + k;
@@ -74,7 +74,7 @@ struct Sequence {
 
     Sequence()
     {
-        const FlowScene scene(flowSurface(object.positions, object.triangles));
+        const FlowTerrain scene(flowSurface(object.vertices, object.triangles));
         FlowParameters parameters;
         parameters.adhesion = 30.0;
         std::vector<FlowStart> starts;
@@ -232,15 +232,15 @@ TEST(FlowAnimation, MeshesOfDropletsHaveTheUnitVolume)
     for (const DropletMesh& mesh : {unitBody(bodies(), running, {}, unit), unitBall({}, unit)}) {
         double volume = 0.0;
         for (const auto& [a, b, c] : mesh.triangles) {
-            volume += dot(mesh.positions[a], cross(mesh.positions[b], mesh.positions[c])) / 6.0;
+            volume += dot(mesh.vertices[a], cross(mesh.vertices[b], mesh.vertices[c])) / 6.0;
         }
         EXPECT_NEAR(volume / unit, 1.0, 1e-12);
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
             EXPECT_NEAR(length(mesh.normals[i]), 1.0, 1e-12);
-            EXPECT_GT(dot(mesh.normals[i], mesh.positions[i] + Vec3{0.0, 0.0, -1e-6}), 0.0) << "outward";
+            EXPECT_GT(dot(mesh.normals[i], mesh.vertices[i] + Vec3{0.0, 0.0, -1e-6}), 0.0) << "outward";
         }
     }
-    const auto [low, high] = cornersOf(unitBody(bodies(), running, {}, unit).positions);
+    const auto [low, high] = cornersOf(unitBody(bodies(), running, {}, unit).vertices);
     EXPECT_NEAR(high.x - low.x, 2.0, 1e-9);
     EXPECT_NEAR(high.y - low.y, 2.0, 1e-9);
 }

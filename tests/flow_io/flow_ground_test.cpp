@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "droplet/flow_io/flow_ground.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "droplet/error.h"
 #include "droplet/flow/scatter.h"
+#include "droplet/flow_io/face_properties.h"
 
 namespace droplet {
 namespace {
@@ -18,7 +17,7 @@ using ::testing::IsEmpty;
 FlowObject square()
 {
     FlowObject object;
-    object.positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
+    object.vertices = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
     object.normals.assign(4, {0.0, 0.0, 1.0});
     object.uvs = {{0.0, 1.0}, {1.0, 1.0}, {1.0, 0.0}, {0.0, 0.0}};
     object.triangles = {{0, 1, 2}, {0, 3, 2}};
@@ -39,10 +38,10 @@ HeightMap half(int size)
     return picture;
 }
 
-TEST(FlowGround, TakesMeansOfPicturesOverTriangles)
+TEST(FaceProperties, TakesMeansOfPicturesOverTriangles)
 {
     const FlowObject object = square();
-    const FlowSurface surface = flowSurface(object.positions, object.triangles);
+    const FlowSurface surface = flowSurface(object.vertices, object.triangles);
     EXPECT_EQ(surface.report.turned, 1U);
     ASSERT_EQ(surface.faces[0].source, 0U);
     // The lower right half of the picture is the first triangle.
@@ -50,9 +49,9 @@ TEST(FlowGround, TakesMeansOfPicturesOverTriangles)
     EXPECT_NEAR(means[0], 1.0, 0.02);
     EXPECT_NEAR(means[1], 0.0, 0.02);
     HeightMap grey{1, 1, {0.25F}, false};
-    const FlowGround ground =
-        flowGround(object, surface,
-                   {.roughness_picture = grey, .max_roughness = 2e-4, .friction_picture = grey, .max_friction = 8});
+    const FaceProperties ground =
+        faceProperties(object, surface,
+                       {.roughness_picture = grey, .max_roughness = 2e-4, .friction_picture = grey, .max_friction = 8});
     EXPECT_THAT(ground.roughness, ElementsAre(Vec2{5e-5, 5e-5}, Vec2{5e-5, 5e-5}));
     EXPECT_THAT(ground.friction, ElementsAre(2.0, 2.0));
     EXPECT_THAT(ground.hysteresis, IsEmpty());
@@ -65,30 +64,30 @@ TEST(FlowGround, TakesMeansOfPicturesOverTriangles)
     EXPECT_THAT(meansOverFaces({1, 1, {7.0F}, true}, object, surface), ElementsAre(1.0, 1.0));
 }
 
-TEST(FlowGround, HasPropertiesOfMaterials)
+TEST(FaceProperties, HasPropertiesOfMaterials)
 {
     const FlowObject object = square();
-    const FlowSurface surface = flowSurface(object.positions, object.triangles);
-    const FlowGround ground =
-        flowGround(object, surface,
-                   {.friction_picture = HeightMap{1, 1, {0.5F}, false},
-                    .roughness = 1e-5,
-                    .materials = {{"rust", {.roughness = 3e-4, .friction = 4.0}}, {"glass", {.hysteresis = 0.5}}}});
+    const FlowSurface surface = flowSurface(object.vertices, object.triangles);
+    const FaceProperties ground =
+        faceProperties(object, surface,
+                       {.friction_picture = HeightMap{1, 1, {0.5F}, false},
+                        .roughness = 1e-5,
+                        .materials = {{"rust", {.roughness = 3e-4, .friction = 4.0}}, {"glass", {.hysteresis = 0.5}}}});
     EXPECT_THAT(ground.roughness, ElementsAre(Vec2{1e-5, 1e-5}, Vec2{3e-4, 3e-4}));
     EXPECT_THAT(ground.friction, ElementsAre(0.5, 4.0));
     EXPECT_THAT(ground.hysteresis, ElementsAre(0.5, 1.0));
-    const FlowGround none = flowGround(object, surface, {});
+    const FaceProperties none = faceProperties(object, surface, {});
     EXPECT_THAT(none.roughness, IsEmpty());
     EXPECT_THAT(none.friction, IsEmpty());
 }
 
-TEST(FlowGround, NamesWhatIsWrong)
+TEST(FaceProperties, NamesWhatIsWrong)
 {
     FlowObject object = square();
-    const FlowSurface surface = flowSurface(object.positions, object.triangles);
-    const auto refusal_of = [&](const FlowGroundOptions& options) -> std::string {
+    const FlowSurface surface = flowSurface(object.vertices, object.triangles);
+    const auto refusal_of = [&](const FacePropertyOptions& options) -> std::string {
         try {
-            (void)flowGround(object, surface, options);
+            (void)faceProperties(object, surface, options);
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
             return error.what();
@@ -105,10 +104,10 @@ TEST(FlowGround, NamesWhatIsWrong)
     EXPECT_THAT(refusal_of({.roughness_picture = half(4)}), HasSubstr("unwrap"));
 }
 
-TEST(FlowGround, ScattersDropletsOverAMask)
+TEST(FaceProperties, ScattersDropletsOverAMask)
 {
     const FlowObject object = square();
-    const FlowScene scene(flowSurface(object.positions, object.triangles));
+    const FlowTerrain scene(flowSurface(object.vertices, object.triangles));
     Mask mask;
     mask.width = 2;
     mask.height = 4;

@@ -46,8 +46,8 @@ protected:
     {
         writeFile(scratch_.path() / name, bytes);
         FlowObject object = readFlowObject(scratch_.path() / name, options);
-        EXPECT_EQ(object.normals.size(), object.positions.size());
-        EXPECT_TRUE(object.uvs.empty() || object.uvs.size() == object.positions.size());
+        EXPECT_EQ(object.normals.size(), object.vertices.size());
+        EXPECT_TRUE(object.uvs.empty() || object.uvs.size() == object.vertices.size());
         EXPECT_TRUE(object.materials.empty() || object.materials.size() == object.triangles.size());
         object.motion.validate();
         return object;
@@ -99,7 +99,7 @@ TEST_F(FlowObjectFile, PlyHasStrips)
         read("faces.ply", vertices + "element face 4" + list + places + "3 0 1 2\n3 2 1 3\n3 2 3 4\n3 4 3 5\n");
     const FlowObject strips =
         read("strips.ply", vertices + "element tristrips 1" + list + places + "10 0 1 2 3 4 -1 4 3 5 5\n");
-    EXPECT_EQ(strips.positions, faces.positions);
+    EXPECT_EQ(strips.vertices, faces.vertices);
     EXPECT_EQ(strips.triangles, faces.triangles);
     expectRefused("bad.ply", vertices + "element tristrips 1" + list + places + "4 0 1 2 6\n", "vertex 6 of 6");
     expectRefused("bad.ply", vertices + "element tristrips 1" + list + places + "4 0 1 2 -2\n", "not valid");
@@ -113,8 +113,8 @@ TEST_F(FlowObjectFile, ObjHasUvMaterialsAndPolygons)
     EXPECT_THAT(object.materials, ElementsAre(0, 0, 1));
     EXPECT_THAT(object.warnings, IsEmpty());
     // Four corners, and two of them again with another uv. Millimetres, y up; v counts from below.
-    ASSERT_THAT(object.positions, ::testing::SizeIs(6));
-    EXPECT_EQ(object.positions[2], (Vec3{1.0, 0.0, 2.0}));
+    ASSERT_THAT(object.vertices, ::testing::SizeIs(6));
+    EXPECT_EQ(object.vertices[2], (Vec3{1.0, 0.0, 2.0}));
     EXPECT_EQ(object.uvs[2], (Vec2{1.0, 0.0}));
     EXPECT_EQ(object.uvs[1], (Vec2{1.0, 1.0}));
     EXPECT_EQ(object.normals[0], (Vec3{0.0, -1.0, 0.0}));
@@ -122,24 +122,24 @@ TEST_F(FlowObjectFile, ObjHasUvMaterialsAndPolygons)
 
 TEST_F(FlowObjectFile, HasScaleSizeAndUpAxis)
 {
-    EXPECT_EQ(read("wall.obj", kObj, {.scale = 3.0}).positions[2], (Vec3{3.0, 0.0, 6.0}));
-    expectNear(read("wall.obj", kObj, {.size = 0.2}).positions[2], {0.1, 0.0, 0.2}, 1e-15);
-    EXPECT_EQ(read("wall.obj", kObj, {.up = UpAxis::Z}).positions[2], (Vec3{1.0, 2.0, 0.0}));
+    EXPECT_EQ(read("wall.obj", kObj, {.scale = 3.0}).vertices[2], (Vec3{3.0, 0.0, 6.0}));
+    expectNear(read("wall.obj", kObj, {.size = 0.2}).vertices[2], {0.1, 0.0, 0.2}, 1e-15);
+    EXPECT_EQ(read("wall.obj", kObj, {.up = UpAxis::Z}).vertices[2], (Vec3{1.0, 2.0, 0.0}));
     const std::string stl =
         "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
         "endfacet\nendsolid a\n";
-    EXPECT_EQ(read("a.stl", stl).positions[2], (Vec3{0.0, 0.0, 1e-3}));
-    EXPECT_EQ(read("a.stl", stl, {.up = UpAxis::Z}).positions[2], (Vec3{0.0, 1e-3, 0.0}));
+    EXPECT_EQ(read("a.stl", stl).vertices[2], (Vec3{0.0, 0.0, 1e-3}));
+    EXPECT_EQ(read("a.stl", stl, {.up = UpAxis::Z}).vertices[2], (Vec3{0.0, 1e-3, 0.0}));
     const std::string ply =
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
         "property float z\nproperty float s\nproperty float t\nelement face 1\n"
         "property list uchar int vertex_indices\nend_header\n"
         "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n4 0 1 2 3\n";
     const FlowObject quad = read("a.ply", ply);
-    EXPECT_EQ(quad.positions[2], (Vec3{1.0, 1.0, 0.0}));
+    EXPECT_EQ(quad.vertices[2], (Vec3{1.0, 1.0, 0.0}));
     EXPECT_EQ(quad.uvs[2], (Vec2{1.0, 0.0}));
     EXPECT_THAT(quad.triangles, ::testing::SizeIs(2));
-    EXPECT_EQ(read("a.ply", ply, {.up = UpAxis::Y}).positions[2], (Vec3{1.0, 0.0, 1.0}));
+    EXPECT_EQ(read("a.ply", ply, {.up = UpAxis::Y}).vertices[2], (Vec3{1.0, 0.0, 1.0}));
     EXPECT_THROW((void)read("a.ply", ply, {.scale = 0.0}), Error);
     EXPECT_THROW((void)read("a.ply", ply, {.size = -1.0}), Error);
     EXPECT_THROW((void)read("a.ply", ply, {.scale = 1.0, .size = 1.0}), Error);
@@ -151,7 +151,7 @@ TEST_F(FlowObjectFile, DividesAConcaveFaceInside)
     const FlowObject arrow = read("a.obj", "v 0 0 0\nv 200 0 0\nv 50 50 0\nv 0 200 0\nf 1 2 3 4\nf 2 3 4 1\n");
     double area = 0.0;
     for (const auto& [a, b, c] : arrow.triangles) {
-        const Vec3 facet = cross(arrow.positions[b] - arrow.positions[a], arrow.positions[c] - arrow.positions[a]);
+        const Vec3 facet = cross(arrow.vertices[b] - arrow.vertices[a], arrow.vertices[c] - arrow.vertices[a]);
         EXPECT_LT(facet.y, 0.0);
         area += 0.5 * length(facet);
     }
@@ -175,7 +175,7 @@ TEST_F(FlowObjectFile, RefusesWhatDropletsCannotRunOver)
                   "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                   "property float z\nend_header\n0 0 0\n",
                   "no triangles");
-    EXPECT_EQ(read("a.obj", "v 0 0 0\nv 1e-27 0 0\nv 0 1e-27 0\nf 1 2 3\n", {.size = 1.0}).positions[1].x, 1.0);
+    EXPECT_EQ(read("a.obj", "v 0 0 0\nv 1e-27 0 0\nv 0 1e-27 0\nf 1 2 3\n", {.size = 1.0}).vertices[1].x, 1.0);
     try {
         (void)readFlowObject("thing.xyz");
         FAIL();
@@ -224,7 +224,7 @@ TEST_F(FlowObjectFile, GltfHasUvAndMaterialsOfItsPrimitives)
     EXPECT_THAT(object.material_names, ElementsAre("glass", "", ""));
     EXPECT_THAT(object.materials, ElementsAre(1, 0, 2));
     EXPECT_EQ(object.uvs[2], (Vec2{0.0, 0.25}));
-    EXPECT_EQ(object.positions[2], (Vec3{0.0, 0.0, 1.0}));
+    EXPECT_EQ(object.vertices[2], (Vec3{0.0, 0.0, 1.0}));
     EXPECT_THAT(object.warnings, ElementsAre(HasSubstr("without uv")));
     EXPECT_TRUE(object.motion.rests());
 }
@@ -245,19 +245,18 @@ TEST_F(FlowObjectFile, GltfAnimationOfTheNodeBecomesMotion)
     EXPECT_THAT(object.warnings, IsEmpty());
     EXPECT_FALSE(object.motion.rests());
     // At rest the file's (2, 0, 0) is at (4, 0, 10), and (3, 0, 0) at (6, 0, 10).
-    expectNear(object.positions[1], {6.0, -10.0, 0.0});
+    expectNear(object.vertices[1], {6.0, -10.0, 0.0});
     expectNear(object.motion.pivot, {4.0, -10.0, 0.0});
     for (const double time : {-1.0, 0.0, 0.5, 1.25, 2.0, 7.0}) {
         const double angle = 0.5 * std::numbers::pi * std::clamp(time, 0.0, 2.0);
         // About −y of the file, since the parent turns the axis over.
-        expectNear(worldOf(object.motion, time, object.positions[1]),
+        expectNear(worldOf(object.motion, time, object.vertices[1]),
                    {4.0 + 2.0 * std::cos(angle), -10.0 - 2.0 * std::sin(angle), 0.0});
-        expectNear(worldOf(object.motion, time, object.positions[0]), object.positions[0]);
+        expectNear(worldOf(object.motion, time, object.vertices[0]), object.vertices[0]);
     }
     // A scale moves keys and object alike.
     const FlowObject small = readFlowObject(folder() / "a.glb", {.scale = 0.1});
-    expectNear(worldOf(small.motion, 1.25, small.positions[1]),
-               0.1 * worldOf(object.motion, 1.25, object.positions[1]));
+    expectNear(worldOf(small.motion, 1.25, small.vertices[1]), 0.1 * worldOf(object.motion, 1.25, object.vertices[1]));
 }
 
 TEST_F(FlowObjectFile, GltfStepsJumpAndCurvesAreSampled)

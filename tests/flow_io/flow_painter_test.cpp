@@ -38,7 +38,7 @@ FlowObject sphere()
             const double turn = 2.0 * std::numbers::pi * k / kAround;
             object.normals.push_back(
                 {std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)});
-            object.positions.push_back(kRadius * object.normals.back());
+            object.vertices.push_back(kRadius * object.normals.back());
             if (ring < kRings && k < kAround) {
                 const std::uint32_t a = ring * (kAround + 1) + k;
                 object.triangles.push_back({a, a + kAround + 1, a + kAround + 2});
@@ -51,7 +51,7 @@ FlowObject sphere()
 
 class FlowPainters : public ::testing::Test {
 protected:
-    FlowPainters() : object(sphere()), scene(flowSurface(object.positions, object.triangles))
+    FlowPainters() : object(sphere()), scene(flowSurface(object.vertices, object.triangles))
     {
         options.render.width = 120;
         options.render.height = 90;
@@ -66,7 +66,7 @@ protected:
         for (const Vec3 from : {Vec3{0.0, -1.0, 0.6}, {0.5, -1.0, 0.1}, {-0.5, -1.0, 0.3}}) {
             FlowSample sample;
             sample.id = samples.size() + 1;
-            const FlowScene::Point on = *scene.firstAlong(from, -1.0 * from);
+            const FlowTerrain::Point on = *scene.firstAlong(from, -1.0 * from);
             sample.contact = FlowContact::Still;
             sample.face = on.face;
             sample.place = on.place;
@@ -83,7 +83,7 @@ protected:
     }
 
     FlowObject object;
-    FlowScene scene;
+    FlowTerrain scene;
     FlowPainterOptions options;
 };
 
@@ -101,9 +101,9 @@ TEST_F(FlowPainters, DropletsFollowTheObjectAndKeepTheirVolume)
     const std::vector<FlowSample> samples = droplets();
     const SettledDroplets made = settled(scene, samples, surfacesOf(samples), std::vector<bool>(samples.size(), true));
     ASSERT_EQ(made.bases.size(), samples.size());
-    const std::size_t vertices = made.surface.positions.size() / samples.size();
-    for (std::size_t v = 0; v < made.surface.positions.size(); ++v) {
-        const double height = length(made.surface.positions[v]) - kRadius;
+    const std::size_t vertices = made.surface.vertices.size() / samples.size();
+    for (std::size_t v = 0; v < made.surface.vertices.size(); ++v) {
+        const double height = length(made.surface.vertices[v]) - kRadius;
         if (v % vertices < bodies().rimVertices()) {
             EXPECT_NEAR(height, 0.0, 0.06e-3) << "a rim on the facets";
         } else if (v % vertices >= bodies().vertices()) {
@@ -134,10 +134,10 @@ TEST_F(FlowPainters, TheBackOfASheetIsDry)
 {
     // It faces the camera.
     object = FlowObject{};
-    object.positions = {{-0.05, 0.0, 0.0}, {0.05, 0.0, 0.0}, {0.05, 0.0, 0.1}, {-0.05, 0.0, 0.1}};
+    object.vertices = {{-0.05, 0.0, 0.0}, {0.05, 0.0, 0.0}, {0.05, 0.0, 0.1}, {-0.05, 0.0, 0.1}};
     object.normals.assign(4, {0.0, -1.0, 0.0});
     object.triangles = {{0, 1, 2}, {0, 2, 3}};
-    const FlowScene sheet(flowSurface(object.positions, object.triangles));
+    const FlowTerrain sheet(flowSurface(object.vertices, object.triangles));
     options.render.view = View::Side;
     const auto changes = [&](double azimuth) {
         FlowPainter painter(object, sheet, options);

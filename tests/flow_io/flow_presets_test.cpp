@@ -28,13 +28,13 @@ class PresetRun {
 public:
     explicit PresetRun(const FlowPreset& preset)
         : object_(presetObject(preset.object)),
-          scene(flowSurface(object_.positions, object_.triangles)),
+          scene(flowSurface(object_.vertices, object_.triangles)),
           parameters(preset.parameters)
     {
         if (!preset.materials.empty()) {
-            FlowGroundOptions ground;
+            FacePropertyOptions ground;
             ground.materials = preset.materials;
-            parameters.ground = flowGround(object_, scene.surface(), ground);
+            parameters.ground = faceProperties(object_, scene.surface(), ground);
         }
         state = startFlow(scene, parameters, preset.starts);
     }
@@ -57,7 +57,7 @@ private:
     FlowObject object_;
 
 public:
-    FlowScene scene;
+    FlowTerrain scene;
     FlowParameters parameters;
     FlowState state;
 };
@@ -76,12 +76,12 @@ TEST(PresetObject, MeshesAreSound)
     for (const auto& [name, truth] : expected) {
         for (const double detail : {0.5, 1.0, 2.0}) {
             const FlowObject object = presetObject(name, detail);
-            const FlowSurfaceReport report = flowSurface(object.positions, object.triangles).report;
+            const FlowSurfaceReport report = flowSurface(object.vertices, object.triangles).report;
             const std::string where = std::to_string(static_cast<int>(name)) + " at " + std::to_string(detail);
             EXPECT_EQ(report.parts, truth.first) << where;
             EXPECT_EQ(report.boundary_edges == 0, truth.second) << where;
             EXPECT_EQ(report.without_area + report.duplicates + report.turned, 0U) << where;
-            EXPECT_EQ(object.uvs.size(), object.positions.size());
+            EXPECT_EQ(object.uvs.size(), object.vertices.size());
             EXPECT_EQ(object.materials.size(), object.triangles.size());
             EXPECT_EQ(object.material_names.size(), report.parts);
             EXPECT_LE(object.triangles.size(), 9000U * std::max(detail * detail, 1.0));

@@ -50,8 +50,7 @@ double areaOf(const Surface& surface)
 {
     double area = 0.0;
     for (const auto& [a, b, c] : surface.triangles) {
-        const Vec3 twice =
-            cross(surface.positions[b] - surface.positions[a], surface.positions[c] - surface.positions[a]);
+        const Vec3 twice = cross(surface.vertices[b] - surface.vertices[a], surface.vertices[c] - surface.vertices[a]);
         area += 0.5 * length(twice);
         EXPECT_GE(dot(twice, surface.normals[a]), -1e-18) << "wound outward";
     }
@@ -69,16 +68,16 @@ TEST(StreakRibbons, CoverThePathOfADroplet)
     const double exact = kWidth * (0.09 - kWidth) + 0.25 * std::numbers::pi * kWidth * kWidth;
     EXPECT_NEAR(areaOf(made) / exact, 1.0, 0.01);
     EXPECT_LT(made.triangles.size(), 400U) << "straight paths need few points";
-    for (std::size_t i = 0; i < made.positions.size(); ++i) {
-        EXPECT_GT(made.positions[i].z, 0.0);
-        EXPECT_LE(made.positions[i].z, 1e-5);
-        EXPECT_LE(std::abs(made.positions[i].y + 0.05), 0.5 * kWidth + 1e-12);
+    for (std::size_t i = 0; i < made.vertices.size(); ++i) {
+        EXPECT_GT(made.vertices[i].z, 0.0);
+        EXPECT_LE(made.vertices[i].z, 1e-5);
+        EXPECT_LE(std::abs(made.vertices[i].y + 0.05), 0.5 * kWidth + 1e-12);
         EXPECT_GE(made.uvs[i].x, 0.0);
         EXPECT_LE(made.uvs[i].x, 1.0);
         EXPECT_NEAR(made.normals[i].z, 1.0, 1e-3);
     }
     // The ends are points, so nothing looks cut off.
-    EXPECT_EQ(made.positions[0].y, made.positions[2].y);
+    EXPECT_EQ(made.vertices[0].y, made.vertices[2].y);
 }
 
 TEST(StreakRibbons, JoinPiecesOverAnEdgeButNotOverAFlight)
@@ -120,7 +119,7 @@ TEST(StreakRibbons, DryFromTheirBegin)
     const auto shortest = [&](double time) {
         const Surface made = ribbons.surface(time);
         double x = 1.0;
-        for (const Vec3& p : made.positions) {
+        for (const Vec3& p : made.vertices) {
             x = std::min(x, p.x);
         }
         return x;
@@ -128,7 +127,7 @@ TEST(StreakRibbons, DryFromTheirBegin)
     EXPECT_NEAR(shortest(0.9), 0.01 + 0.1 * 0.6, 1e-3);
     EXPECT_NEAR(shortest(1.0), 0.01 + 0.1 * 0.7, 1e-3);
     EXPECT_TRUE(ribbons.surface(1.3).triangles.empty());
-    EXPECT_TRUE(ribbons.surface(1.3).positions.empty());
+    EXPECT_TRUE(ribbons.surface(1.3).vertices.empty());
 }
 
 TEST(StreakRibbons, RejectOptionsOutOfRange)

@@ -31,7 +31,7 @@ FlowObject sheet()
     for (const double half : {0.0, 1.0}) {
         for (const double y : {0.5, -0.5}) {
             for (const double x : {0.0, 0.5}) {
-                object.positions.push_back({kSide * (x + 0.5 * half - 0.5), kSide * y, 0.0});
+                object.vertices.push_back({kSide * (x + 0.5 * half - 0.5), kSide * y, 0.0});
                 object.normals.push_back({0.0, 0.0, 1.0});
                 object.uvs.push_back({x + 0.5 * (1.0 - half), 0.5 - y});
             }
@@ -41,12 +41,12 @@ FlowObject sheet()
     return object;
 }
 
-FlowScene sceneOf(const FlowObject& object)
+FlowTerrain sceneOf(const FlowObject& object)
 {
-    return FlowScene(flowSurface(object.positions, object.triangles));
+    return FlowTerrain(flowSurface(object.vertices, object.triangles));
 }
 
-FlowSample restingAt(const FlowScene& scene, Vec3 place, double volume = 20e-9)
+FlowSample restingAt(const FlowTerrain& scene, Vec3 place, double volume = 20e-9)
 {
     FlowSample sample;
     sample.contact = FlowContact::Still;
@@ -84,7 +84,7 @@ WetFloatMaps mapsOf(WetMapper& mapper, double time, const std::vector<FlowSample
 TEST(WetMaps, DropletsHaveTheirVolumeAlsoOverASeam)
 {
     const FlowObject object = sheet();
-    const FlowScene scene = sceneOf(object);
+    const FlowTerrain scene = sceneOf(object);
     // The second lies on the seam of the islands, the third is smaller than a texel.
     const std::vector<FlowSample> samples{restingAt(scene, {8e-3, 1e-3, 0.0}), restingAt(scene, {0.2e-3, -9e-3, 0.0}),
                                           restingAt(scene, {-15.1e-3, 15.05e-3, 0.0}, 1e-14)};
@@ -116,7 +116,7 @@ TEST(WetMaps, DropletsHaveTheirVolumeAlsoOverASeam)
 TEST(WetMaps, StreaksCrossSeamsAgeAndDry)
 {
     const FlowObject object = sheet();
-    const FlowScene scene = sceneOf(object);
+    const FlowTerrain scene = sceneOf(object);
     WetMapper mapper(object, scene, {.width = kSize, .height = kSize, .film = 50e-6, .drying = 4.0});
     // Beside the seam, 3 mm wide: it wets a strip of the other island too.
     const Vec3 from{1e-3, 15e-3, 0.0};
@@ -145,7 +145,7 @@ TEST(WetMaps, TheBackOfAThinSheetStaysDry)
     for (const double z : {0.0, -0.2e-3}) {
         for (const double y : {0.5, -0.5}) {
             for (const double x : {-0.5, 0.5}) {
-                object.positions.push_back({kSide * x, kSide * y, z});
+                object.vertices.push_back({kSide * x, kSide * y, z});
                 object.normals.push_back({0.0, 0.0, z < 0.0 ? -1.0 : 1.0});
                 object.uvs.push_back({0.25 + 0.4 * x + (z < 0.0 ? 0.5 : 0.0), 0.5 - y});
             }
@@ -153,7 +153,7 @@ TEST(WetMaps, TheBackOfAThinSheetStaysDry)
     }
     object.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 7, 6}, {4, 5, 7}, {2, 6, 7}, {2, 7, 3},
                         {0, 1, 5}, {0, 5, 4}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-    const FlowScene scene = sceneOf(object);
+    const FlowTerrain scene = sceneOf(object);
     WetMapper mapper(object, scene, {.width = kSize, .height = kSize});
     const Vec3 place{0.0, -19.5e-3, 0.0};  // near the sheet's edge
     mapper.add(std::vector<FlowTrack>{{1, scene.nearest({0.0, -19e-3, 1e-3}).face, place, place, 3e-3, 0.0}});
@@ -172,7 +172,7 @@ TEST(WetMaps, TheBackOfAThinSheetStaysDry)
 TEST(WetMaps, AnObjectWithoutUvIsRefused)
 {
     FlowObject object = sheet();
-    const FlowScene scene = sceneOf(object);
+    const FlowTerrain scene = sceneOf(object);
     const auto message = [&] {
         try {
             WetMapper mapper(object, scene);
@@ -183,7 +183,7 @@ TEST(WetMaps, AnObjectWithoutUvIsRefused)
     };
     object.uvs.clear();
     EXPECT_THAT(message(), ::testing::HasSubstr("none: unwrap it"));
-    object.uvs.assign(object.positions.size(), {0.5, 0.5});
+    object.uvs.assign(object.vertices.size(), {0.5, 0.5});
     EXPECT_THAT(message(), ::testing::HasSubstr("no area"));
     object = sheet();
     EXPECT_THROW(WetMapper(object, scene, {.width = 8}), Error);

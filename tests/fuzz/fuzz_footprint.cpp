@@ -3,8 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "droplet/domain/domain.h"
 #include "droplet/error.h"
-#include "droplet/footprint/domain.h"
 #include "droplet/mesh/triangulate.h"
 #include "fuzz/targets.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/error.h"
-#include "droplet/footprint/mask.h"
 #include "droplet/image/height_map.h"
+#include "droplet/mask/mask.h"
 #include "fuzz/targets.h"
 
 namespace droplet {

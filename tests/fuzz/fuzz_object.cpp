@@ -36,7 +36,7 @@ void fuzzObject(std::span<const std::byte> bytes)
     std::ofstream(path, std::ios::binary).write(text.data(), static_cast<std::streamsize>(text.size()));
     try {
         const FlowObject object = readFlowObject(path);
-        const FlowSurface surface = flowSurface(object.positions, object.triangles);
+        const FlowSurface surface = flowSurface(object.vertices, object.triangles);
         for (const FlowSurface::Face& face : surface.faces) {
             if (!(std::abs(length(face.normal) - 1.0) < 1e-9)) {
                 throw std::logic_error("a face has no normal");

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "droplet/error.h"
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 #include "fuzz/targets.h"
 
 namespace droplet {

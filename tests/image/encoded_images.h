@@ -25,7 +25,7 @@
 #include <jpeglib.h>
 
 #include "droplet/error.h"
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 
 // Image files of every supported format, written by the formats' own libraries, by OpenCV or by hand.
 

@@ -12,8 +12,8 @@
 #include <numeric>
 #include <thread>
 
-#include "droplet/footprint/domain.h"
-#include "droplet/footprint/outline.h"
+#include "droplet/domain/domain.h"
+#include "droplet/outline/outline.h"
 #include "image/encoded_images.h"
 #include "support/hostile_drawings.h"
 

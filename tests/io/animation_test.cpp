@@ -130,7 +130,7 @@ std::vector<double> sampled(const tinygltf::Model& model, const tinygltf::Animat
 struct Shown {
     std::size_t nodes = 0;
     std::size_t node = 0;
-    std::vector<Vec3> positions;
+    std::vector<Vec3> vertices;
     std::vector<Vec3> normals;
     std::vector<Triangle> triangles;
 };
@@ -172,7 +172,7 @@ Shown playedAt(const tinygltf::Model& model, double time)
             }
             return vectors;
         };
-        shown.positions = morphed("POSITION");
+        shown.vertices = morphed("POSITION");
         shown.normals = morphed("NORMAL");
         const auto indices = numbersOf<std::uint16_t>(model, primitive.indices);
         for (std::size_t i = 0; i < indices.size(); i += 3) {
@@ -188,9 +188,9 @@ void expectShows(const tinygltf::Model& model, double time, const Surface& surfa
     const Shown shown = playedAt(model, time);
     ASSERT_EQ(shown.nodes, 1U);
     EXPECT_EQ(shown.triangles, surface.triangles);
-    ASSERT_EQ(shown.positions.size(), surface.positions.size());
-    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
-        ASSERT_LT(length(shown.positions[v] - surface.positions[v]), 1e-9);
+    ASSERT_EQ(shown.vertices.size(), surface.vertices.size());
+    for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+        ASSERT_LT(length(shown.vertices[v] - surface.vertices[v]), 1e-9);
         ASSERT_LT(length((1.0 / length(shown.normals[v])) * shown.normals[v] - surface.normals[v]), 1e-6);
     }
 }
@@ -238,9 +238,9 @@ TEST(Animation, BetweenFramesOfARunVerticesMoveInStraightLines)
     const tinygltf::Model model = parsed(written(film, {.frames_per_second = 10.0}));
     const Shown shown = playedAt(model, 0.125);
     ASSERT_EQ(shown.nodes, 1U);
-    for (std::size_t v = 0; v < shown.positions.size(); ++v) {
-        const Vec3 wanted = 0.75 * film.frames[1].positions[v] + 0.25 * film.frames[2].positions[v];
-        EXPECT_LT(length(shown.positions[v] - wanted), 1e-8);
+    for (std::size_t v = 0; v < shown.vertices.size(); ++v) {
+        const Vec3 wanted = 0.75 * film.frames[1].vertices[v] + 0.25 * film.frames[2].vertices[v];
+        EXPECT_LT(length(shown.vertices[v] - wanted), 1e-8);
     }
     // The last frame of a run stands still.
     expectShows(model, 0.399, film.frames[3]);
@@ -259,9 +259,9 @@ TEST(Animation, LongRunsContinueInAnotherNodeWithoutAJump)
             EXPECT_EQ(playedAt(model, 63.5 / 25.0).node, 0U);
             EXPECT_EQ(playedAt(model, 64.5 / 25.0).node, 1U);
             const Shown between = playedAt(model, 63.5 / 25.0);
-            for (std::size_t v = 0; v < between.positions.size(); ++v) {
-                const Vec3 wanted = 0.5 * (film.frames[63].positions[v] + film.frames[64].positions[v]);
-                EXPECT_LT(droplet::length(between.positions[v] - wanted), 1e-7);
+            for (std::size_t v = 0; v < between.vertices.size(); ++v) {
+                const Vec3 wanted = 0.5 * (film.frames[63].vertices[v] + film.frames[64].vertices[v]);
+                EXPECT_LT(droplet::length(between.vertices[v] - wanted), 1e-7);
             }
         }
     }
@@ -282,9 +282,9 @@ TEST(Animation, IsClosedAtEveryWeight)
     for (const double time : {0.0, 0.04, 0.1, 0.17, 0.25, 0.3}) {
         Surface seen = film.frames[0];
         const Shown shown = playedAt(model, time);
-        seen.positions = shown.positions;
+        seen.vertices = shown.vertices;
         for (std::size_t v = 0; v < seen.weld.size(); ++v) {
-            EXPECT_EQ(seen.positions[v], seen.positions[seen.weld[v]]) << "copies move alike";
+            EXPECT_EQ(seen.vertices[v], seen.vertices[seen.weld[v]]) << "copies move alike";
         }
         EXPECT_TRUE(isClosed(seen));
         EXPECT_GT(enclosedVolume(seen), 0.0);
@@ -413,7 +413,7 @@ TEST(Animation, HasTimeSamplesInUsd)
                     const std::uint32_t v = surface.triangles[c / 3][c % 3];
                     const auto p = 3 * static_cast<std::size_t>(corners[c]);
                     const Vec3 place{points.at(p), -points.at(p + 2), points.at(p + 1)};
-                    EXPECT_LT(length(place - surface.positions[v]), 1e-9);
+                    EXPECT_LT(length(place - surface.vertices[v]), 1e-9);
                     const Vec3 normal{normals[3 * v], -normals[3 * v + 2], normals[3 * v + 1]};
                     EXPECT_LT(length(normal - surface.normals[v]), 1e-6);
                 }

@@ -91,11 +91,11 @@ TEST_P(CompressedGltf, ReadsBackWithinTheStatedError)
     const CompressionError error = compressionError(surface, GetParam());
     EXPECT_LT(error.position, std::sqrt(3.0) / 2.0 * 8e-3 / kSteps);
     EXPECT_LT(error.normal, (GetParam() == Compression::Quantize ? 0.005 : 0.1) * kDegree);
-    ASSERT_EQ(found.positions.size(), surface.positions.size());
+    ASSERT_EQ(found.vertices.size(), surface.vertices.size());
     const auto same = [&](std::size_t i) {
         std::size_t nearest = 0;
         double least = 1.0;
-        for (std::size_t k = 0; k < found.positions.size(); ++k) {
+        for (std::size_t k = 0; k < found.vertices.size(); ++k) {
             const double distance = std::hypot(found.uvs[k].x - surface.uvs[i].x, found.uvs[k].y - surface.uvs[i].y);
             if (distance < least && (found.normals[k].z > 0.0) == (surface.normals[i].z > 0.0)) {
                 nearest = k;
@@ -106,9 +106,9 @@ TEST_P(CompressedGltf, ReadsBackWithinTheStatedError)
     };
     double largest = 0.0;
     double largest_angle = 0.0;
-    for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
         const std::size_t at = same(i);
-        largest = std::max(largest, length(found.positions[at] - surface.positions[i]));
+        largest = std::max(largest, length(found.vertices[at] - surface.vertices[i]));
         const Vec3 normal = found.normals[at];
         largest_angle = std::max(
             largest_angle, std::atan2(length(cross(normal, surface.normals[i])), dot(normal, surface.normals[i])));
@@ -234,9 +234,9 @@ TEST_P(CompressedGltf, KeepsLooksNodesAndThePicture)
         EXPECT_NEAR(enclosedVolume(found), enclosedVolume(surface), 1e-4 * enclosedVolume(surface));
         const CompressionError error = compressionError(surface, GetParam());
         double largest = 0.0;
-        for (const Vec3& expected : surface.positions) {
+        for (const Vec3& expected : surface.vertices) {
             double least = 1.0;
-            for (const Vec3& place : found.positions) {
+            for (const Vec3& place : found.vertices) {
                 least = std::min(least, length(place - expected));
             }
             largest = std::max(largest, least);
@@ -249,15 +249,15 @@ TEST_P(CompressedGltf, KeepsLooksNodesAndThePicture)
 TEST_P(CompressedGltf, KeepsSharedVerticesTogether)
 {
     Surface surface = testing::together(roundDroplet(), roundDroplet({.inner = 4e-3, .outer = 7e-3}));
-    const auto vertices = static_cast<std::size_t>(roundDroplet().positions.size());
+    const auto vertices = static_cast<std::size_t>(roundDroplet().vertices.size());
     const std::size_t triangles = roundDroplet().triangles.size();
-    surface.parts = {{0, 0, vertices, 0, triangles, 1e-9, 1e-6},
-                     {1, vertices, surface.positions.size() - vertices, triangles, surface.triangles.size() - triangles,
-                      1e-9, 1e-6}};
+    surface.parts = {
+        {0, 0, vertices, 0, triangles, 1e-9, 1e-6},
+        {1, vertices, surface.vertices.size() - vertices, triangles, surface.triangles.size() - triangles, 1e-9, 1e-6}};
     const auto shared = [](const Surface& of) {
         std::set<std::array<double, 3>> places;
         std::set<std::array<double, 3>> rims;
-        for (const Vec3& p : of.positions) {
+        for (const Vec3& p : of.vertices) {
             places.insert({p.x, p.y, p.z});
             if (std::abs(std::hypot(p.x, p.y) - 4e-3) < 1e-6) {
                 rims.insert({p.x, p.y, p.z});
@@ -297,7 +297,7 @@ TEST_P(CompressedGltf, CompressesARefill)
     EXPECT_EQ(change["normalized"], true);
     const double side = file["nodes"][0]["scale"][0];
     double highest = 0.0;
-    for (const Vec3& p : surface.refill->states[0].positions) {
+    for (const Vec3& p : surface.refill->states[0].vertices) {
         highest = std::max(highest, p.z);
     }
     EXPECT_NEAR(side * change["max"][1].get<double>() / 32767.0, highest, side / 65534.0);
@@ -311,7 +311,7 @@ TEST_P(CompressedGltf, CompressesARefill)
 TEST_P(CompressedGltf, HoldsChangesBeyondTheBox)
 {
     Surface surface = testing::withRefill(roundDroplet());
-    for (Vec3& change : surface.refill->states[0].positions) {
+    for (Vec3& change : surface.refill->states[0].vertices) {
         change = 20.0 * change;
     }
     const json file = jsonOf(written(surface, {.compression = GetParam()}));
@@ -319,7 +319,7 @@ TEST_P(CompressedGltf, HoldsChangesBeyondTheBox)
     const json& index = file["meshes"][0]["primitives"][0]["targets"][0]["POSITION"];
     EXPECT_EQ(file["accessors"][index.get<std::size_t>()]["max"][1], 32767);
     double highest = 0.0;
-    for (const Vec3& p : surface.refill->states[0].positions) {
+    for (const Vec3& p : surface.refill->states[0].vertices) {
         highest = std::max(highest, p.z);
     }
     EXPECT_NEAR(side, highest, 1e-9);

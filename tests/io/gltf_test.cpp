@@ -91,7 +91,7 @@ Surface strip(std::uint32_t vertices)
     Surface surface;
     surface.mean_height = 1e-3;
     for (std::uint32_t i = 0; i < vertices; ++i) {
-        surface.positions.push_back({1e-6 * i, i % 2 == 0 ? 0.0 : 1e-3, 0.0});
+        surface.vertices.push_back({1e-6 * i, i % 2 == 0 ? 0.0 : 1e-3, 0.0});
         surface.normals.push_back({0.0, 0.0, 1.0});
         surface.uvs.push_back({0.25, 0.75});
         surface.weld.push_back(i);
@@ -121,21 +121,21 @@ TEST_P(Gltf, HoldsTheRefillAsAMorphTargetThatShowsEveryFill)
     EXPECT_EQ(mesh.extras.Get("fill_range").Get(1).GetNumberAsDouble(), 2.0);
     const tinygltf::Primitive& primitive = onlyPrimitive(model);
     ASSERT_EQ(primitive.targets.size(), 1U);
-    const auto positions = numbersOf<float>(model, primitive.attributes.at("POSITION"));
+    const auto vertices = numbersOf<float>(model, primitive.attributes.at("POSITION"));
     const auto normals = numbersOf<float>(model, primitive.attributes.at("NORMAL"));
     const auto moves = numbersOf<float>(model, primitive.targets[0].at("POSITION"));
     const auto turns = numbersOf<float>(model, primitive.targets[0].at("NORMAL"));
-    ASSERT_EQ(moves.size(), positions.size());
-    ASSERT_EQ(turns.size(), positions.size());
+    ASSERT_EQ(moves.size(), vertices.size());
+    ASSERT_EQ(turns.size(), vertices.size());
     for (const double fill : {0.25, 1.0, 1.5, 2.0}) {
         const Surface wanted = refilled(surface, fill);
-        for (std::size_t v = 0; v < wanted.positions.size(); ++v) {
+        for (std::size_t v = 0; v < wanted.vertices.size(); ++v) {
             const auto shown = [&](const std::vector<float>& base, const std::vector<float>& change, std::size_t k) {
                 return base[3 * v + k] + (fill - 1) * change[3 * v + k];
             };
-            EXPECT_NEAR(shown(positions, moves, 0), wanted.positions[v].x, 1e-9);
-            EXPECT_NEAR(shown(positions, moves, 1), wanted.positions[v].z, 1e-9);
-            EXPECT_NEAR(shown(positions, moves, 2), -wanted.positions[v].y, 1e-9);
+            EXPECT_NEAR(shown(vertices, moves, 0), wanted.vertices[v].x, 1e-9);
+            EXPECT_NEAR(shown(vertices, moves, 1), wanted.vertices[v].z, 1e-9);
+            EXPECT_NEAR(shown(vertices, moves, 2), -wanted.vertices[v].y, 1e-9);
             const Vec3 turned{shown(normals, turns, 0), -shown(normals, turns, 2), shown(normals, turns, 1)};
             EXPECT_LT(length((1.0 / length(turned)) * turned - wanted.normals[v]), 1e-6);
         }
@@ -161,19 +161,19 @@ TEST_P(Gltf, HoldsTheSurfaceAsFloatsWithYUp)
     const tinygltf::Primitive& primitive = onlyPrimitive(model);
     EXPECT_EQ(primitive.mode, TINYGLTF_MODE_TRIANGLES);
     ASSERT_EQ(primitive.attributes.size(), 3U);
-    const auto positions = numbersOf<float>(model, primitive.attributes.at("POSITION"));
+    const auto vertices = numbersOf<float>(model, primitive.attributes.at("POSITION"));
     const auto normals = numbersOf<float>(model, primitive.attributes.at("NORMAL"));
     const auto uvs = numbersOf<float>(model, primitive.attributes.at("TEXCOORD_0"));
     const auto indices = numbersOf<std::uint16_t>(model, primitive.indices);
-    ASSERT_EQ(positions.size(), 3 * surface.positions.size());
-    ASSERT_EQ(normals.size(), 3 * surface.positions.size());
-    ASSERT_EQ(uvs.size(), 2 * surface.positions.size());
+    ASSERT_EQ(vertices.size(), 3 * surface.vertices.size());
+    ASSERT_EQ(normals.size(), 3 * surface.vertices.size());
+    ASSERT_EQ(uvs.size(), 2 * surface.vertices.size());
     ASSERT_EQ(indices.size(), 3 * surface.triangles.size());
-    for (std::size_t i = 0; i < surface.positions.size(); ++i) {
-        const Vec3 at = surface.positions[i];
-        EXPECT_EQ(positions[3 * i], static_cast<float>(at.x));
-        EXPECT_EQ(positions[3 * i + 1], static_cast<float>(at.z));
-        EXPECT_EQ(positions[3 * i + 2], static_cast<float>(-at.y));
+    for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
+        const Vec3 at = surface.vertices[i];
+        EXPECT_EQ(vertices[3 * i], static_cast<float>(at.x));
+        EXPECT_EQ(vertices[3 * i + 1], static_cast<float>(at.z));
+        EXPECT_EQ(vertices[3 * i + 2], static_cast<float>(-at.y));
         const Vec3 normal = surface.normals[i];
         EXPECT_EQ(normals[3 * i], static_cast<float>(normal.x));
         EXPECT_EQ(normals[3 * i + 1], static_cast<float>(normal.z));
@@ -198,7 +198,7 @@ TEST_P(Gltf, ContactAnglesAreDegreesInACustomAttribute)
     const int index = primitive.attributes.at("_CONTACT_ANGLE");
     EXPECT_EQ(model.accessors.at(static_cast<std::size_t>(index)).type, TINYGLTF_TYPE_SCALAR);
     const auto angles = numbersOf<float>(model, index);
-    ASSERT_EQ(angles.size(), surface.positions.size());
+    ASSERT_EQ(angles.size(), surface.vertices.size());
     std::size_t on_rim = 0;
     for (std::size_t i = 0; i < angles.size(); ++i) {
         on_rim += angles[i] > 0.0F ? 1 : 0;
@@ -217,11 +217,11 @@ TEST_P(Gltf, TheImagesLowerEdgePointsToPositiveZ)
 {
     const tinygltf::Model model = parsed(written(roundDroplet(), {.binary = GetParam()}), GetParam());
     const tinygltf::Primitive& primitive = onlyPrimitive(model);
-    const auto positions = numbersOf<float>(model, primitive.attributes.at("POSITION"));
+    const auto vertices = numbersOf<float>(model, primitive.attributes.at("POSITION"));
     const auto uvs = numbersOf<float>(model, primitive.attributes.at("TEXCOORD_0"));
     for (std::size_t i = 0; i < uvs.size() / 2; ++i) {
-        EXPECT_NEAR(uvs[2 * i], 0.5 + positions[3 * i] / kExtent, 1e-6);
-        EXPECT_NEAR(uvs[2 * i + 1], 0.5 + positions[3 * i + 2] / kExtent, 1e-6);
+        EXPECT_NEAR(uvs[2 * i], 0.5 + vertices[3 * i] / kExtent, 1e-6);
+        EXPECT_NEAR(uvs[2 * i + 1], 0.5 + vertices[3 * i + 2] / kExtent, 1e-6);
     }
 }
 
@@ -231,16 +231,16 @@ TEST_P(Gltf, BoundsArePreciselyThoseOfTheFloats)
         parsed(written(roundDroplet({.outer = 1.0 / 300.0}), {.binary = GetParam()}), GetParam());
     const tinygltf::Primitive& primitive = onlyPrimitive(model);
     const int index = primitive.attributes.at("POSITION");
-    const auto positions = numbersOf<float>(model, index);
+    const auto vertices = numbersOf<float>(model, index);
     const tinygltf::Accessor& accessor = model.accessors.at(static_cast<std::size_t>(index));
     ASSERT_EQ(accessor.minValues.size(), 3U);
     ASSERT_EQ(accessor.maxValues.size(), 3U);
     for (std::size_t k = 0; k < 3; ++k) {
-        float low = positions[k];
-        float high = positions[k];
-        for (std::size_t i = k; i < positions.size(); i += 3) {
-            low = std::min(low, positions[i]);
-            high = std::max(high, positions[i]);
+        float low = vertices[k];
+        float high = vertices[k];
+        for (std::size_t i = k; i < vertices.size(); i += 3) {
+            low = std::min(low, vertices[i]);
+            high = std::max(high, vertices[i]);
         }
         EXPECT_EQ(accessor.minValues[k], static_cast<double>(low));
         EXPECT_EQ(accessor.maxValues[k], static_cast<double>(high));
@@ -315,9 +315,9 @@ TEST_P(Gltf, RefusesNumbersThatAreNotFinite)
 {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<std::function<void(Surface&)>> spoils = {
-        [](Surface& s) { s.positions[3].z = kNan; },
-        [](Surface& s) { s.positions[3].z = std::numeric_limits<double>::infinity(); },
-        [](Surface& s) { s.positions[0].x = 1e39; },  // finite, but not as a float
+        [](Surface& s) { s.vertices[3].z = kNan; },
+        [](Surface& s) { s.vertices[3].z = std::numeric_limits<double>::infinity(); },
+        [](Surface& s) { s.vertices[0].x = 1e39; },  // finite, but not as a float
         [](Surface& s) { s.normals[3].x = kNan; },
         [](Surface& s) { s.uvs[3].y = kNan; },
         [](Surface& s) { s.uvs.back().y = -1e39; },
@@ -348,7 +348,7 @@ TEST_P(Gltf, RefusesFilesOf2GiB)
         GTEST_SKIP() << "too little memory for a surface this large";
     }
     Surface surface = roundDroplet();
-    surface.positions.resize(vertices);
+    surface.vertices.resize(vertices);
     const auto complaint = [&] {
         std::ostringstream out;
         try {
@@ -360,7 +360,7 @@ TEST_P(Gltf, RefusesFilesOf2GiB)
         return std::string();
     };
     EXPECT_THAT(complaint(), HasSubstr("2 GiB"));
-    surface.positions.resize(vertices - 200'000);
+    surface.vertices.resize(vertices - 200'000);
     EXPECT_THAT(complaint(), HasSubstr("normals"));  // the next error
 }
 
@@ -584,7 +584,7 @@ TEST(Gltf, EveryDropletHasItsNode)
             const tinygltf::Value& volume = material.extensions.at("KHR_materials_volume");
             EXPECT_DOUBLE_EQ(volume.Get("thicknessFactor").GetNumberAsDouble(), k == 0 ? 2e-3 : 1e-3);
         }
-        EXPECT_EQ(vertices, surface.positions.size());
+        EXPECT_EQ(vertices, surface.vertices.size());
         EXPECT_EQ(indices, 3 * surface.triangles.size());
     }
 }

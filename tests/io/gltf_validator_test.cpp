@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "droplet/drawing/picture.h"
 #include "droplet/io/animation.h"
 #include "droplet/io/gltf.h"
 #include "droplet/io/output.h"
-#include "droplet/picture/picture.h"
 #include "support/paths.h"
 #include "support/surfaces.h"
 

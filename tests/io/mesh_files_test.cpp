@@ -104,9 +104,9 @@ TEST(Obj, WeldsPositionsAndKeepsNormalsApart)
     const Surface surface = roundDroplet({.inner = 1e-3, .centre = {1e-3, 2e-3}});
     auto lines = linesOf(written(writeObjInMillimetres, surface));
     ASSERT_EQ(lines["v"].size(), places(surface));
-    ASSERT_LT(lines["v"].size(), surface.positions.size());
-    ASSERT_EQ(lines["vt"].size(), surface.positions.size());
-    ASSERT_EQ(lines["vn"].size(), surface.positions.size());
+    ASSERT_LT(lines["v"].size(), surface.vertices.size());
+    ASSERT_EQ(lines["vt"].size(), surface.vertices.size());
+    ASSERT_EQ(lines["vn"].size(), surface.vertices.size());
     ASSERT_EQ(lines["f"].size(), surface.triangles.size());
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
         std::istringstream face(lines["f"][t]);
@@ -117,7 +117,7 @@ TEST(Obj, WeldsPositionsAndKeepsNormalsApart)
             char slash = 0;
             face >> position >> slash >> texture >> slash >> normal;
             ASSERT_TRUE(face);
-            const Vec3 place = surface.positions[vertex];
+            const Vec3 place = surface.vertices[vertex];
             const std::vector<double> v = numbersIn(lines["v"].at(position - 1));
             ASSERT_EQ(v.size(), 3U);
             EXPECT_NEAR(v[0], 1e3 * place.x, 5e-9 * std::abs(v[0]));
@@ -141,8 +141,8 @@ TEST(Obj, WeldsPositionsAndKeepsNormalsApart)
 TEST(Obj, HasNineSignificantDigits)
 {
     Surface surface = roundDroplet();
-    surface.positions[1].x = 1.0 / 3.0;
-    surface.positions[1].y = -2e-8 / 3.0;
+    surface.vertices[1].x = 1.0 / 3.0;
+    surface.vertices[1].y = -2e-8 / 3.0;
     const std::string obj = written(writeObjInMillimetres, surface);
     EXPECT_THAT(obj, HasSubstr("\nv 333.333333 "));
     EXPECT_THAT(obj, HasSubstr(" 6.66666667e-06\n"));
@@ -241,9 +241,9 @@ TEST(Ply, HoldsTheSurfaceAsFloats)
             const std::uint32_t vertex = surface.weld[own];
             const std::size_t v = vertices + 32 * static_cast<std::size_t>(at<std::int32_t>(ply, face + 1 + 4 * k));
             ASSERT_LT(v, faces);
-            EXPECT_EQ(at<float>(ply, v), static_cast<float>(surface.positions[own].x));
-            EXPECT_EQ(at<float>(ply, v + 4), static_cast<float>(surface.positions[own].y));
-            EXPECT_EQ(at<float>(ply, v + 8), static_cast<float>(surface.positions[own].z));
+            EXPECT_EQ(at<float>(ply, v), static_cast<float>(surface.vertices[own].x));
+            EXPECT_EQ(at<float>(ply, v + 4), static_cast<float>(surface.vertices[own].y));
+            EXPECT_EQ(at<float>(ply, v + 8), static_cast<float>(surface.vertices[own].z));
             EXPECT_EQ(at<float>(ply, v + 12), static_cast<float>(surface.normals[vertex].x));
             EXPECT_EQ(at<float>(ply, v + 16), static_cast<float>(surface.normals[vertex].y));
             EXPECT_EQ(at<float>(ply, v + 20), static_cast<float>(surface.normals[vertex].z));
@@ -266,7 +266,7 @@ TEST(Stl, IsBinaryInMillimetresWithTheWindingsNormals)
         const std::size_t facet = 84 + 50 * t;
         std::array<Vec3, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 place = surface.positions[surface.triangles[t][k]];
+            const Vec3 place = surface.vertices[surface.triangles[t][k]];
             const std::size_t v = facet + 12 + 12 * k;
             corners[k] = {at<float>(stl, v), at<float>(stl, v + 4), at<float>(stl, v + 8)};
             EXPECT_EQ(at<float>(stl, v), static_cast<float>(1e3 * place.x));
@@ -297,7 +297,7 @@ TEST(MeshFiles, StateTheirUnit)
     const Surface surface = roundDroplet();
     const auto width = [](const Surface& of) {
         double max = 0.0;
-        for (const Vec3& p : of.positions) {
+        for (const Vec3& p : of.vertices) {
             max = std::max(max, p.x);
         }
         return max;
@@ -399,7 +399,7 @@ TEST_P(MeshFile, TheSameSurfaceGivesTheSameBytes)
 TEST_P(MeshFile, RefusesNumbersThatAreNotFinite)
 {
     const std::vector<std::function<void(Surface&)>> spoils = {
-        [](Surface& s) { s.positions[3].z = std::numeric_limits<double>::quiet_NaN(); },
+        [](Surface& s) { s.vertices[3].z = std::numeric_limits<double>::quiet_NaN(); },
         [](Surface& s) { s.normals[3].x = std::numeric_limits<double>::infinity(); },
         [](Surface& s) { s.uvs[3].y = std::numeric_limits<double>::quiet_NaN(); },
     };

@@ -104,7 +104,7 @@ Draft indexedSquare()
 TEST_F(Object, IsTurnedToZUp)
 {
     const TexturedMesh mesh = read(indexedSquare().file(scene(kSquare + kIndices)));
-    EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, -2, 0}, {0, -2, 0}}));
+    EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, -2, 0}, {0, -2, 0}}));
     EXPECT_EQ(mesh.normals, (std::vector<Vec3>(4, {0, 0, 1})));
     EXPECT_EQ(mesh.uvs, (std::vector<Vec2>{{0, 0}, {0.5, 0}, {0.5, 1}, {0, 1}}));
     EXPECT_EQ(mesh.triangles, kTwo);
@@ -117,9 +117,9 @@ TEST_F(Object, ReadsBackWhatTheWriterWrites)
         std::ostringstream out;
         (void)writeGltf(surface, out, {.binary = binary});
         const TexturedMesh mesh = read(out.str());
-        ASSERT_EQ(mesh.positions.size(), surface.positions.size());
-        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-            EXPECT_LT(length(mesh.positions[v] - surface.positions[v]), 1e-9);
+        ASSERT_EQ(mesh.vertices.size(), surface.vertices.size());
+        for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+            EXPECT_LT(length(mesh.vertices[v] - surface.vertices[v]), 1e-9);
             EXPECT_LT(length(mesh.normals[v] - surface.normals[v]), 1e-6);
             EXPECT_LT(length(mesh.uvs[v] - surface.uvs[v]), 1e-6);
         }
@@ -175,7 +175,7 @@ TEST_F(Object, InterleavedAttributesAreRead)
         R"({"bufferView":0,"byteOffset":12,"componentType":5126,"type":"VEC2","count":3}],)"
         R"("bufferViews":[{"buffer":0,"byteLength":60,"byteStride":20}],"buffers":[{"byteLength":60}]})";
     const TexturedMesh mesh = read(glb(json, buffer));
-    EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, -2, 0}}));
+    EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, -2, 0}}));
     EXPECT_EQ(mesh.uvs, (std::vector<Vec2>{{7, 8}, {9, 10}, {11, 12}}));
 }
 
@@ -218,7 +218,7 @@ TEST_F(Object, NodesMoveTheirMeshes)
         const Vec3 rolled{scaled.x, -scaled.z, scaled.y};  // 90° about x
         const Vec3 moved = rolled + Vec3{1, 2, 3};
         const Vec3 outer = Vec3{-moved.y, moved.x, moved.z} + Vec3{10, 20, 30};
-        EXPECT_LT(length(mesh.positions[v] - Vec3{outer.x, -outer.z, outer.y}), 1e-5);
+        EXPECT_LT(length(mesh.vertices[v] - Vec3{outer.x, -outer.z, outer.y}), 1e-5);
         EXPECT_LT(length(mesh.normals[v] - Vec3{0, -1, 0}), 1e-6);  // +Y, rolled to +Z of glTF
     }
     EXPECT_EQ(mesh.triangles, kTwo);
@@ -234,8 +234,8 @@ TEST_F(Object, NormalsAndWindingFollowMirrorsAndUnevenScales)
     draft.addFloats({0, 0, 1, 0, 0, 1}, "VEC2");
     for (const double x : {2.0, -2.0}) {
         const TexturedMesh mesh = read(draft.file(scene(kSquare, R"(,"scale":[)" + std::to_string(x) + R"(,1,1])")));
-        const Vec3 a = mesh.positions[mesh.triangles[0][0]];
-        const Vec3 normal = cross(mesh.positions[mesh.triangles[0][1]] - a, mesh.positions[mesh.triangles[0][2]] - a);
+        const Vec3 a = mesh.vertices[mesh.triangles[0][0]];
+        const Vec3 normal = cross(mesh.vertices[mesh.triangles[0][1]] - a, mesh.vertices[mesh.triangles[0][2]] - a);
         EXPECT_LT(length(cross(mesh.normals[0], normal)), 1e-6);
         EXPECT_GT(dot(mesh.normals[0], normal), 0.0);
         EXPECT_GT(mesh.normals[0].z, 0.0);
@@ -246,7 +246,7 @@ TEST_F(Object, NormalsAndWindingFollowMirrorsAndUnevenScales)
 TEST_F(Object, MissingNormalsAreWeightedByAngles)
 {
     Draft draft;
-    std::vector<float> positions;
+    std::vector<float> vertices;
     std::vector<float> uvs;
     std::string indices;
     for (int axis = 0; axis < 3; ++axis) {
@@ -256,22 +256,22 @@ TEST_F(Object, MissingNormalsAreWeightedByAngles)
                 p[static_cast<std::size_t>(axis)] = static_cast<float>(side);
                 p[static_cast<std::size_t>(axis + 1) % 3] = (corner == 1 || corner == 2) ? 1.0F : -1.0F;
                 p[static_cast<std::size_t>(axis + 2) % 3] = corner >= 2 ? 1.0F : -1.0F;
-                positions.insert(positions.end(), p.begin(), p.end());
+                vertices.insert(vertices.end(), p.begin(), p.end());
                 uvs.insert(uvs.end(), {0.0F, 0.0F});
             }
-            const auto first = static_cast<std::uint32_t>(positions.size() / 3 - 4);
+            const auto first = static_cast<std::uint32_t>(vertices.size() / 3 - 4);
             for (const std::uint32_t k :
                  side > 0 ? std::array{0U, 1U, 2U, 0U, 2U, 3U} : std::array{0U, 2U, 1U, 0U, 3U, 2U}) {
                 indices += littleEndian(first + k, 2);
             }
         }
     }
-    draft.addFloats(positions, "VEC3");
+    draft.addFloats(vertices, "VEC3");
     draft.addFloats(uvs, "VEC2");
     draft.add(indices, 5123, "SCALAR", 36);
     const TexturedMesh mesh = read(draft.file(scene(R"("attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2)")));
     for (std::size_t v = 0; v < 24; ++v) {
-        EXPECT_LT(length(mesh.normals[v] - (1.0 / std::numbers::sqrt3) * mesh.positions[v]), 1e-12);
+        EXPECT_LT(length(mesh.normals[v] - (1.0 / std::numbers::sqrt3) * mesh.vertices[v]), 1e-12);
     }
 }
 
@@ -282,7 +282,7 @@ TEST_F(Object, TheCanInDataIsUnwrappedInTrueProportion)
     double radius = 0.0;
     double top = 0.0;
     double bottom = 1.0;
-    for (const Vec3 p : mesh.positions) {
+    for (const Vec3 p : mesh.vertices) {
         radius = std::max(radius, std::hypot(p.x, p.y));
         top = std::max(top, p.z);
         bottom = std::min(bottom, p.z);
@@ -292,8 +292,8 @@ TEST_F(Object, TheCanInDataIsUnwrappedInTrueProportion)
     const double lean = 50.0 * std::numbers::pi / 180.0;
     EXPECT_NEAR(top, 98e-3 + 7e-3 * std::sin(lean) / (1.0 - std::cos(lean)), 1e-8);
     for (const Triangle& t : mesh.triangles) {
-        const Vec3 a = mesh.positions[t[0]];
-        const Vec3 normal = cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a);
+        const Vec3 a = mesh.vertices[t[0]];
+        const Vec3 normal = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
         for (const std::uint32_t v : t) {
             EXPECT_GT(dot(normal, mesh.normals[v]), 0.9 * length(normal));
         }

@@ -107,7 +107,7 @@ TEST_P(ReadBack, EveryTriangleStandsWhereItStood)
     for (unsigned t = 0; t < mesh->mNumFaces; ++t) {
         ASSERT_EQ(mesh->mFaces[t].mNumIndices, 3U);
         for (unsigned k = 0; k < 3; ++k) {
-            EXPECT_LT(length(corner(t, k) - surface.positions[surface.triangles[t][k]]), 1e-9);
+            EXPECT_LT(length(corner(t, k) - surface.vertices[surface.triangles[t][k]]), 1e-9);
         }
     }
 }
@@ -124,10 +124,10 @@ TEST_P(ReadBack, ARefillIsAMorphTargetInGltfOnly)
     ASSERT_EQ(mesh->mNumAnimMeshes, 1U);
     const aiAnimMesh& target = *mesh->mAnimMeshes[0];  // positions at weight 1, which is a fill of 2
     EXPECT_STREQ(target.mName.C_Str(), "volume");
-    ASSERT_EQ(target.mNumVertices, surface.positions.size());
+    ASSERT_EQ(target.mNumVertices, surface.vertices.size());
     const Surface twice = refilled(surface, 2.0);
     for (unsigned v = 0; v < target.mNumVertices; ++v) {
-        EXPECT_LT(length(turnedBack(target.mVertices[v]) - twice.positions[v]), 1e-9);
+        EXPECT_LT(length(turnedBack(target.mVertices[v]) - twice.vertices[v]), 1e-9);
     }
 }
 

@@ -92,8 +92,8 @@ TEST_F(ReadSurfaceTest, NormalsOfStlAreTheFacets)
 {
     const Surface found = read("droplet.stl", written(roundDroplet(), Format::Stl));
     for (const Triangle& t : found.triangles) {
-        const Vec3 a = found.positions[t[0]];
-        const Vec3 facet = cross(found.positions[t[1]] - a, found.positions[t[2]] - a);
+        const Vec3 a = found.vertices[t[0]];
+        const Vec3 facet = cross(found.vertices[t[1]] - a, found.vertices[t[2]] - a);
         for (const std::uint32_t v : t) {
             EXPECT_NEAR(dot(found.normals[v], facet), length(facet), 1e-12 * length(facet));
         }
@@ -120,11 +120,11 @@ const std::string kTetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 TEST_F(ReadSurfaceTest, ObjInEveryNotation)
 {
     const Surface plain = read("plain.obj", kTetrahedron + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
-    EXPECT_EQ(plain.positions.size(), 4U);
+    EXPECT_EQ(plain.vertices.size(), 4U);
     EXPECT_TRUE(topology(plain).closed);
     EXPECT_NEAR(enclosedVolume(plain), 1e-9 / 6.0, 1e-22);
     // The file is y up: the third vertex is on top.
-    EXPECT_EQ(plain.positions[1], (Vec3{0.0, 0.0, 1e-3}));
+    EXPECT_EQ(plain.vertices[1], (Vec3{0.0, 0.0, 1e-3}));
     // Negative indices, with textures and normals, comments, groups, blanks, carriage returns, plus signs.
     const std::string other =
         "# a tetrahedron\r\no t\r\n" + kTetrahedron +
@@ -144,19 +144,19 @@ TEST_F(ReadSurfaceTest, PlyAndStlAsText)
         "face 2\nproperty list uchar uint vertex_index\nproperty uchar red\nend_header\n"
         "0 2 7 8 0 0\n1 0 0 0\n1 0 1 0\n0 0 1 0.5\n9\n3 0 1 2 255\n3 0 2 3 255\n";
     const Surface square = read("square.ply", ply);
-    EXPECT_EQ(square.positions[3], (Vec3{0.0, 1.0, 0.5}));
+    EXPECT_EQ(square.vertices[3], (Vec3{0.0, 1.0, 0.5}));
     EXPECT_EQ(square.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
     EXPECT_GT(square.normals[1].z, 0.99);
     const std::string facet =
         "facet normal 0 0 0\nouter loop\nvertex 0 0 0\n vertex 1e3 0 0\nvertex 0 1e3 0\nendloop\n";
     const Surface one = read("one.stl", "solid one\n" + facet + "endfacet\nendsolid one\n");
-    EXPECT_EQ(one.positions[1], (Vec3{1.0, 0.0, 0.0}));
+    EXPECT_EQ(one.vertices[1], (Vec3{1.0, 0.0, 0.0}));
     EXPECT_EQ(one.normals[0], (Vec3{0.0, 0.0, 1.0}));
     const auto with = [&](const std::string& number) {
         std::string text = "solid one\n" + facet + "endfacet\nendsolid one\n";
         return text.replace(text.find("1e3"), 3, number);
     };
-    EXPECT_EQ(read("exact.stl", with("0.1234567890123456")).positions[1].x, kMillimetre * 0.1234567890123456);
+    EXPECT_EQ(read("exact.stl", with("0.1234567890123456")).vertices[1].x, kMillimetre * 0.1234567890123456);
     expectRefused("nan.stl", with("nan"), "not STL");
     expectRefused("word.stl", with("one"), "not STL");
     expectRefused("quad.stl", with("1 0 0\nvertex 1 1 0\nvertex 1"), "not STL");

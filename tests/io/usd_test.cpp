@@ -113,7 +113,7 @@ TEST(Usda, WeldsPointsAndKeepsNormalsApart)
     EXPECT_EQ(counts, std::vector<float>(surface.triangles.size(), 3.0F));
     ASSERT_EQ(corners.size(), 3 * surface.triangles.size());
     ASSERT_EQ(normal_indices.size(), corners.size());
-    ASSERT_LT(points.size(), 3 * surface.positions.size());
+    ASSERT_LT(points.size(), 3 * surface.vertices.size());
     EXPECT_EQ(textures.size(), points.size() / 3 * 2);
     EXPECT_EQ(angles.size(), points.size() / 3);
     EXPECT_EQ(interpolationOf(usda, "normal3f[] primvars:normals"), "faceVarying");
@@ -124,9 +124,9 @@ TEST(Usda, WeldsPointsAndKeepsNormalsApart)
         const std::uint32_t vertex = surface.triangles[c / 3][c % 3];
         const auto point = static_cast<std::size_t>(corners[c]);
         ASSERT_LT(3 * point, points.size());
-        EXPECT_EQ(points[3 * point], nearestFloat(surface.positions[vertex].x));
-        EXPECT_EQ(points[3 * point + 1], nearestFloat(surface.positions[vertex].z));
-        EXPECT_EQ(points[3 * point + 2], nearestFloat(0.0 - surface.positions[vertex].y));
+        EXPECT_EQ(points[3 * point], nearestFloat(surface.vertices[vertex].x));
+        EXPECT_EQ(points[3 * point + 1], nearestFloat(surface.vertices[vertex].z));
+        EXPECT_EQ(points[3 * point + 2], nearestFloat(0.0 - surface.vertices[vertex].y));
         const auto normal = static_cast<std::size_t>(normal_indices[c]);
         ASSERT_LT(3 * normal, normals.size());
         EXPECT_EQ(normals[3 * normal + 1], nearestFloat(surface.normals[vertex].z));
@@ -208,9 +208,9 @@ TEST(Usd, DoesNotDependOnTheLocale)
 TEST(Usd, RefusesInvalidSurfaces)
 {
     Surface surface = roundDroplet();
-    surface.positions[3].x = std::numeric_limits<double>::quiet_NaN();
+    surface.vertices[3].x = std::numeric_limits<double>::quiet_NaN();
     Surface far = roundDroplet();
-    far.positions[0].z = 1e39;
+    far.vertices[0].z = 1e39;
     for (const Writer write : {writeUsda, writeUsdz}) {
         for (const Surface& wrong : {surface, far}) {
             std::ostringstream out;

@@ -282,7 +282,7 @@ std::size_t countOf(const std::string& what, const std::string& text)
     return count;
 }
 
-std::string svgOf(const droplet::LiquidScene& scene, const droplet::LiquidLook& look)
+std::string svgOf(const droplet::DrawnLiquid& scene, const droplet::LiquidLook& look)
 {
     std::ostringstream out;
     writeLiquidSvg(scene, kView, look, out);

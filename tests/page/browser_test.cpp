@@ -87,7 +87,7 @@ TEST(PageInBrowser, ControlsWorkWithoutNetworkRequests)
     const testing::ScratchDirectory scratch;
     makePages(scratch.path());
     const auto run = runProgram({"node", testing::kPageDriver, testing::kChromium, scratch.path().string(),
-                                 testing::inSource("src/page/figures.js")});
+                                 testing::inSource("src/html/figures.js")});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto seen = nlohmann::json::parse(run.output);
     SCOPED_TRACE(seen.dump(1));
@@ -137,10 +137,10 @@ TEST(PageInBrowser, ControlsWorkWithoutNetworkRequests)
     const ReadSurface filled = readSurface(scratch.path() / "filled.glb");
     const Surface full = readSurface(scratch.path() / "full.glb").surface;
     EXPECT_THAT(filled.warnings, IsEmpty());
-    ASSERT_EQ(filled.surface.positions.size(), full.positions.size());
+    ASSERT_EQ(filled.surface.vertices.size(), full.vertices.size());
     EXPECT_EQ(filled.surface.triangles, full.triangles);
-    for (std::size_t v = 0; v < full.positions.size(); ++v) {
-        ASSERT_LT(length(filled.surface.positions[v] - full.positions[v]), 1e-8);
+    for (std::size_t v = 0; v < full.vertices.size(); ++v) {
+        ASSERT_LT(length(filled.surface.vertices[v] - full.vertices[v]), 1e-8);
         ASSERT_LT(length(filled.surface.normals[v] - full.normals[v]), 1e-5);
     }
 

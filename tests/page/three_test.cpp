@@ -125,7 +125,7 @@ TEST(Three, SeesTheSameFilmWithEveryCompression)
          2e-6},
         {"windshield",
          {"windshield", path("w.png"), "--rain", "25mm/h", "--glass-width", "0.4m", "--glass-height", "0.2m",
-          "--warm-up", "2s", "--time", "1s", "--size", "32x18", "--samples", "1", "-q", "--model", "@"},
+          "--warm-up", "2s", "--time", "1s", "--frame-size", "32x18", "--samples", "1", "-q", "--animation", "@"},
          {"time", "0.001", "0.5", "0.9"},
          2e-5},
         {"flow", {"flow", "--preset", "bottle", "@", "--time", "0.5s", "-q"}, {"time", "0.001", "0.2", "0.4"}, 2e-5}};
@@ -176,7 +176,7 @@ TEST(Three, PageKnowsTheSurfaceBelowAnOverhang)
                                   "--contact-angle", "140deg", "--json", path("disc.json"), "-q"});
     ASSERT_EQ(made.exit_code, 0) << made.error;
     const auto run = runProgram({"node", testing::inSource("tests/page/surface.mjs"), testing::kThree, path("disc.glb"),
-                                 testing::inSource("src/page/liquid_triangles.js")});
+                                 testing::inSource("src/html/liquid_triangles.js")});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const auto seen = nlohmann::json::parse(run.output, nullptr, false);
     const auto mesh = nlohmann::json::parse(testing::readFile(path("disc.json"))).at("mesh");
@@ -298,13 +298,13 @@ TEST(Three, PlaysRainByNodesAndByTexture)
                                      "2s",
                                      "--time",
                                      "1s",
-                                     "--size",
+                                     "--frame-size",
                                      "32x18",
                                      "--samples",
                                      "1",
-                                     "--model",
+                                     "--animation",
                                      path((std::string(animation) + ".glb").c_str()),
-                                     "--model-animation",
+                                     "--animation-method",
                                      animation,
                                      "-q"});
         ASSERT_EQ(run.exit_code, 0) << run.error;

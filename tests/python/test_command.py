@@ -89,13 +89,13 @@ class SameAsTheCommand(unittest.TestCase):
             self.assertEqual(list(ours.acceleration_m_per_s2), other["acceleration_m_per_s2"])
 
     def test_windshield(self):
-        run("windshield", self.folder / "command.png", "--time", "0.2s", "--warm-up", "1s", "--size", "160x90")
-        ds.windshield(self.folder / "package.png", time=0.2, warm_up="1s", size=(160, 90))
+        run("windshield", self.folder / "command.png", "--time", "0.2s", "--warm-up", "1s", "--frame-size", "160x90")
+        ds.windshield(self.folder / "package.png", time=0.2, warm_up="1s", frame_size=(160, 90))
         self.assertEqual((self.folder / "package.png").read_bytes(), (self.folder / "command.png").read_bytes())
 
     def test_flow(self):
-        run("flow", DATA / "can.glb", self.folder / "command.glb", "--drops", "30", "--time", "0.3s", "--wind", "1,0,0")
-        ds.flow(DATA / "can.glb", self.folder / "package.glb", drops=30, time=0.3, wind=(1, 0, 0))
+        run("flow", DATA / "can.glb", self.folder / "command.glb", "--drops", "30", "--time", "0.3s", "--wind-velocity", "1,0,0")
+        ds.flow(DATA / "can.glb", self.folder / "package.glb", drops=30, time=0.3, wind_velocity=(1, 0, 0))
         self.assertEqual((self.folder / "package.glb").read_bytes(), (self.folder / "command.glb").read_bytes())
 
 

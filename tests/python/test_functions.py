@@ -139,7 +139,7 @@ class Compare(InFolder):
 class WindTunnel(unittest.TestCase):
     def test_lists_may_be_arrays(self):
         winds = np.linspace(0, 10, 5)
-        run = ds.wind_tunnel(volume=[1e-8, "20uL"], wind=winds, slope=math.radians(30)).runs[0]
+        run = ds.wind_tunnel(volume=[1e-8, "20uL"], wind_speed=winds, slope=math.radians(30)).runs[0]
         self.assertEqual(len(run.cases), 2)
         np.testing.assert_allclose(run.wind_m_per_s, winds)
         self.assertAlmostEqual(run.cases[0].slope_deg, 30)
@@ -163,7 +163,7 @@ class Windshield(InFolder):
             warm_up="1s",
             rain=25e-3 / 3600,
             speed=20,
-            size=(160, 90),
+            frame_size=(160, 90),
             droplets=self.folder / "droplets.csv",
             eye=(0, -0.6, 0.1),
         )
@@ -213,7 +213,7 @@ class Flow(InFolder):
         with self.assertRaisesRegex(ds.InvalidArgument, "no droplets are asked for"):
             ds.flow(DATA / "can.glb", self.folder / "wet.glb")
         with self.assertRaisesRegex(ds.InvalidArgument, "^wind: "):
-            ds.flow(DATA / "can.glb", self.folder / "wet.glb", drops=3, wind=(1, 2))
+            ds.flow(DATA / "can.glb", self.folder / "wet.glb", drops=3, wind_velocity=(1, 2))
         with self.assertRaises(ds.InvalidInput):
             ds.flow(self.folder / "nowhere.glb", self.folder / "wet.glb", drops=3)
 

@@ -181,8 +181,8 @@ TEST(Sequence, DiscMovedByWholePixelsChangesOnlyItsPlace)
             EXPECT_NEAR(droplet.total.volume / first.total.volume, 1.0, 1e-9);
             EXPECT_NEAR(droplet.solution.droplets[0].pressure / first.solution.droplets[0].pressure, 1.0, 1e-5);
             const Vec3 by{static_cast<double>(k) * 3.0 * kPixel, 0.0, 0.0};
-            for (std::size_t v = 0; v < first.surface.positions.size(); ++v) {
-                EXPECT_LT(length(droplet.surface.positions[v] - first.surface.positions[v] - by), 1e-6);
+            for (std::size_t v = 0; v < first.surface.vertices.size(); ++v) {
+                EXPECT_LT(length(droplet.surface.vertices[v] - first.surface.vertices[v] - by), 1e-6);
             }
         }
     }
@@ -207,8 +207,8 @@ TEST(Sequence, EqualOutlinesGiveEqualFrames)
     const std::vector<Frame> frames = framesOf(outlines, optionsFor(VolumeMode::Track));
     for (std::size_t k = 1; k < frames.size(); ++k) {
         ASSERT_TRUE(frames[k].continues);
-        for (std::size_t v = 0; v < frames[0].droplet.surface.positions.size(); ++v) {
-            EXPECT_LT(length(frames[k].droplet.surface.positions[v] - frames[0].droplet.surface.positions[v]),
+        for (std::size_t v = 0; v < frames[0].droplet.surface.vertices.size(); ++v) {
+            EXPECT_LT(length(frames[k].droplet.surface.vertices[v] - frames[0].droplet.surface.vertices[v]),
                       0.05 * kPixel);
         }
     }
@@ -416,16 +416,16 @@ TEST(Sequence, RunsOnAnyGroundWithAnyModel)
 
 TEST(Sequence, IsTheSameAtAnyNumberOfThreads)
 {
-    const auto positions = [](int threads) {
+    const auto vertices = [](int threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
         std::vector<Vec3> all;
         for (const Frame& frame : framesOf(closingHole(), optionsFor(VolumeMode::Track))) {
-            all.insert(all.end(), frame.droplet.surface.positions.begin(), frame.droplet.surface.positions.end());
+            all.insert(all.end(), frame.droplet.surface.vertices.begin(), frame.droplet.surface.vertices.end());
         }
         return all;
     };
-    EXPECT_TRUE(positions(1) == positions(2));
+    EXPECT_TRUE(vertices(1) == vertices(2));
 }
 
 TEST(Sequence, RejectsOptionsThatDoNotApply)

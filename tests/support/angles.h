@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "droplet/footprint/domain.h"
+#include "droplet/domain/domain.h"
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/units.h"
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "droplet/footprint/colour_domain.h"
+#include "droplet/colours/colour_domain.h"
 
 namespace droplet::testing {
 

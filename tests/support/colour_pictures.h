@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "droplet/footprint/colour_regions.h"
+#include "droplet/colours/colour_regions.h"
 #include "droplet/vector.h"
 
 namespace droplet::testing {

@@ -15,7 +15,7 @@ namespace droplet::testing {
 
 /// Surface of triangles without attributes.
 struct TriangleMesh {
-    std::vector<Vec3> positions;
+    std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
 };
 
@@ -23,7 +23,7 @@ inline double volume(const TriangleMesh& mesh)
 {
     double sum = 0.0;
     for (const Triangle& t : mesh.triangles) {
-        sum += dot(mesh.positions[t[0]], cross(mesh.positions[t[1]], mesh.positions[t[2]])) / 6.0;
+        sum += dot(mesh.vertices[t[0]], cross(mesh.vertices[t[1]], mesh.vertices[t[2]])) / 6.0;
     }
     return sum;
 }
@@ -32,8 +32,8 @@ inline double area(const TriangleMesh& mesh)
 {
     double sum = 0.0;
     for (const Triangle& t : mesh.triangles) {
-        const Vec3 a = mesh.positions[t[0]];
-        sum += 0.5 * length(cross(mesh.positions[t[1]] - a, mesh.positions[t[2]] - a));
+        const Vec3 a = mesh.vertices[t[0]];
+        sum += 0.5 * length(cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a));
     }
     return sum;
 }
@@ -72,7 +72,7 @@ inline Distance strays(const TriangleMesh& from, const TriangleMesh& to)
         double radius;
     };
     const auto corners = [](const TriangleMesh& mesh, const Triangle& t) {
-        return std::array<Vec3, 3>{mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+        return std::array<Vec3, 3>{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
     };
     std::vector<Ball> balls;
     for (const Triangle& t : to.triangles) {
@@ -100,7 +100,7 @@ inline Distance strays(const TriangleMesh& from, const TriangleMesh& to)
         result.mean += 0.5 * length(cross(b - a, c - a)) * away / whole;
         result.largest = std::max(result.largest, away);
     }
-    for (const Vec3 p : from.positions) {
+    for (const Vec3 p : from.vertices) {
         result.largest = std::max(result.largest, nearest(p));
     }
     return result;

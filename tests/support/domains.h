@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "droplet/footprint/domain.h"
+#include "droplet/domain/domain.h"
 
 namespace droplet::testing {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 
 namespace droplet::testing {
 

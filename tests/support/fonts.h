@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 #include "droplet/type/font.h"
 #include "droplet/vector.h"
 #include "support/paths.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 #include "droplet/vector.h"
 
 namespace droplet::testing {

@@ -30,7 +30,7 @@ inline TexturedMesh meshOf(const Sheet& sheet)
             const double t = static_cast<double>(j) / sheet.rows;
             const Vec2 uv{(1.0 - s) * sheet.uv_begin.x + s * sheet.uv_end.x,
                           (1.0 - t) * sheet.uv_begin.y + t * sheet.uv_end.y};
-            mesh.positions.push_back(sheet.place(uv));
+            mesh.vertices.push_back(sheet.place(uv));
             mesh.normals.push_back(sheet.normal(uv));
             mesh.uvs.push_back(uv);
         }
@@ -52,8 +52,8 @@ inline TexturedMesh meshOf(const Sheet& sheet)
 /// Union of two objects, the first one's triangles first.
 inline TexturedMesh together(TexturedMesh a, const TexturedMesh& b)
 {
-    const auto offset = static_cast<std::uint32_t>(a.positions.size());
-    a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+    const auto offset = static_cast<std::uint32_t>(a.vertices.size());
+    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
     a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
     a.uvs.insert(a.uvs.end(), b.uvs.begin(), b.uvs.end());
     for (const auto& [i, j, k] : b.triangles) {

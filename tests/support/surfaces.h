@@ -34,8 +34,8 @@ inline double polygonArea(double radius, std::uint32_t segments)
 /// Appends the vertices of another surface.
 inline Surface together(Surface a, const Surface& b)
 {
-    const auto offset = static_cast<std::uint32_t>(a.positions.size());
-    a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+    const auto offset = static_cast<std::uint32_t>(a.vertices.size());
+    a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
     a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
     a.uvs.insert(a.uvs.end(), b.uvs.begin(), b.uvs.end());
     for (const auto& [i, j, k] : b.triangles) {
@@ -66,7 +66,7 @@ inline Surface roundDroplet(const RoundDroplet& wish = {})
         const Vec3 upward{-slope * c, -slope * s, 1.0};
         const Vec3 at{wish.centre.x + radius * c, wish.centre.y + radius * s,
                       on_rim ? 0.0 : wish.height * (1.0 - across * across)};
-        surface.positions.push_back(at);
+        surface.vertices.push_back(at);
         surface.normals.push_back((1.0 / length(upward)) * upward);
         surface.uvs.push_back({0.5 + at.x / kExtent, 0.5 - at.y / kExtent});
         surface.weld.push_back(static_cast<std::uint32_t>(surface.weld.size()));
@@ -97,9 +97,9 @@ inline Surface roundDroplet(const RoundDroplet& wish = {})
     }
     surface.triangles = planar;
     if (!wish.open) {
-        const auto count = static_cast<std::uint32_t>(surface.positions.size());
+        const auto count = static_cast<std::uint32_t>(surface.vertices.size());
         for (std::uint32_t i = 0; i < count; ++i) {
-            surface.positions.push_back({surface.positions[i].x, surface.positions[i].y, 0.0});
+            surface.vertices.push_back({surface.vertices[i].x, surface.vertices[i].y, 0.0});
             surface.normals.push_back({0.0, 0.0, -1.0});
             surface.uvs.push_back(Vec2(surface.uvs[i]));
             surface.weld.push_back(rim[i] ? i : count + i);
@@ -114,7 +114,7 @@ inline Surface roundDroplet(const RoundDroplet& wish = {})
 /// The same droplet with contact angles that grow from vertex to vertex along the rim.
 inline Surface withContactAngles(Surface surface)
 {
-    surface.contact_angle.assign(surface.positions.size(), 0.0F);
+    surface.contact_angle.assign(surface.vertices.size(), 0.0F);
     float angle = 0.3F;
     for (std::uint32_t v = 0; v < surface.weld.size(); ++v) {
         if (surface.weld[v] != v) {
@@ -128,9 +128,9 @@ inline Surface withContactAngles(Surface surface)
 inline Surface withRefill(Surface surface)
 {
     RefillState full;
-    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+    for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
         const Vec3& normal = surface.normals[v];
-        full.positions.push_back({0.0, 0.0, surface.positions[v].z});
+        full.vertices.push_back({0.0, 0.0, surface.vertices[v].z});
         full.normals.push_back({normal.x, normal.y, 0.0});
     }
     surface.refill = Refill{0.0, 2.0, {full}};
@@ -143,7 +143,7 @@ inline Surface soup(std::vector<Triangle> triangles, std::size_t vertices)
     Surface surface;
     for (std::size_t i = 0; i < vertices; ++i) {
         const auto x = static_cast<double>(i);
-        surface.positions.push_back({x, x * x, x * x * x});
+        surface.vertices.push_back({x, x * x, x * x * x});
         surface.normals.push_back({0.0, 0.0, 1.0});
         surface.uvs.emplace_back();
         surface.weld.push_back(static_cast<std::uint32_t>(i));
@@ -156,7 +156,7 @@ inline Surface soup(std::vector<Triangle> triangles, std::size_t vertices)
 inline Surface pairOfDroplets()
 {
     Surface surface = roundDroplet({.outer = 3e-3, .height = 1e-3, .rings = 8, .segments = 32, .centre = {-4e-3, 0.0}});
-    const std::size_t vertices = surface.positions.size();
+    const std::size_t vertices = surface.vertices.size();
     const std::size_t triangles = surface.triangles.size();
     surface = together(
         surface, roundDroplet({.outer = 3e-3, .height = 2e-3, .rings = 9, .segments = 31, .centre = {4e-3, 0.0}}));
@@ -168,7 +168,7 @@ inline Surface pairOfDroplets()
     left.area = 1e-6;
     SurfacePart right;
     right.first_vertex = vertices;
-    right.vertices = surface.positions.size() - vertices;
+    right.vertices = surface.vertices.size() - vertices;
     right.first_triangle = triangles;
     right.triangles = surface.triangles.size() - triangles;
     right.volume = 4e-9;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "droplet/footprint/domain.h"
+#include "droplet/domain/domain.h"
 #include "support/domains.h"
 #include "support/masks.h"
 

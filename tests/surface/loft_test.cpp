@@ -114,7 +114,7 @@ TEST(Loft, BaseOnFlatGroundClosesEveryFootprint)
             std::size_t flat = 0;
             for (const Triangle& triangle : closed.triangles) {
                 const bool ground = std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
-                    return closed.positions[v].z == 0.0 && closed.normals[v] == Vec3{0, 0, -1};
+                    return closed.vertices[v].z == 0.0 && closed.normals[v] == Vec3{0, 0, -1};
                 });
                 flat += ground ? 1 : 0;
             }
@@ -128,8 +128,8 @@ TEST(Loft, TrianglesWindOutward)
     const SolvedDisc disc = solvedDisc(0.1);
     const Surface surface = loft(disc.fields, {.open = false, .extent = {2, 2}});
     for (const Triangle& t : surface.triangles) {
-        const Vec3 a = surface.positions[t[0]];
-        const Vec3 normal = cross(surface.positions[t[1]] - a, surface.positions[t[2]] - a);
+        const Vec3 a = surface.vertices[t[0]];
+        const Vec3 normal = cross(surface.vertices[t[1]] - a, surface.vertices[t[2]] - a);
         for (const std::uint32_t v : t) {
             EXPECT_GT(dot(normal, surface.normals[v]), 0.0);
         }
@@ -145,8 +145,8 @@ TEST(Loft, NormalsAreThoseOfTheParaboloid)
         const Surface surface = loft(disc.fields, {.open = true, .extent = {2, 2}});
         double inside = 0.0;
         double on_rim = 0.0;
-        for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
-            const Vec3 p = surface.positions[v];
+        for (std::uint32_t v = 0; v < surface.vertices.size(); ++v) {
+            const Vec3 p = surface.vertices[v];
             const double g = 4.0 / std::numbers::pi;
             const Vec3 exact = (1.0 / std::sqrt(1.0 + g * g * (p.x * p.x + p.y * p.y))) * Vec3{g * p.x, g * p.y, 1.0};
             double& worst = disc.meshes[0].onRim(v) ? on_rim : inside;
@@ -162,11 +162,11 @@ TEST(Loft, RimHasTwoNormals)
     const SolvedDisc disc = solvedDisc(0.1);
     const Surface surface = loft(disc.fields, {.open = false, .extent = {2, 2}});
     std::size_t split = 0;
-    for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
+    for (std::uint32_t v = 0; v < surface.vertices.size(); ++v) {
         if (surface.weld[v] != v) {
             ++split;
-            EXPECT_EQ(surface.positions[v], surface.positions[surface.weld[v]]);
-            EXPECT_EQ(surface.positions[v].z, 0.0);
+            EXPECT_EQ(surface.vertices[v], surface.vertices[surface.weld[v]]);
+            EXPECT_EQ(surface.vertices[v].z, 0.0);
             EXPECT_EQ(surface.normals[v], (Vec3{0, 0, -1}));
             EXPECT_GT(surface.normals[surface.weld[v]].z, 0.1);
         }
@@ -206,9 +206,9 @@ TEST(Loft, TheBaseFollowsTheGround)
 
         // The base comes after the liquid, with the same places and with reversed triangles.
         const std::size_t count = meshes[0].vertices.size();
-        ASSERT_EQ(closed.positions.size(), 2 * count);
+        ASSERT_EQ(closed.vertices.size(), 2 * count);
         for (std::size_t v = 0; v < count; ++v) {
-            const Vec3 below = closed.positions[count + v];
+            const Vec3 below = closed.vertices[count + v];
             const GroundPoint exact = ground.at({below.x, below.y});
             EXPECT_EQ(below.z, exact.height);
             EXPECT_EQ(Vec2({below.x, below.y}), meshes[0].vertices[v]);
@@ -218,7 +218,7 @@ TEST(Loft, TheBaseFollowsTheGround)
             EXPECT_EQ(closed.uvs[count + v], closed.uvs[v]);
         }
         const Surface open = loft({field}, {.open = true, .extent = {2, 2}, .ground = ground});
-        EXPECT_EQ(open.positions.size(), count);
+        EXPECT_EQ(open.vertices.size(), count);
         EXPECT_EQ(open.mean_height, closed.mean_height);
     }
 }
@@ -247,7 +247,7 @@ TEST(Loft, NormalsOnCurvedGroundAreExactOnTheRim)
         const Surface surface = loft({field}, {.open = true, .extent = {2, 2}, .ground = ground});
         double worst = 0.0;
         double worst_on_rim = 0.0;
-        for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
+        for (std::uint32_t v = 0; v < surface.vertices.size(); ++v) {
             const Vec2 g = slope(meshes[0].vertices[v]);
             const Vec3 exact = (1.0 / std::sqrt(1.0 + dot(g, g))) * Vec3{-g.x, -g.y, 1.0};
             double& error = meshes[0].onRim(v) ? worst_on_rim : worst;
@@ -269,8 +269,8 @@ TEST(Loft, ContactAnglesAreAtTheLiquidsRim)
             field.contact_angle[v] = 0.1 + 0.01 * v;
         }
         const Surface surface = loft({field}, {.extent = {2, 2}, .ground = ground});
-        ASSERT_EQ(surface.contact_angle.size(), surface.positions.size());
-        for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
+        ASSERT_EQ(surface.contact_angle.size(), surface.vertices.size());
+        for (std::uint32_t v = 0; v < surface.vertices.size(); ++v) {
             EXPECT_EQ(surface.contact_angle[v], v < rim ? static_cast<float>(0.1 + 0.01 * v) : 0.0F);
         }
     }
@@ -280,9 +280,9 @@ TEST(Loft, TextureCoordinatesAreThoseOfTheImage)
 {
     const SolvedDisc disc = solvedDisc(0.2);
     const Surface surface = loft(disc.fields, {.open = false, .extent = {4, 8}});
-    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
-        EXPECT_NEAR(surface.uvs[v].x, (surface.positions[v].x + 2) / 4, 1e-15);
-        EXPECT_NEAR(surface.uvs[v].y, (4 - surface.positions[v].y) / 8, 1e-15);
+    for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+        EXPECT_NEAR(surface.uvs[v].x, (surface.vertices[v].x + 2) / 4, 1e-15);
+        EXPECT_NEAR(surface.uvs[v].y, (4 - surface.vertices[v].y) / 8, 1e-15);
     }
 }
 

@@ -48,8 +48,8 @@ double turned(Vec3 a, Vec3 b)
 bool windsOutward(const Surface& surface)
 {
     return std::all_of(surface.triangles.begin(), surface.triangles.end(), [&](const Triangle& t) {
-        const Vec3 a = surface.positions[t[0]];
-        const Vec3 normal = cross(surface.positions[t[1]] - a, surface.positions[t[2]] - a);
+        const Vec3 a = surface.vertices[t[0]];
+        const Vec3 normal = cross(surface.vertices[t[1]] - a, surface.vertices[t[2]] - a);
         return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return dot(normal, surface.normals[v]) > 0.0; });
     });
 }
@@ -81,9 +81,9 @@ TEST(Onto, ThePicturesPlaneChangesNothing)
     const OntoResult result = placeOnto(droplets, meshOf(plane()), kPicture);
     const Surface& surface = result.surface;
     ASSERT_NO_THROW(surface.validate());
-    ASSERT_EQ(surface.positions.size(), droplets.positions.size());
-    for (std::size_t v = 0; v < surface.positions.size(); ++v) {
-        EXPECT_LT(length(surface.positions[v] - droplets.positions[v]), 1e-16);
+    ASSERT_EQ(surface.vertices.size(), droplets.vertices.size());
+    for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+        EXPECT_LT(length(surface.vertices[v] - droplets.vertices[v]), 1e-16);
         EXPECT_LT(length(surface.normals[v] - droplets.normals[v]), 1e-13);
         EXPECT_EQ(surface.uvs[v], droplets.uvs[v]);
     }
@@ -110,8 +110,8 @@ TEST(Onto, FollowsTheObjectsPositionRotationAndSize)
     sheet.place = [&](Vec2 uv) { return shift + kSize * turn({flatOf(uv).x, flatOf(uv).y, 0.0}); };
     sheet.normal = [&](Vec2) { return turn({0, 0, 1}); };
     const OntoResult result = placeOnto(droplet, meshOf(sheet), kPicture);
-    for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
-        EXPECT_LT(length(result.surface.positions[v] - (shift + kSize * turn(droplet.positions[v]))), 1e-14);
+    for (std::size_t v = 0; v < droplet.vertices.size(); ++v) {
+        EXPECT_LT(length(result.surface.vertices[v] - (shift + kSize * turn(droplet.vertices[v]))), 1e-14);
         EXPECT_LT(length(result.surface.normals[v] - turn(droplet.normals[v])), 1e-12);
     }
     EXPECT_NEAR(result.report.min_scale, kSize, 1e-12);
@@ -155,18 +155,18 @@ TEST(Onto, FollowsACanToSecondOrder)
         const double facet = kExtent / columns;
         double place = 0.0;
         double normal = 0.0;
-        for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
-            const Vec3 p = droplet.positions[v];
+        for (std::size_t v = 0; v < droplet.vertices.size(); ++v) {
+            const Vec3 p = droplet.vertices[v];
             const Vec3 n = droplet.normals[v];
             const double c = std::cos(p.x / kCan);
             const double s = std::sin(p.x / kCan);
-            place = std::max(place, length(surface.positions[v] - Vec3{(kCan + p.z) * s, p.y, (kCan + p.z) * c}));
+            place = std::max(place, length(surface.vertices[v] - Vec3{(kCan + p.z) * s, p.y, (kCan + p.z) * c}));
             // Around the can the layer at height z is longer by 1 + z/R, so slopes are smaller.
             const double around = n.x / (1.0 + p.z / kCan);
             const Vec3 exact = Vec3{c * around + s * n.z, n.y, c * n.z - s * around};
             normal = std::max(normal, turned(surface.normals[v], exact));
             if (p.z == 0.0) {
-                const double radius = std::hypot(surface.positions[v].x, surface.positions[v].z);
+                const double radius = std::hypot(surface.vertices[v].x, surface.vertices[v].z);
                 EXPECT_LE(radius, kCan * (1.0 + 1e-12));
                 EXPECT_GE(radius, kCan * std::cos(0.5 * facet / kCan) * (1.0 - 1e-12));
             }
@@ -219,12 +219,12 @@ TEST(Onto, BaseLeavesTheObjectOnlyAtItsEdges)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = t[k];
             const std::uint32_t b = t[(k + 1) % 3];
-            if (droplet.positions[a].z != 0.0 || droplet.positions[b].z != 0.0) {
+            if (droplet.vertices[a].z != 0.0 || droplet.vertices[b].z != 0.0) {
                 continue;
             }
-            const double edge = length(surface.positions[b] - surface.positions[a]);
+            const double edge = length(surface.vertices[b] - surface.vertices[a]);
             for (const double share : {0.0, 0.25, 0.5, 0.75}) {
-                const Vec3 p = (1.0 - share) * surface.positions[a] + share * surface.positions[b];
+                const Vec3 p = (1.0 - share) * surface.vertices[a] + share * surface.vertices[b];
                 const double facet = (std::floor(std::atan2(p.x, p.z) / kTurn) + 0.5) * kTurn;
                 const double below = kCan * std::cos(0.5 * kTurn) - (p.x * std::sin(facet) + p.z * std::cos(facet));
                 EXPECT_GT(below, -1e-15);
@@ -242,9 +242,9 @@ TEST(Onto, TurnedTextureTurnsTheDroplet)
     Sheet sheet = plane();  // x of the picture runs along y in space
     sheet.place = [](Vec2 uv) { return Vec3{-flatOf(uv).y, flatOf(uv).x, 0.0}; };
     const OntoResult result = placeOnto(droplet, meshOf(sheet), kPicture);
-    for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
-        const Vec3 p = droplet.positions[v];
-        EXPECT_LT(length(result.surface.positions[v] - Vec3{-p.y, p.x, p.z}), 1e-16);
+    for (std::size_t v = 0; v < droplet.vertices.size(); ++v) {
+        const Vec3 p = droplet.vertices[v];
+        EXPECT_LT(length(result.surface.vertices[v] - Vec3{-p.y, p.x, p.z}), 1e-16);
     }
     EXPECT_EQ(result.report.mirrored, 0U);
 }
@@ -261,7 +261,7 @@ TEST(Onto, TrianglesOnMirroredChartsAreReportedAndWindOutward)
     EXPECT_THAT(result.report.warnings, ::testing::ElementsAre(HasSubstr("mirrored")));
     EXPECT_NEAR(volume(result.surface) / enclosedVolume(droplet), 1.0, 1e-12);
     EXPECT_TRUE(windsOutward(result.surface));
-    for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
+    for (std::size_t v = 0; v < droplet.vertices.size(); ++v) {
         const Vec3 n = droplet.normals[v];
         EXPECT_LT(length(result.surface.normals[v] - Vec3{-n.x, n.y, n.z}), 1e-12);
     }
@@ -279,7 +279,7 @@ TEST(Onto, NormalsDefineTheOutside)
         EXPECT_EQ(result.report.mirrored, 1U);  // from below, the picture is mirrored
         EXPECT_GT(volume(result.surface), 0.0);
         EXPECT_TRUE(windsOutward(result.surface));
-        EXPECT_LT(result.surface.positions[0].z, -0.5e-3);
+        EXPECT_LT(result.surface.vertices[0].z, -0.5e-3);
     }
 }
 
@@ -293,8 +293,8 @@ TEST(Onto, TheFirstOfOverlappingChartsIsUsedAndReported)
     const TexturedMesh b = meshOf(upper);
     const OntoResult below = placeOnto(droplet, together(a, b), kPicture);
     const OntoResult above = placeOnto(droplet, together(b, a), kPicture);
-    EXPECT_LT(below.surface.positions[0].z, 0.1);
-    EXPECT_GT(above.surface.positions[0].z, 0.9);
+    EXPECT_LT(below.surface.vertices[0].z, 0.1);
+    EXPECT_GT(above.surface.vertices[0].z, 0.9);
     for (const OntoResult* result : {&below, &above}) {
         EXPECT_EQ(result->report.overlapping_charts, 1U);
         EXPECT_EQ(result->report.laid, 1U);
@@ -318,8 +318,8 @@ TEST(Onto, ALeafsBackDoesNotDisturbItsFront)
     }
     leaf.triangles = woven;
     const OntoResult result = placeOnto(droplet, leaf, kPicture);
-    for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
-        EXPECT_LT(length(result.surface.positions[v] - droplet.positions[v]), 1e-16);
+    for (std::size_t v = 0; v < droplet.vertices.size(); ++v) {
+        EXPECT_LT(length(result.surface.vertices[v] - droplet.vertices[v]), 1e-16);
         EXPECT_LT(length(result.surface.normals[v] - droplet.normals[v]), 1e-12);
     }
     EXPECT_EQ(result.report.overlapping_charts, 1U);
@@ -348,9 +348,9 @@ TEST(Onto, DropletsBesideOrAcrossChartsAreLeftOut)
     EXPECT_EQ(result.report.across, 1U);
     EXPECT_EQ(result.report.outside, 1U);
     EXPECT_EQ(topology(result.surface).components, 2U);
-    EXPECT_EQ(result.surface.positions.size(), left.positions.size() + right.positions.size());
-    EXPECT_LT(length(result.surface.positions[0] - left.positions[0]), 1e-16);
-    EXPECT_NEAR(result.surface.positions.back().z, 1.0, 1e-12);
+    EXPECT_EQ(result.surface.vertices.size(), left.vertices.size() + right.vertices.size());
+    EXPECT_LT(length(result.surface.vertices[0] - left.vertices[0]), 1e-16);
+    EXPECT_NEAR(result.surface.vertices.back().z, 1.0, 1e-12);
     EXPECT_NEAR(volume(result.surface) / (2.0 * enclosedVolume(left)), 1.0, 1e-9);
     EXPECT_THAT(result.report.warnings,
                 ::testing::ElementsAre(HasSubstr("not completely on a chart"), HasSubstr("across a seam")));
@@ -383,11 +383,11 @@ TEST(Onto, HeightsFollowTheLocalStretchSmoothly)
         sheet.place = [](Vec2 uv) { return Vec3{kExtent * (uv.x + 2.0 * uv.x * uv.x), flatOf(uv).y, 0.0}; };
         const Surface surface = placeOnto(droplet, meshOf(sheet), kPicture).surface;
         double worst = 0.0;
-        for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
-            const double z = droplet.positions[v].z;
+        for (std::size_t v = 0; v < droplet.vertices.size(); ++v) {
+            const double z = droplet.vertices[v].z;
             if (z > 0.0) {
                 worst = std::max(worst,
-                                 std::abs(surface.positions[v].z / z / std::sqrt(1.0 + 4.0 * droplet.uvs[v].x) - 1.0));
+                                 std::abs(surface.vertices[v].z / z / std::sqrt(1.0 + 4.0 * droplet.uvs[v].x) - 1.0));
             }
         }
         EXPECT_LT(worst, before / (columns == 8 ? 1.0 : 3.5)) << columns;
@@ -400,16 +400,16 @@ TEST(Onto, HeightsFollowTheLocalStretchSmoothly)
 TEST(Onto, AnisotropicStretchTiltsNormals)
 {
     Surface droplet = roundDroplet({.outer = 4e-3});
-    droplet.contact_angle.assign(droplet.positions.size(), 0.0F);
-    const std::size_t rim = droplet.positions.size() / 2 - 1;
+    droplet.contact_angle.assign(droplet.vertices.size(), 0.0F);
+    const std::size_t rim = droplet.vertices.size() / 2 - 1;
     droplet.contact_angle[rim] = 0.4F;
     Sheet sheet = plane();
     sheet.place = [](Vec2 uv) { return Vec3{2.25 * flatOf(uv).x, flatOf(uv).y, 0.0}; };
     const Surface surface = placeOnto(droplet, meshOf(sheet), kPicture).surface;
-    for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
-        const Vec3 p = droplet.positions[v];
+    for (std::size_t v = 0; v < droplet.vertices.size(); ++v) {
+        const Vec3 p = droplet.vertices[v];
         const Vec3 n = droplet.normals[v];
-        EXPECT_LT(length(surface.positions[v] - Vec3{2.25 * p.x, p.y, 1.5 * p.z}), 1e-15);
+        EXPECT_LT(length(surface.vertices[v] - Vec3{2.25 * p.x, p.y, 1.5 * p.z}), 1e-15);
         const Vec3 cofactors{1.5 * n.x, 2.25 * 1.5 * n.y, 2.25 * n.z};
         EXPECT_LT(turned(surface.normals[v], cofactors), 1e-12);
         const double angle = v == rim ? std::acos(cofactors.z / length(cofactors)) : 0.0;
@@ -424,11 +424,11 @@ TEST(Onto, FacetedNormalsAreSmoothed)
     const TexturedMesh smooth = meshOf(can(40));
     TexturedMesh faceted;
     for (const Triangle& t : smooth.triangles) {
-        const Vec3 a = smooth.positions[t[0]];
-        const Vec3 normal = cross(smooth.positions[t[1]] - a, smooth.positions[t[2]] - a);
-        const auto first = static_cast<std::uint32_t>(faceted.positions.size());
+        const Vec3 a = smooth.vertices[t[0]];
+        const Vec3 normal = cross(smooth.vertices[t[1]] - a, smooth.vertices[t[2]] - a);
+        const auto first = static_cast<std::uint32_t>(faceted.vertices.size());
         for (const std::uint32_t v : t) {
-            faceted.positions.push_back(smooth.positions[v]);
+            faceted.vertices.push_back(smooth.vertices[v]);
             faceted.normals.push_back((1.0 / length(normal)) * normal);
             faceted.uvs.push_back(smooth.uvs[v]);
         }
@@ -438,7 +438,7 @@ TEST(Onto, FacetedNormalsAreSmoothed)
     const Surface wanted = placeOnto(droplet, smooth, kPicture).surface;
     EXPECT_EQ(result.report.laid, 1U);
     const double facet_angle = kExtent / 40 / kCan;
-    for (std::size_t v = 0; v < droplet.positions.size(); ++v) {
+    for (std::size_t v = 0; v < droplet.vertices.size(); ++v) {
         EXPECT_LT(turned(result.surface.normals[v], wanted.normals[v]), 0.3 * facet_angle);
     }
 }
@@ -481,7 +481,7 @@ TEST(Onto, SameBitsAtAnyNumberOfThreads)
     const Surface parallel = placed();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const Surface sequential = placed();
-    EXPECT_EQ(parallel.positions, sequential.positions);
+    EXPECT_EQ(parallel.vertices, sequential.vertices);
     EXPECT_EQ(parallel.normals, sequential.normals);
     EXPECT_EQ(parallel.triangles, sequential.triangles);
 }
@@ -521,7 +521,7 @@ TEST(Onto, RefusesBrokenArguments)
     broken.normals[1] = {0, 0, 0.5};
     expectRefused(droplet, broken, kPicture, ErrorCode::InvalidArgument, "object.normals[1]");
     broken = sound;
-    broken.positions.pop_back();
+    broken.vertices.pop_back();
     expectRefused(droplet, broken, kPicture, ErrorCode::InvalidArgument, "equally many");
 }
 

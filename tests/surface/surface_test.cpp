@@ -107,7 +107,7 @@ TEST(Topology, DomeAndBaseAreTwoDiscsWithoutWelding)
 TEST(Topology, VerticesWithoutTrianglesDoNotCount)
 {
     Surface surface = roundDroplet();
-    surface.positions.push_back({9.0, 9.0, 9.0});
+    surface.vertices.push_back({9.0, 9.0, 9.0});
     surface.normals.push_back({1.0, 0.0, 0.0});
     surface.uvs.emplace_back();
     surface.weld.push_back(static_cast<std::uint32_t>(surface.weld.size()));
@@ -146,7 +146,7 @@ TEST(Topology, NonManifoldsAreReportedWithoutMessages)
     {
         SCOPED_TRACE("a triangle with a vertex twice only after welding");
         Surface surface = soup({{0, 1, 2}}, 3);
-        surface.positions[2] = surface.positions[1];
+        surface.vertices[2] = surface.vertices[1];
         surface.weld[2] = 1;
         expectNoManifold(surface);
     }
@@ -301,7 +301,7 @@ TEST(Topology, IsTheSameAtAnyNumberOfThreads)
     for (int k = 0; k < 8; ++k) {
         surface = together(surface, surface);
     }
-    ASSERT_GT(surface.positions.size(), 12'000U);
+    ASSERT_GT(surface.vertices.size(), 12'000U);
     for (const std::size_t threads : {1U, 4U}) {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
         const Topology found = topology(surface);
@@ -327,7 +327,7 @@ TEST(EnclosedVolume, OfAClosedSurfaceDoesNotDependOnItsPlace)
 {
     Surface surface = roundDroplet({.inner = 1e-3});
     const double volume = enclosedVolume(surface);
-    for (Vec3& position : surface.positions) {
+    for (Vec3& position : surface.vertices) {
         position = position + Vec3{0.01, -0.02, 0.03};
     }
     EXPECT_NEAR(enclosedVolume(surface) / volume, 1.0, 1e-12);
@@ -362,11 +362,11 @@ TEST(Surface, RefusesBrokenInvariants)
         {[](Surface& s) { s.normals.pop_back(); }, "normals"},
         {[](Surface& s) { s.uvs.emplace_back(); }, "uvs"},
         {[](Surface& s) { s.weld.pop_back(); }, "weld"},
-        {[](Surface& s) { s.positions.pop_back(); }, "positions"},
+        {[](Surface& s) { s.vertices.pop_back(); }, "vertices"},
         {[](Surface& s) { s.mean_height = kNan; }, "surface.mean_height"},
         {[](Surface& s) { s.mean_height = -1e-9; }, "surface.mean_height"},
-        {[](Surface& s) { s.positions[5].y = kNan; }, "surface.positions[5]"},
-        {[](Surface& s) { s.positions[6].z = -kInfinity; }, "surface.positions[6]"},
+        {[](Surface& s) { s.vertices[5].y = kNan; }, "surface.positions[5]"},
+        {[](Surface& s) { s.vertices[6].z = -kInfinity; }, "surface.positions[6]"},
         {[](Surface& s) { s.normals[7].x = kNan; }, "surface.normals[7]"},
         {[](Surface& s) { s.normals[8] = 1.001 * s.normals[8]; }, "surface.normals[8]"},
         {[](Surface& s) { s.normals[8] = {}; }, "surface.normals[8]"},
@@ -399,7 +399,7 @@ TEST(Surface, RefusesBrokenInvariants)
 TEST(Surface, NamesTheFirstFaultAtAnyNumberOfThreads)
 {
     Surface surface = roundDroplet({.rings = 100, .segments = 300});
-    const std::size_t count = surface.positions.size();
+    const std::size_t count = surface.vertices.size();
     ASSERT_GT(count, 60'000U);
     const auto complaint = [&] {
         try {
@@ -424,7 +424,7 @@ TEST(Surface, NamesTheFirstFaultAtAnyNumberOfThreads)
 TEST(Surface, RefusesChainsOfWelds)
 {
     Surface surface = soup({{0, 1, 2}}, 3);
-    surface.positions = {{}, {}, {}};
+    surface.vertices = {{}, {}, {}};
     surface.weld = {0, 0, 1};
     EXPECT_THROW(surface.validate(), Error);
     surface.weld = {0, 0, 0};

@@ -349,7 +349,7 @@ TEST(WetParts, LieOnTheGroundAlongANewRim)
     // So normals there are the reversed normals of the base.
     const Surface surface = loft({field}, {.extent = {1, 1}, .ground = kBowl});
     std::size_t compared = 0;
-    for (std::uint32_t v = 0; v < surface.positions.size(); ++v) {
+    for (std::uint32_t v = 0; v < surface.vertices.size(); ++v) {
         const std::uint32_t first = surface.weld[v];
         if (first != v && surface.contact_angle[first] == 0.0F) {
             ++compared;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 
 namespace droplet::torture {
 

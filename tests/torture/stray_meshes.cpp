@@ -30,19 +30,19 @@ constexpr std::size_t kVariants = 10;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Mesh {
-    std::vector<Vec3> positions;
+    std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
 
     void add(Vec3 a, Vec3 b, Vec3 c)
     {
-        const auto first = static_cast<std::uint32_t>(positions.size());
-        positions.insert(positions.end(), {a, b, c});
+        const auto first = static_cast<std::uint32_t>(vertices.size());
+        vertices.insert(vertices.end(), {a, b, c});
         triangles.push_back({first, first + 1, first + 2});
     }
     void add(const Mesh& other)
     {
-        const auto first = static_cast<std::uint32_t>(positions.size());
-        positions.insert(positions.end(), other.positions.begin(), other.positions.end());
+        const auto first = static_cast<std::uint32_t>(vertices.size());
+        vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
         for (const auto& [a, b, c] : other.triangles) {
             triangles.push_back({a + first, b + first, c + first});
         }
@@ -69,7 +69,7 @@ Mesh netOf(std::uint32_t n, std::uint32_t m, const Place& place)
     Mesh mesh;
     for (std::uint32_t j = 0; j <= m; ++j) {
         for (std::uint32_t i = 0; i <= n; ++i) {
-            mesh.positions.push_back(place(static_cast<double>(i) / n, static_cast<double>(j) / m));
+            mesh.vertices.push_back(place(static_cast<double>(i) / n, static_cast<double>(j) / m));
         }
     }
     for (std::uint32_t j = 0; j < m; ++j) {
@@ -98,11 +98,11 @@ Mesh closedSphere(std::uint32_t n, double radius)
     Mesh mesh = sphere(n, radius);
     const std::uint32_t row = 2 * n + 1;
     for (std::uint32_t j = 0; j <= n; ++j) {
-        mesh.positions[j * row + row - 1] = mesh.positions[j * row];
+        mesh.vertices[j * row + row - 1] = mesh.vertices[j * row];
     }
     for (std::uint32_t i = 0; i < row; ++i) {
-        mesh.positions[i] = {0.0, 0.0, -radius};
-        mesh.positions[n * row + i] = {0.0, 0.0, radius};
+        mesh.vertices[i] = {0.0, 0.0, -radius};
+        mesh.vertices[n * row + i] = {0.0, 0.0, radius};
     }
     return mesh;
 }
@@ -114,7 +114,7 @@ Mesh tetrahedron(Random& random, Vec3 centre, double size)
         corner = centre + inCube(random, size);
     }
     Mesh mesh;
-    mesh.positions.assign(corners.begin(), corners.end());
+    mesh.vertices.assign(corners.begin(), corners.end());
     mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
     return mesh;
 }
@@ -144,9 +144,9 @@ const std::array<std::pair<const char*, Make>, 20> kKinds{{
              return Vec3{r * std::cos(turn), r * std::sin(turn), 0.05 * (v - 0.5) * std::sin(0.5 * turn)};
          });
          // The last column meets the first one upside down.
-         const std::uint32_t rows = static_cast<std::uint32_t>(mesh.positions.size()) / (n + 1);
+         const std::uint32_t rows = static_cast<std::uint32_t>(mesh.vertices.size()) / (n + 1);
          for (std::uint32_t j = 0; j < rows; ++j) {
-             mesh.positions[j * (n + 1) + n] = mesh.positions[(rows - 1 - j) * (n + 1)];
+             mesh.vertices[j * (n + 1) + n] = mesh.vertices[(rows - 1 - j) * (n + 1)];
          }
          return mesh;
      }},
@@ -194,7 +194,7 @@ const std::array<std::pair<const char*, Make>, 20> kKinds{{
     {"nan",
      [](Random& random) {
          Mesh mesh = closedSphere(5, 0.1);
-         Vec3& p = mesh.positions[count(random, 0, 30)];
+         Vec3& p = mesh.vertices[count(random, 0, 30)];
          (random.real() < 0.5 ? p.x : p.z) = random.real() < 0.5 ? kNaN : std::numeric_limits<double>::infinity();
          return mesh;
      }},
@@ -203,9 +203,9 @@ const std::array<std::pair<const char*, Make>, 20> kKinds{{
          Mesh mesh = closedSphere(5, 0.1);
          const double far = std::pow(10.0, between(random, 3.0, 40.0));
          if (random.real() < 0.5) {
-             mesh.positions[20].x = far;
+             mesh.vertices[20].x = far;
          } else {
-             for (Vec3& p : mesh.positions) {
+             for (Vec3& p : mesh.vertices) {
                  p.y += far;
              }
          }
@@ -215,7 +215,7 @@ const std::array<std::pair<const char*, Make>, 20> kKinds{{
      [](Random& random) {
          Mesh mesh = closedSphere(5, std::pow(10.0, between(random, -30.0, -2.0)));
          if (random.real() < 0.3) {
-             mesh.positions[20].x += 0.1;
+             mesh.vertices[20].x += 0.1;
          }
          return mesh;
      }},
@@ -307,11 +307,11 @@ const std::array<std::pair<const char*, Make>, 20> kKinds{{
      [](Random& random) {
          // Parts that touch in one vertex alone.
          Mesh mesh;
-         mesh.positions.push_back(inCube(random, 0.02));
+         mesh.vertices.push_back(inCube(random, 0.02));
          for (std::uint32_t left = count(random, 2, 30); left > 0; --left) {
-             const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-             mesh.positions.push_back(inCube(random, 0.1));
-             mesh.positions.push_back(inCube(random, 0.1));
+             const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+             mesh.vertices.push_back(inCube(random, 0.1));
+             mesh.vertices.push_back(inCube(random, 0.1));
              mesh.triangles.push_back({0, first, first + 1});
          }
          return mesh;
@@ -321,15 +321,15 @@ const std::array<std::pair<const char*, Make>, 20> kKinds{{
          Mesh mesh = closedSphere(count(random, 4, 16), 0.1);
          const double most = between(random, 0.1, 3.0);
          std::vector<double> factors;
-         for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+         for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
              factors.push_back(1.0 + most * random.real());
          }
-         for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-             const auto same = std::find(mesh.positions.begin(), mesh.positions.end(), mesh.positions[v]);
-             factors[v] = factors[static_cast<std::size_t>(same - mesh.positions.begin())];
+         for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+             const auto same = std::find(mesh.vertices.begin(), mesh.vertices.end(), mesh.vertices[v]);
+             factors[v] = factors[static_cast<std::size_t>(same - mesh.vertices.begin())];
          }
-         for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-             mesh.positions[v] = factors[v] * mesh.positions[v];
+         for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+             mesh.vertices[v] = factors[v] * mesh.vertices[v];
          }
          return mesh;
      }},
@@ -358,9 +358,9 @@ std::string plyOf(const Mesh& mesh)
     std::string text = fmt::format(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
         "property double z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-        mesh.positions.size(), mesh.triangles.size());
+        mesh.vertices.size(), mesh.triangles.size());
     const auto put = [&text](const auto& value) { text.append(reinterpret_cast<const char*>(&value), sizeof value); };
-    for (const Vec3& p : mesh.positions) {
+    for (const Vec3& p : mesh.vertices) {
         put(p.x);
         put(p.y);
         put(p.z);
@@ -374,7 +374,7 @@ std::string plyOf(const Mesh& mesh)
     return text;
 }
 
-void check(const FlowState& state, const FlowScene& scene, const FlowParameters& parameters)
+void check(const FlowState& state, const FlowTerrain& scene, const FlowParameters& parameters)
 {
     constexpr double kBalance = 1e-9;
     constexpr double kDistance = 1e-9;  // over the size
@@ -425,7 +425,7 @@ Verdict tryStrayMesh(const Item& item)
     const auto variant = static_cast<std::size_t>(std::stoi(item.name)) % kVariants;
     return tryReading([&] {
         const FlowObject object = readFlowObject(path);
-        const FlowScene scene(flowSurface(object.positions, object.triangles));
+        const FlowTerrain scene(flowSurface(object.vertices, object.triangles));
         const FlowParameters parameters = parametersOf(variant);
         const double width = 0.005 * scene.diameter();
         const auto starts = scatterDroplets(

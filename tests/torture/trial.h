@@ -7,7 +7,7 @@
 #include <string>
 
 #include "droplet/droplet.h"
-#include "droplet/footprint/mask.h"
+#include "droplet/mask/mask.h"
 #include "droplet/shape/fill.h"
 #include "torture/corpus.h"
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "drawing/lettering.h"
 #include "droplet/error.h"
-#include "picture/lettering.h"
 
 namespace droplet {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "droplet/wind_io/droplet_scene.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,9 +15,10 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/drawing/picture.h"
 #include "droplet/error.h"
-#include "droplet/picture/picture.h"
 #include "droplet/units.h"
+#include "droplet/wind_io/windshield_animation.h"
 #include "droplet/windshield/presets.h"
 #include "support/animated_scene.h"
 #include "support/command.h"
@@ -46,9 +45,9 @@ RunningDroplet droplet(std::uint64_t id, Vec2 position, Vec2 velocity = {}, doub
 }
 
 /// Five frames: droplet 1 rests, then climbs; droplet 2 appears in the third and is gone in the last.
-std::string fiveFrames(const Glass& glass, const DropletSceneOptions& options = {})
+std::string fiveFrames(const Glass& glass, const WindshieldAnimationOptions& options = {})
 {
-    DropletScene scene(glass, options);
+    WindshieldAnimation scene(glass, options);
     WindshieldState state;
     state.droplets = {droplet(1, {0.5, 0.2})};
     scene.add(state);
@@ -96,9 +95,9 @@ struct Rain {
         }
     }
 
-    [[nodiscard]] std::string scene(SceneAnimation animation, const AnimatedFile& file = {}) const
+    [[nodiscard]] std::string scene(AnimationMethod animation, const AnimatedFile& file = {}) const
     {
-        DropletScene scene(glass, {.animation = animation});
+        WindshieldAnimation scene(glass, {.animation = animation});
         for (const WindshieldState& state : states) {
             scene.add(state);
         }
@@ -141,10 +140,10 @@ void expectShown(const std::vector<Shown>& shown, const WindshieldState& state, 
     EXPECT_NEAR(shown_volume / volume, 1.0, 0.01);
 }
 
-TEST(DropletScene, ShowsTheDropletsOfEveryFrame)
+TEST(WindshieldAnimation, ShowsTheDropletsOfEveryFrame)
 {
     const Rain& rain = theRain();
-    const AnimatedScene scene(rain.scene(SceneAnimation::Nodes));
+    const AnimatedScene scene(rain.scene(AnimationMethod::Nodes));
     for (std::size_t frame = 0; frame < rain.states.size(); frame += 7) {
         SCOPED_TRACE(frame);
         expectShown(scene.at((static_cast<double>(frame) + 1e-3) / 30.0), rain.states[frame], rain.glass, 1.0);
@@ -161,10 +160,10 @@ TEST(DropletScene, ShowsTheDropletsOfEveryFrame)
     }
 }
 
-TEST(DropletScene, TextureHasTheDropletsOfEveryFrame)
+TEST(WindshieldAnimation, TextureHasTheDropletsOfEveryFrame)
 {
     const Rain& rain = theRain();
-    const AnimatedScene scene(rain.scene(SceneAnimation::Texture));
+    const AnimatedScene scene(rain.scene(AnimationMethod::Texture));
     testing::ScratchDirectory scratch;
     testing::writeFile(scratch.path() / "droplets.png", scene.png());
     const Picture picture = readPicture(scratch.path() / "droplets.png");
@@ -244,12 +243,12 @@ std::vector<double> numbersAt(const testing::UsdPrim& prim, const std::string& n
 }
 
 // Every droplet is an instance of one of two classes, in the place and size of its joint in glTF.
-TEST(DropletScene, UsdShowsTheSameDroplets)
+TEST(WindshieldAnimation, UsdShowsTheSameDroplets)
 {
     const Rain& rain = theRain();
-    const AnimatedScene scene(rain.scene(SceneAnimation::Nodes));
+    const AnimatedScene scene(rain.scene(AnimationMethod::Nodes));
     const testing::UsdPrim root =
-        testing::UsdaReader(rain.scene(SceneAnimation::Nodes, {Format::Usda})).read().child("droplet");
+        testing::UsdaReader(rain.scene(AnimationMethod::Nodes, {Format::Usda})).read().child("droplet");
     EXPECT_TRUE(root.child("droplets_at_rest").is_class);
     EXPECT_TRUE(root.child("droplets_on_their_way").is_class);
     EXPECT_EQ(root.child("glass").type, "Mesh");
@@ -292,10 +291,10 @@ TEST(DropletScene, UsdShowsTheSameDroplets)
         }
         EXPECT_NEAR(volume, 0.0, 1e-12);
     }
-    EXPECT_THROW((void)rain.scene(SceneAnimation::Texture, {Format::Usda}), Error);
+    EXPECT_THROW((void)rain.scene(AnimationMethod::Texture, {Format::Usda}), Error);
 }
 
-TEST(DropletScene, DropletsAreVisibleOnlyWhileTheyExist)
+TEST(WindshieldAnimation, DropletsAreVisibleOnlyWhileTheyExist)
 {
     const Glass glass;
     const AnimatedScene scene(fiveFrames(glass, {.frames_per_second = 10.0}));
@@ -308,7 +307,7 @@ TEST(DropletScene, DropletsAreVisibleOnlyWhileTheyExist)
     EXPECT_LT(length(scene.at(0.4)[0].place - inFile(glass.place({0.5, 0.25})->point)), 1e-6);
 }
 
-TEST(DropletScene, KeepsVolumesAndFacesTheMotion)
+TEST(WindshieldAnimation, KeepsVolumesAndFacesTheMotion)
 {
     const Glass glass;
     const AnimatedScene scene(fiveFrames(glass));
@@ -327,7 +326,7 @@ TEST(DropletScene, KeepsVolumesAndFacesTheMotion)
     EXPECT_NEAR(dot(running.y, inFile(place->normal)), 1.0, 1e-5);
 }
 
-TEST(DropletScene, PassesTheValidator)
+TEST(WindshieldAnimation, PassesTheValidator)
 {
     testing::ScratchDirectory scratch;
     std::vector<std::string> command{"node", testing::kValidator};
@@ -337,24 +336,24 @@ TEST(DropletScene, PassesTheValidator)
         command.push_back(path);
     };
     store("five.glb", fiveFrames(Glass()));
-    store("texture.glb", fiveFrames(Glass(), {.animation = SceneAnimation::Texture}));
-    store("quantized.glb", theRain().scene(SceneAnimation::Nodes, {Format::Glb, Compression::Quantize}));
-    store("meshopt.glb", theRain().scene(SceneAnimation::Nodes, {Format::Glb, Compression::Meshopt}));
+    store("texture.glb", fiveFrames(Glass(), {.animation = AnimationMethod::Texture}));
+    store("quantized.glb", theRain().scene(AnimationMethod::Nodes, {Format::Glb, Compression::Quantize}));
+    store("meshopt.glb", theRain().scene(AnimationMethod::Nodes, {Format::Glb, Compression::Meshopt}));
     store("ink.glb", fiveFrames(Glass(), {.material = Material::Ink, .shape = {.contact_angle = 0.5}}));
-    DropletScene one{Glass()};
+    WindshieldAnimation one{Glass()};
     WindshieldState state;
     state.droplets = {droplet(7, {0.3, 0.3})};
     one.add(state);
     std::ostringstream out;
     one.write(out);
     store("one_frame.glb", out.str());
-    DropletScene none{Glass()};
+    WindshieldAnimation none{Glass()};
     none.add(WindshieldState());
     none.add(WindshieldState());
     std::ostringstream dry;
     none.write(dry);
     store("dry.glb", dry.str());
-    DropletScene nothing(Glass(), {.animation = SceneAnimation::Texture});
+    WindshieldAnimation nothing(Glass(), {.animation = AnimationMethod::Texture});
     nothing.add(WindshieldState());
     std::ostringstream empty;
     nothing.write(empty);
@@ -366,9 +365,9 @@ TEST(DropletScene, PassesTheValidator)
     }
 }
 
-TEST(DropletScene, RejectsTexturesTooLargeForViewers)
+TEST(WindshieldAnimation, RejectsTexturesTooLargeForViewers)
 {
-    DropletScene scene(Glass(), {.animation = SceneAnimation::Texture});
+    WindshieldAnimation scene(Glass(), {.animation = AnimationMethod::Texture});
     WindshieldState state;
     for (std::uint64_t id = 1; id <= 2049; ++id) {
         state.droplets.push_back(droplet(id, {0.0005 * static_cast<double>(id), 0.3}));
@@ -380,11 +379,11 @@ TEST(DropletScene, RejectsTexturesTooLargeForViewers)
     EXPECT_THAT([&] { scene.add(WindshieldState()); }, ThrowsMessage<Error>(HasSubstr("a texture of 8194 rows")));
 }
 
-TEST(DropletScene, RejectsScenesWithoutFrames)
+TEST(WindshieldAnimation, RejectsScenesWithoutFrames)
 {
-    EXPECT_THROW(DropletScene(Glass(), {.frames_per_second = 0.0}), Error);
+    EXPECT_THROW(WindshieldAnimation(Glass(), {.frames_per_second = 0.0}), Error);
     std::ostringstream out;
-    EXPECT_THROW(DropletScene{Glass()}.write(out), Error);
+    EXPECT_THROW(WindshieldAnimation{Glass()}.write(out), Error);
 }
 
 }  // namespace

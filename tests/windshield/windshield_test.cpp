@@ -747,7 +747,7 @@ TEST(Windshield, RainFallsOnlyOnTheMesh)
     // A triangle: half of its bounding box is not glass.
     const double half = std::sqrt(0.5);
     TexturedMesh mesh;
-    mesh.positions = {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.1 * half, 0.1 * half}};
+    mesh.vertices = {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.1 * half, 0.1 * half}};
     mesh.normals.assign(3, {0.0, -half, half});
     mesh.uvs = {{0.0, 1.0}, {1.0, 1.0}, {0.0, 0.0}};
     mesh.triangles = {{0, 1, 2}};

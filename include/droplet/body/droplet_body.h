@@ -50,9 +50,9 @@ public:
     [[nodiscard]] const std::vector<Triangle>& triangles() const;
     /// Makes one droplet.
     /// @param conditions  what shapes it
-    /// @param positions   receives all vertices [m]; the volume over z = 0 is `volume` to 1e-9
+    /// @param vertices   receives all vertices [m]; the volume over z = 0 is `volume` to 1e-9
     /// @param normals     receives one per vertex, unit, outward
-    void make(const BodyConditions& conditions, std::span<Vec3> positions, std::span<Vec3> normals) const;
+    void make(const BodyConditions& conditions, std::span<Vec3> vertices, std::span<Vec3> normals) const;
 
 private:
     struct Content;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "droplet/footprint/outline.h"
+#include "droplet/outline/outline.h"
 
 namespace droplet {
 

@@ -10,7 +10,7 @@
 #include "droplet/compensated_sum.h"
 #include "droplet/flow/flow_droplet.h"
 #include "droplet/flow/flow_parameters.h"
-#include "droplet/flow/flow_scene.h"
+#include "droplet/flow/flow_terrain.h"
 #include "droplet/vector.h"
 
 namespace droplet {
@@ -102,11 +102,11 @@ struct FlowState {
 
 /// Droplets at time 0.
 ///
-/// @param scene       surface
+/// @param terrain     surface
 /// @param parameters  of the simulation
 /// @param starts      droplets that are there from the beginning
 /// @throws Error      InvalidArgument if a parameter is out of its range, or a droplet is larger than the object
-FlowState startFlow(const FlowScene& scene, const FlowParameters& parameters, const std::vector<FlowStart>& starts);
+FlowState startFlow(const FlowTerrain& terrain, const FlowParameters& parameters, const std::vector<FlowStart>& starts);
 
 /// Advances the state to a time.
 ///
@@ -115,12 +115,12 @@ FlowState startFlow(const FlowScene& scene, const FlowParameters& parameters, co
 ///
 /// Guarantees: calls for any series of times that ends at `until` give the same bytes (but for `tracks`), with any
 /// number of threads; liquid is conserved (balanceOf); droplets are in the order of their ids.
-/// @param state       made with the same scene and parameters
-/// @param scene       surface
+/// @param state       made with the same terrain and parameters
+/// @param terrain     surface
 /// @param parameters  of the simulation
 /// @param until       [s], ≥ state.time
 /// @throws Error      InvalidArgument
-FlowState advanceFlow(FlowState state, const FlowScene& scene, const FlowParameters& parameters, double until);
+FlowState advanceFlow(FlowState state, const FlowTerrain& terrain, const FlowParameters& parameters, double until);
 
 /// A droplet at one time.
 struct FlowSample {
@@ -135,9 +135,10 @@ struct FlowSample {
 
 /// All droplets at the state's time, in the order of their ids.
 /// @param state       as advanceFlow() left it
-/// @param scene       surface
+/// @param terrain     surface
 /// @param parameters  of the simulation
-std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowScene& scene, const FlowParameters& parameters);
+std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowTerrain& terrain,
+                                   const FlowParameters& parameters);
 
 /// Where the liquid is at the state's time.
 FlowBalance balanceOf(const FlowState& state);

@@ -63,7 +63,7 @@ struct FlowCondensation {
 };
 
 /// Properties of every face. An empty array stands for the default everywhere.
-struct FlowGround {
+struct FaceProperties {
     std::vector<Vec2> roughness;     ///< height of bumps along the face's first edge and across it [m], ≥ 0
     std::vector<double> friction;    ///< factor on viscous friction, ≥ 0; default 1
     std::vector<double> hysteresis;  ///< factor on the retention by hysteresis, ≥ 0; default 1
@@ -79,7 +79,7 @@ struct FlowParameters {
     std::optional<double> friction;                ///< |k_f| [kg/s], ≥ 0; empty: viscous drag of the force model
     std::optional<double> adhesion;     ///< D [Pa], ≥ 0; empty: what surface tension holds, 2 σ sin θ / r
     double roughness = 0.0;             ///< height of the bumps where `ground` has none [m], ≥ 0
-    FlowGround ground;                  ///< of single faces
+    FaceProperties ground;              ///< of single faces
     bool merges = true;                 ///< droplets that touch become one
     Streaks streaks;                    ///< film behind droplets, which breaks up into beads
     bool wets = true;                   ///< streaks smooth the surface: droplets run more easily where others ran

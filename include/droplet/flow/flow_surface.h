@@ -45,9 +45,9 @@ struct FlowSurface {
 
 /// Makes the graph of a mesh from outside, by half-edges. Parts whose triangles wind differently are turned to agree;
 /// a closed part that is inside out is turned as a whole.
-/// @param positions  [m], finite
-/// @param triangles  indices of positions; corners at the same place are joined
+/// @param vertices  [m], finite
+/// @param triangles  indices of vertices; corners at the same place are joined
 /// @throws Error     InvalidInput if no triangle has an area
-FlowSurface flowSurface(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles);
+FlowSurface flowSurface(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);
 
 }  // namespace droplet

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "droplet/flow/flow_parameters.h"
-#include "droplet/flow/flow_scene.h"
+#include "droplet/flow/flow_terrain.h"
 #include "droplet/vector.h"
 
 namespace droplet {
@@ -19,7 +19,7 @@ struct ScatterOptions {
     VolumeDistribution volumes = {};  ///< of the droplets
     std::optional<Vec3> from = {};    ///< only points that rain from this direction meets first, from outside; not 0
     /// Probability, 0 … 1, that a point of the surface may have a droplet; empty: 1. Called by many threads.
-    std::function<double(const FlowScene::Point&)> coverage = {};
+    std::function<double(const FlowTerrain::Point&)> coverage = {};
     std::uint64_t seed = 1;  ///< of the random numbers
 
     /// Checks all fields.
@@ -33,10 +33,10 @@ struct ScatterOptions {
 /// of more droplets.
 /// @throws Error  InvalidArgument; InvalidInput if no point was found in a million tries: nothing of the surface faces
 ///                the rain, or the coverage is 0
-std::vector<FlowStart> scatterDroplets(const FlowScene& scene, const ScatterOptions& options);
+std::vector<FlowStart> scatterDroplets(const FlowTerrain& terrain, const ScatterOptions& options);
 
 /// Area of the surface where scatterDroplets() puts droplets, each part times its coverage, from a sample [m²].
 /// @throws Error  InvalidArgument
-double scatterArea(const FlowScene& scene, const ScatterOptions& options);
+double scatterArea(const FlowTerrain& terrain, const ScatterOptions& options);
 
 }  // namespace droplet

@@ -33,8 +33,8 @@ struct FlowAnimationOptions {
 /// Animation of droplets that run over an object, glTF or USD. Takes one frame after another, keeps their data in
 /// memory, and writes the file at the end.
 ///
-/// Droplets are joints of skinned meshes, as in SceneAnimation::Nodes. Positions are exact to a tenth of the droplet's
-/// half width, plus 2 ms of the way along a path; other tolerances are those of SceneAnimation::Nodes. There are three
+/// Droplets are joints of skinned meshes, as in AnimationMethod::Nodes. Positions are exact to a tenth of the droplet's
+/// half width, plus 2 ms of the way along a path; other tolerances are those of AnimationMethod::Nodes. There are three
 /// meshes of a droplet, all with the right volume: a round cap at rest, which is scaled alike in all directions; a head
 /// with a tail for running droplets, with the length and width of the droplet's body at every key; and a ball in the
 /// air. Joints lie in the object's node, which is animated if the object moves. The object has a material for each name

@@ -17,7 +17,7 @@ namespace droplet {
 ///
 /// Invariants: numbers are finite; indices are in range; arrays of vertices have one length, but uvs may be empty.
 struct FlowObject {
-    std::vector<Vec3> positions;              ///< vertices [m], z up
+    std::vector<Vec3> vertices;               ///< vertices [m], z up
     std::vector<Vec3> normals;                ///< one per vertex, unit, outward
     std::vector<Vec2> uvs;                    ///< one per vertex, (0,0) top left of the texture; or empty
     std::vector<Triangle> triangles;          ///< indices of vertices

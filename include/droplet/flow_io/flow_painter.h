@@ -7,12 +7,12 @@
 #include <string>
 #include <string_view>
 
+#include "droplet/drawing/picture.h"
 #include "droplet/flow/flow.h"
-#include "droplet/flow/flow_scene.h"
+#include "droplet/flow/flow_terrain.h"
 #include "droplet/flow/object_motion.h"
 #include "droplet/flow_io/flow_object.h"
-#include "droplet/picture/picture.h"
-#include "droplet/picture/render.h"
+#include "droplet/render/render.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
@@ -53,10 +53,10 @@ class FlowPainter {
 public:
     /// Prepares a dry object.
     /// @param object   with uvs if it has a texture
-    /// @param scene    of this object's triangles; must outlive the painter
+    /// @param terrain  of this object's triangles; must outlive the painter
     /// @param options  camera, light, film
     /// @throws Error   InvalidArgument if an option is out of its range, or the object has no uvs for a texture
-    FlowPainter(const FlowObject& object, const FlowScene& scene, const FlowPainterOptions& options = {});
+    FlowPainter(const FlowObject& object, const FlowTerrain& terrain, const FlowPainterOptions& options = {});
     ~FlowPainter();
     FlowPainter(FlowPainter&&) noexcept;             ///< Moves the state.
     FlowPainter& operator=(FlowPainter&&) noexcept;  ///< Moves the state.

@@ -7,22 +7,22 @@
 #include <vector>
 
 #include "droplet/flow/flow_parameters.h"
-#include "droplet/flow_io/flow_ground.h"
+#include "droplet/flow_io/face_properties.h"
 #include "droplet/flow_io/preset_object.h"
-#include "droplet/picture/render.h"
+#include "droplet/render/render.h"
 
 namespace droplet {
 
 /// Named scene: an object, droplets and all that acts on them.
 struct FlowPreset {
-    std::string name;                                 ///< such as "tear"
-    std::string description;                          ///< one line: what happens
-    PresetObject object = PresetObject::Slope;        ///< at detail 1
-    FlowParameters parameters;                        ///< valid; without ground
-    std::map<std::string, MaterialGround> materials;  ///< ground of the object's materials
-    std::vector<FlowStart> starts;                    ///< droplets at the begin
-    double duration = 5.0;                            ///< time to show [s]
-    CameraPlace camera;                               ///< place of the camera for pictures
+    std::string name;                                     ///< such as "tear"
+    std::string description;                              ///< one line: what happens
+    PresetObject object = PresetObject::Slope;            ///< at detail 1
+    FlowParameters parameters;                            ///< valid; without ground
+    std::map<std::string, MaterialProperties> materials;  ///< ground of the object's materials
+    std::vector<FlowStart> starts;                        ///< droplets at the begin
+    double duration = 5.0;                                ///< time to show [s]
+    CameraPlace camera;                                   ///< place of the camera for pictures
 };
 
 /// All presets. The sequences of Fournier, Habibi and Poulin 1998, section 5, with FlowModel::Paper: `masses`,

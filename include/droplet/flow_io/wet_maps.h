@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
+#include "droplet/drawing/picture.h"
 #include "droplet/flow/flow.h"
-#include "droplet/flow/flow_scene.h"
+#include "droplet/flow/flow_terrain.h"
 #include "droplet/flow_io/flow_object.h"
-#include "droplet/picture/picture.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
@@ -62,12 +62,12 @@ class WetMapper {
 public:
     /// Prepares the texels of a dry object.
     /// @param object   with uvs; outside the unit square they repeat
-    /// @param scene    of this object's triangles; must outlive the maps
+    /// @param terrain  of this object's triangles; must outlive the maps
     /// @param options  size and scales
     /// @throws Error   InvalidArgument if the object has no uvs or an option is out of its range; InvalidInput if its
     /// uvs
     ///                have no area
-    WetMapper(const FlowObject& object, const FlowScene& scene, const WetMapOptions& options = {});
+    WetMapper(const FlowObject& object, const FlowTerrain& terrain, const WetMapOptions& options = {});
     ~WetMapper();
     WetMapper(WetMapper&&) noexcept;             ///< Moves the maps.
     WetMapper& operator=(WetMapper&&) noexcept;  ///< Moves the maps.

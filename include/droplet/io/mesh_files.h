@@ -26,7 +26,7 @@ struct ObjOptions {
 // All writers below throw Error InvalidArgument for an invalid surface, give the same bytes for the same surface, leave
 // the stream failed if it did not take everything, and return the number of bytes handed to it.
 
-/// Writes Wavefront OBJ: +Y up like glTF, welded positions, separate normal indices for crisp rims, uv with its origin
+/// Writes Wavefront OBJ: +Y up like glTF, welded vertices, separate normal indices for crisp rims, uv with its origin
 /// at the lower left. Text with nine significant digits, in any locale. Also throws if the surface has no parts, or
 /// more droplets than there are looks.
 std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptions& options = {});
@@ -38,7 +38,7 @@ std::uint64_t writeMtl(Material material, std::ostream& out);
 /// Writes the materials of an OBJ, every look once.
 std::uint64_t writeMtl(const std::vector<Look>& looks, std::ostream& out);
 
-/// Writes PLY, binary little-endian, floats: metres, z up, welded positions, on the rim the liquid's normals, texture
+/// Writes PLY, binary little-endian, floats: metres, z up, welded vertices, on the rim the liquid's normals, texture
 /// coordinates s, t with their origin at the lower left, contact_angle in degrees if the surface has it.
 std::uint64_t writePly(const Surface& surface, std::ostream& out);
 

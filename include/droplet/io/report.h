@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "droplet/footprint/colour_regions.h"
-#include "droplet/footprint/mask.h"
+#include "droplet/colours/colour_regions.h"
 #include "droplet/io/output.h"
+#include "droplet/mask/mask.h"
 #include "droplet/progress.h"
 #include "droplet/shape/figures.h"
 #include "droplet/shape/refill.h"

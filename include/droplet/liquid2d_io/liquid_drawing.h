@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "droplet/drawing/drawing.h"
+#include "droplet/drawing/picture.h"
 #include "droplet/expression/liquid_shape.h"
 #include "droplet/liquid2d/fluid_scene.h"
-#include "droplet/picture/drawing.h"
-#include "droplet/picture/picture.h"
 
 namespace droplet {
 
@@ -41,7 +41,7 @@ const std::vector<LiquidLook>& liquidLooks();
 const LiquidLook& liquidLookNamed(std::string_view name);
 
 /// Everything that a drawing shows.
-struct LiquidScene {
+struct DrawnLiquid {
     const LiquidShape& shape;          ///< of the liquid
     const std::vector<Region>& walls;  ///< that are visible
 };
@@ -50,11 +50,11 @@ struct LiquidScene {
 /// selected in a program. Outlines differ from the shape by no more than a third of a pixel.
 ///
 /// Guarantees: the same shape gives the same bytes; the stream is left failed if it did not take everything.
-void writeLiquidSvg(const LiquidScene& scene, const LiquidView& view, const LiquidLook& look, std::ostream& out);
+void writeLiquidSvg(const DrawnLiquid& scene, const LiquidView& view, const LiquidLook& look, std::ostream& out);
 
 /// Draws the picture of writeLiquidSvg() as pixels, with transparency where nothing is drawn.
 /// @throws Error InvalidArgument: the view is empty or larger than 32767 pixels a side
-Layer liquidLayer(const LiquidScene& scene, const LiquidView& view, const LiquidLook& look);
+Layer liquidLayer(const DrawnLiquid& scene, const LiquidView& view, const LiquidLook& look);
 
 /// Coverage of every pixel by liquid: 65535 times the covered part of its area, which is exact.
 /// @throws Error InvalidArgument: the view is empty

@@ -24,7 +24,7 @@ public:
     LiquidLottie(const LiquidView& view, LiquidLook look, double frames_per_second);
 
     /// Adds the next frame. Only the text of its curves is kept.
-    void add(const LiquidScene& scene);
+    void add(const DrawnLiquid& scene);
 
     /// Writes the animation of all frames so far.
     /// Guarantees: the same frames give the same bytes; the stream is left failed if it did not take everything.

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "droplet/footprint/outline.h"
 #include "droplet/liquid2d/fluid_scene.h"
+#include "droplet/outline/outline.h"
 
 namespace droplet {
 

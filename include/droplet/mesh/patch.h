@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "droplet/footprint/domain.h"
+#include "droplet/domain/domain.h"
 #include "droplet/mesh/planar_mesh.h"
 
 namespace droplet {

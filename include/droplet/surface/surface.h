@@ -13,9 +13,9 @@ namespace droplet {
 
 /// Change of a surface from fill 1 to another fill.
 struct RefillState {
-    double fill = 2.0;            ///< not 1
-    std::vector<Vec3> positions;  ///< change of every position [m]; 0 on rim and base
-    std::vector<Vec3> normals;    ///< change of every normal; their sum need not have unit length
+    double fill = 2.0;           ///< not 1
+    std::vector<Vec3> vertices;  ///< change of every position [m]; 0 on rim and base
+    std::vector<Vec3> normals;   ///< change of every normal; their sum need not have unit length
 };
 
 /// Change of a surface with the amount of liquid. Between neighbouring states, of which fill 1 is one, it is affine in
@@ -54,7 +54,7 @@ struct SurfacePart {
 /// have unit length. A vertex that needs two normals, such as on the rim, is stored twice; `weld` maps both copies to
 /// the first.
 struct Surface {
-    std::vector<Vec3> positions;       ///< vertices [m], z up, the plane at z = 0
+    std::vector<Vec3> vertices;        ///< vertices [m], z up, the plane at z = 0
     std::vector<Vec3> normals;         ///< one per vertex, unit length, outward
     std::vector<Vec2> uvs;             ///< mask coordinates: (0,0) top left of the image, (1,1) bottom right
     std::vector<float> contact_angle;  ///< at the liquid's vertices on the rim [rad]; 0 at others

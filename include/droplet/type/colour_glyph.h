@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "droplet/footprint/colour_drawing.h"
+#include "droplet/colours/colour_drawing.h"
 #include "droplet/type/font.h"
 #include "droplet/type/glyph.h"
 

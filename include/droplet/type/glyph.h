@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "droplet/footprint/css_colour.h"
-#include "droplet/footprint/outline.h"
+#include "droplet/image/css_colour.h"
+#include "droplet/outline/outline.h"
 #include "droplet/type/font.h"
 
 namespace droplet {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "droplet/picture/drawing.h"
+#include "droplet/drawing/drawing.h"
 #include "droplet/wind/forces.h"
 #include "droplet/wind/tunnel.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "droplet/view/view.h"
 #include "droplet/windshield/windshield.h"
+#include "droplet/windshield_view/view.h"
 
 namespace droplet {
 

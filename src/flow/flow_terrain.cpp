@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/flow/flow_terrain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "flow/flow_terrain_content.h"
+
+namespace droplet {
+namespace {
+
+// A search for a way between two droplets gives up after so many faces.
+constexpr std::size_t kMaxFacesBetween = 4096;
+
+std::vector<double> areasUntil(const FlowSurface& surface)
+{
+    std::vector<double> areas;
+    areas.reserve(surface.faces.size());
+    double sum = 0.0;
+    for (const FlowSurface::Face& face : surface.faces) {
+        sum += areaOf(face);
+        areas.push_back(sum);
+    }
+    return areas;
+}
+
+std::pair<Vec3, Vec3> boxOf(const FlowSurface& surface)
+{
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Vec3 low{kInfinity, kInfinity, kInfinity};
+    Vec3 high{-kInfinity, -kInfinity, -kInfinity};
+    for (const FlowSurface::Face& face : surface.faces) {
+        for (const Vec3 p : face.corners) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    }
+    return {low, high};
+}
+
+double halfSizeOf(Vec3 low, Vec3 high)
+{
+    return 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
+std::vector<Corners3> scaledTriangles(const FlowSurface& surface)
+{
+    const auto [low, high] = boxOf(surface);
+    const Vec3 middle = 0.5 * (low + high);
+    const double scale = 1.0 / halfSizeOf(low, high);
+    std::vector<Corners3> triangles;
+    triangles.reserve(surface.faces.size());
+    for (const FlowSurface::Face& face : surface.faces) {
+        Corners3 scaled;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 p = scale * (face.corners[k] - middle);
+            scaled[k] = {std::clamp(p.x, -1.0, 1.0), std::clamp(p.y, -1.0, 1.0), std::clamp(p.z, -1.0, 1.0)};
+        }
+        triangles.push_back(scaled);
+    }
+    return triangles;
+}
+
+}  // namespace
+
+double areaOf(const FlowSurface::Face& face)
+{
+    return 0.5 * length(cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]));
+}
+
+FlowTerrain::Content::Content(FlowSurface of)
+    : surface(std::move(of)), landing(surface), area_until(areasUntil(surface)), tree(scaledTriangles(surface))
+{
+    std::tie(low, high) = boxOf(surface);
+}
+
+double FlowTerrain::Content::halfSize() const
+{
+    return halfSizeOf(low, high);
+}
+
+bool FlowTerrain::Content::areJoined(std::uint32_t from, std::uint32_t to, Vec3 place, double reach) const
+{
+    std::vector<std::uint32_t> open{from};
+    std::set<std::uint32_t> seen{from};
+    for (std::size_t i = 0; i < open.size() && open.size() < kMaxFacesBetween; ++i) {
+        if (open[i] == to) {
+            return true;
+        }
+        for (const std::uint32_t next : surface.faces[open[i]].neighbour) {
+            if (next != FlowSurface::kNone && !seen.contains(next) &&
+                distance(place, surface.faces[next].corners) <= reach) {
+                seen.insert(next);
+                open.push_back(next);
+            }
+        }
+    }
+    return std::find(open.begin(), open.end(), to) != open.end();
+}
+
+FlowTerrain::FlowTerrain(FlowSurface surface) : content_(std::make_unique<Content>(std::move(surface))) {}
+FlowTerrain::~FlowTerrain() = default;
+FlowTerrain::FlowTerrain(FlowTerrain&& other) noexcept = default;
+FlowTerrain& FlowTerrain::operator=(FlowTerrain&& other) noexcept = default;
+
+const FlowSurface& FlowTerrain::surface() const
+{
+    return content_->surface;
+}
+
+double FlowTerrain::area() const
+{
+    return content_->area_until.back();
+}
+
+double FlowTerrain::diameter() const
+{
+    return length(content_->high - content_->low);
+}
+
+FlowTerrain::Point FlowTerrain::pointAt(double u, double v) const
+{
+    const std::vector<double>& until = content_->area_until;
+    const double area = u * until.back();
+    const auto found = std::min<std::ptrdiff_t>(std::upper_bound(until.begin(), until.end(), area) - until.begin(),
+                                                std::ssize(until) - 1);
+    const auto face = static_cast<std::size_t>(found);
+    const double before = face > 0 ? until[face - 1] : 0.0;
+    // What is left of u chooses the line parallel to a side, v the point on it.
+    const double share = std::clamp((area - before) / (until[face] - before), 0.0, 1.0);
+    const double down = std::sqrt(share);
+    const auto& [a, b, c] = surface().faces[face].corners;
+    return {static_cast<std::uint32_t>(face), a + down * ((1.0 - v) * (b - a) + v * (c - a))};
+}
+
+FlowTerrain::Point FlowTerrain::nearest(Vec3 place) const
+{
+    const Content& c = *content_;
+    const Vec3 scaled = (1.0 / c.halfSize()) * (place - c.middle());
+    const Vec3 inside{std::clamp(scaled.x, -1.0, 1.0), std::clamp(scaled.y, -1.0, 1.0),
+                      std::clamp(scaled.z, -1.0, 1.0)};
+    const std::uint32_t face = c.tree.nearest(inside).triangle;
+    return {face, nearestPoint(place, c.surface.faces[face].corners)};
+}
+
+std::optional<FlowTerrain::Point> FlowTerrain::firstAlong(Vec3 origin, Vec3 direction) const
+{
+    const auto hit = content_->landing.firstAlong(origin, direction);
+    return hit ? std::optional(Point{hit->face, hit->place}) : std::nullopt;
+}
+
+bool FlowTerrain::isInside(Vec3 place) const
+{
+    // The winding number: the solid angle of all faces over 4π (A. van Oosterom, J. Strackee, IEEE Trans. Biomed. Eng.
+    // 30 (1983) 125).
+    double half_angles = 0.0;
+    for (const FlowSurface::Face& face : surface().faces) {
+        const Vec3 a = face.corners[0] - place;
+        const Vec3 b = face.corners[1] - place;
+        const Vec3 c = face.corners[2] - place;
+        const double la = length(a);
+        const double lb = length(b);
+        const double lc = length(c);
+        half_angles += std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+    }
+    return half_angles > std::numbers::pi;
+}
+
+}  // namespace droplet

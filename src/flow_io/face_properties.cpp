@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/flow_io/face_properties.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "droplet/error.h"
+#include "require.h"
+
+namespace droplet {
+namespace {
+
+void requireUv(const FlowObject& object, const char* what)
+{
+    if (object.uvs.empty()) {
+        throw Error(ErrorCode::InvalidArgument, std::string(what) +
+                                                    " needs an object with texture coordinates (uv), "
+                                                    "but this one has none: unwrap it, and save it "
+                                                    "with them");
+    }
+}
+
+/// Pixel at a coordinate of a uv.
+int pixelAt(double coordinate, int count)
+{
+    return std::min(static_cast<int>((coordinate - std::floor(coordinate)) * count), count - 1);
+}
+
+double levelAt(const HeightMap& picture, Vec2 uv)
+{
+    const auto level = static_cast<double>(picture.at(pixelAt(uv.x, picture.width), pixelAt(uv.y, picture.height)));
+    return std::clamp(level, 0.0, 1.0);
+}
+
+/// Mean over the triangle's parts, which are about as large as pixels: it is divided n times along every side.
+double meanOver(const HeightMap& picture, const std::array<Vec2, 3>& uvs)
+{
+    constexpr double kMaxParts = 64.0;
+    double longest = 1.0;  // [px]
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec2 side = uvs[(k + 1) % 3] - uvs[k];
+        longest = std::max(longest, std::hypot(side.x * picture.width, side.y * picture.height));
+    }
+    const int n = static_cast<int>(std::ceil(std::min(longest, kMaxParts)));
+    const Vec2 p = (1.0 / n) * (uvs[1] - uvs[0]);
+    const Vec2 q = (1.0 / n) * (uvs[2] - uvs[0]);
+    double sum = 0.0;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n - i; ++j) {
+            const Vec2 corner = uvs[0] + static_cast<double>(i) * p + static_cast<double>(j) * q;
+            sum += levelAt(picture, corner + (1.0 / 3.0) * (p + q));
+            if (i + j + 1 < n) {
+                sum += levelAt(picture, corner + (2.0 / 3.0) * (p + q));
+            }
+        }
+    }
+    return sum / (static_cast<double>(n) * n);
+}
+
+/// Values of faces that materials replace.
+template <typename Value>
+void replace(std::vector<Value>& values, const FlowSurface& surface, const FlowObject& object,
+             const std::vector<std::optional<Value>>& of_materials, Value otherwise)
+{
+    const auto has_value = [](const std::optional<Value>& value) { return value.has_value(); };
+    if (std::none_of(of_materials.begin(), of_materials.end(), has_value)) {
+        return;
+    }
+    values.resize(surface.faces.size(), otherwise);
+    for (std::size_t f = 0; f < values.size(); ++f) {
+        if (const std::optional<Value>& value = of_materials[object.materials[surface.faces[f].source]]) {
+            values[f] = *value;
+        }
+    }
+}
+
+void requireAtLeastZero(const std::string& field, const std::optional<double>& value)
+{
+    if (value && !(*value >= 0.0 && std::isfinite(*value))) {
+        refuseValue(field, *value, "finite and at least 0");
+    }
+}
+
+void validate(const FacePropertyOptions& options, const FlowObject& object)
+{
+    requireAtLeastZero("roughness", options.roughness);
+    requireAtLeastZero("max_roughness", options.max_roughness);
+    requireAtLeastZero("max_friction", options.max_friction);
+    for (const auto& [name, ground] : options.materials) {
+        requireAtLeastZero("roughness of " + name, ground.roughness);
+        requireAtLeastZero("friction of " + name, ground.friction);
+        requireAtLeastZero("hysteresis of " + name, ground.hysteresis);
+        if (object.material_names.empty()) {
+            refuseValue("material", name, "left out, because the object has no materials");
+        }
+        if (std::find(object.material_names.begin(), object.material_names.end(), name) ==
+            object.material_names.end()) {
+            std::string known;
+            for (const std::string& other : object.material_names) {
+                known += known.empty() ? "one of the object's: " : ", ";
+                known += other.empty() ? "\"\"" : other;
+            }
+            refuseValue("material", name, known);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<double> meansOverFaces(const HeightMap& picture, const FlowObject& object, const FlowSurface& surface)
+{
+    requireUv(object, "a picture of the ground");
+    std::vector<double> means;
+    means.reserve(surface.faces.size());
+    for (const FlowSurface::Face& face : surface.faces) {
+        const auto& [a, b, c] = object.triangles[face.source];
+        means.push_back(meanOver(picture, {object.uvs[a], object.uvs[b], object.uvs[c]}));
+    }
+    return means;
+}
+
+FaceProperties faceProperties(const FlowObject& object, const FlowSurface& surface, const FacePropertyOptions& options)
+{
+    validate(options, object);
+    FaceProperties ground;
+    if (options.roughness_picture) {
+        for (const double mean : meansOverFaces(*options.roughness_picture, object, surface)) {
+            ground.roughness.push_back({options.max_roughness * mean, options.max_roughness * mean});
+        }
+    }
+    if (options.friction_picture) {
+        ground.friction = meansOverFaces(*options.friction_picture, object, surface);
+        for (double& factor : ground.friction) {
+            factor *= options.max_friction;
+        }
+    }
+    std::vector<std::optional<Vec2>> roughness(object.material_names.size());
+    std::vector<std::optional<double>> friction(object.material_names.size());
+    std::vector<std::optional<double>> hysteresis(object.material_names.size());
+    for (std::size_t m = 0; m < object.material_names.size(); ++m) {
+        if (const auto found = options.materials.find(object.material_names[m]); found != options.materials.end()) {
+            if (const std::optional<double>& height = found->second.roughness) {
+                roughness[m] = Vec2{*height, *height};
+            }
+            friction[m] = found->second.friction;
+            hysteresis[m] = found->second.hysteresis;
+        }
+    }
+    replace(ground.roughness, surface, object, roughness, Vec2{options.roughness, options.roughness});
+    replace(ground.friction, surface, object, friction, 1.0);
+    replace(ground.hysteresis, surface, object, hysteresis, 1.0);
+    return ground;
+}
+
+std::function<double(const FlowTerrain::Point&)> coverageOver(const Mask& mask, const FlowObject& object,
+                                                              const FlowSurface& surface)
+{
+    requireUv(object, "a mask");
+    return [&](const FlowTerrain::Point& point) {
+        const auto& [a, b, c] = object.triangles[surface.faces[point.face].source];
+        // Barycentric coordinates from areas.
+        const Vec3 p = object.vertices[b] - object.vertices[a];
+        const Vec3 q = object.vertices[c] - object.vertices[a];
+        const Vec3 r = point.place - object.vertices[a];
+        const Vec3 normal = cross(p, q);
+        const double area = dot(normal, normal);
+        const double s = dot(cross(r, q), normal) / area;
+        const double t = dot(cross(p, r), normal) / area;
+        const Vec2 uv = (1.0 - s - t) * object.uvs[a] + s * object.uvs[b] + t * object.uvs[c];
+        constexpr double kCovered = 65535.0;
+        return mask.at(pixelAt(uv.x, mask.width), pixelAt(uv.y, mask.height)) / kCovered;
+    };
+}
+
+}  // namespace droplet

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "droplet/drawing/picture.h"
+#include "render/optics.h"
+
+namespace droplet {
+
+/// Linear colours of a picture in a pyramid of halved sizes, for views from afar.
+class PicturePyramid {
+public:
+    explicit PicturePyramid(const Picture& picture);
+
+    /// @param uv     (0,0) is the top left, (1,1) the bottom right; beyond, the picture is mirrored repeatedly
+    /// @param width  width of the area to average, in uv
+    [[nodiscard]] Vec3f at(Vec2 uv, double width) const;
+
+private:
+    struct Level {
+        int width = 0;
+        int height = 0;
+        std::vector<Vec3f> texels;
+    };
+
+    std::vector<Level> levels_;
+};
+
+/// Table with a fine ruling, which makes refraction visible.
+class Table {
+public:
+    /// @param span   larger side of the box around the liquid, which is centred at the origin
+    /// @param area   area of that box
+    /// @param light  direction toward the key light, on the table
+    /// @param light_grey  light grey instead of dark blue
+    Table(float span, float area, Vec3f light, bool light_grey);
+
+    /// Share of red, green and blue light that the table scatters.
+    /// @param width  width of the area to average
+    [[nodiscard]] Vec3f at(Vec3f place, float width) const;
+
+private:
+    float span_;
+    float pitch_;
+    Vec3f light_;
+    bool light_grey_;
+};
+
+}  // namespace droplet

@@ -1,0 +1,676 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The thesis, sections 3.2.1 and 3.2.2: large droplets one by one, small ones as a map of the glass. Both refract the
+// driver's rays by their normals.
+#include "droplet/windshield_view/view.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "droplet/error.h"
+#include "render/panorama.h"
+#include "require.h"
+#include "windshield_view/body_relief.h"
+#include "windshield_view/defocus.h"
+#include "windshield_view/running_rays.h"
+#include "windshield_view/still_samples.h"
+#include "windshield_view/view_context.h"
+#include "windshield_view/water_optics.h"
+#include "windshield_view/wiper_view.h"
+
+namespace droplet {
+
+void ViewOptions::validate() const
+{
+    requireWithin("width", width, 16, 8192);
+    requireWithin("height", height, 16, 8192);
+    require(field_of_view >= kDegree && field_of_view <= 150.0 * kDegree, "field_of_view", field_of_view,
+            "from 1 to 150 degrees");
+    require(eye_distance >= 0.01 && eye_distance <= 100.0, "eye_distance", eye_distance, "from 0.01 to 100 m");
+    if (aim) {
+        require(std::isfinite(aim->x), "aim.x", aim->x, "finite");
+        require(std::isfinite(aim->y), "aim.y", aim->y, "finite");
+    }
+    for (const auto& place : {eye, look_at}) {
+        require(!place || std::isfinite(place->x + place->y + place->z), "eye, look_at", place ? place->x : 0.0,
+                "finite");
+    }
+    checkBody(body);
+    shape.validate();
+    forces.validate();
+    require(ior >= 1.0 && ior <= 2.0, "ior", ior, "from 1 to 2");
+    requireWithin("samples", samples, 1, 4);
+    require(exposure >= -8.0 && exposure <= 8.0, "exposure", exposure, "from -8 to 8");
+    if (highlight_boost) {
+        require(*highlight_boost >= 0.0 && *highlight_boost <= 4.0, "highlight_boost", *highlight_boost, "from 0 to 4");
+    }
+    require(shutter_time >= 0.0 && shutter_time <= 1.0, "open_time", shutter_time, "from 0 to 1 s");
+    require(background_blur >= 0.0 && background_blur <= 20.0 * kDegree, "background_blur", background_blur,
+            "from 0 to 20 degrees");
+    for (const Wiper& wiper : wipers) {
+        wiper.validate();
+    }
+    for (const double share : {glass_colour.x, glass_colour.y, glass_colour.z}) {
+        require(share >= 0.0 && share <= 1.0, "glass_colour", share, "from 0 to 1");
+    }
+}
+
+namespace {
+
+/// Light of the pixels of a tile.
+using TileLight = std::array<Float4, kTilePixels>;
+
+/// Levels and alpha of a pixel, not premultiplied.
+struct StraightPixel {
+    std::uint8_t red = 0;
+    std::uint8_t green = 0;
+    std::uint8_t blue = 0;
+    std::uint32_t alpha = 0;
+};
+
+/// @param light  premultiplied
+[[gnu::always_inline]] inline StraightPixel straightOf(const Float4& light,
+                                                       const EncodedLevels& levels = encodedLevels())
+{
+    const std::uint32_t alpha = level8(light[3]);
+    if (alpha == 0) {
+        return {};
+    }
+    // What is brighter than white keeps its hue.
+    const float max = std::max(std::max(light[0], light[1]), std::max(light[2], light[3]));
+    const Float4 straight = float4(1.0F / max) * light;
+    return {encoded(straight[0], levels), encoded(straight[1], levels), encoded(straight[2], levels), alpha};
+}
+
+/// Linear light of levels.
+Float4 lightOf(std::uint8_t red, std::uint8_t green, std::uint8_t blue)
+{
+    const std::array<float, 256>& levels = displayLevels();
+    return Float4{levels[red], levels[green], levels[blue], 1.0F};
+}
+
+/// Draws droplets over a frame.
+class FrameWriter {
+public:
+    explicit FrameWriter(Picture& frame) : frame_(frame) {}
+
+    void take(std::size_t pixel, const StraightPixel& seen)
+    {
+        std::uint8_t* const to = frame_.rgb.data() + 3 * pixel;
+        to[0] = mixedLevel(seen.red, to[0], seen.alpha);
+        to[1] = mixedLevel(seen.green, to[1], seen.alpha);
+        to[2] = mixedLevel(seen.blue, to[2], seen.alpha);
+    }
+
+    /// Light of the pixel below droplets; a blurred pixel has the mean of such light.
+    [[nodiscard]] Float4 light(std::size_t pixel, const StraightPixel& seen) const
+    {
+        const std::uint8_t* const below = frame_.rgb.data() + 3 * pixel;
+        return lightOf(mixedLevel(seen.red, below[0], seen.alpha), mixedLevel(seen.green, below[1], seen.alpha),
+                       mixedLevel(seen.blue, below[2], seen.alpha));
+    }
+
+    void writeMean(std::size_t pixel, const Float4& mean)
+    {
+        for (std::size_t c = 0; c < 3; ++c) {
+            frame_.rgb[3 * pixel + c] = encoded(mean[static_cast<int>(c)]);
+        }
+    }
+
+private:
+    Picture& frame_;
+};
+
+/// Draws droplets alone, into a layer.
+class LayerWriter {
+public:
+    explicit LayerWriter(Layer& layer) : layer_(layer) {}
+
+    void take(std::size_t pixel, const StraightPixel& seen)
+    {
+        std::uint8_t* const to = layer_.rgba.data() + 4 * pixel;
+        to[0] = seen.red;
+        to[1] = seen.green;
+        to[2] = seen.blue;
+        to[3] = static_cast<std::uint8_t>(seen.alpha);
+    }
+
+    [[nodiscard]] Float4 light(std::size_t /*pixel*/, const StraightPixel& seen) const
+    {
+        return float4(static_cast<float>(seen.alpha) / 255.0F) * lightOf(seen.red, seen.green, seen.blue);
+    }
+
+    void writeMean(std::size_t pixel, const Float4& mean) { take(pixel, straightOf(mean)); }
+
+private:
+    Layer& layer_;
+};
+
+}  // namespace
+
+struct DriversView::Content {
+    Content(const Glass& glass, const ViewOptions& options)
+        : scene(glass, options), stills(std::in_place, scene), running(std::in_place, scene), wipers(scene)
+    {
+        bare.width = options.width;
+        bare.height = options.height;
+        bare.rgb.assign(3 * static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height), 0);
+        // A factor of light is its 2.4th root for levels, as in sRGB except for the darkest levels.
+        const std::array<double, 3> shares{options.glass_colour.x, options.glass_colour.y, options.glass_colour.z};
+        for (std::size_t i = 0; i < through_pane.size(); ++i) {
+            through_pane[i] = static_cast<std::uint16_t>(std::lround(256.0 * std::pow(shares[i % 3], 1.0 / 2.4)));
+        }
+        for (std::size_t c = 0; c < exposed.size() && options.exposure != 0.0; ++c) {
+            for (std::size_t level = 0; level < 256; ++level) {
+                exposed[c][level] =
+                    encoded(static_cast<float>(shares[c] * std::exp2(options.exposure)) * displayLevels()[level]);
+            }
+        }
+        pane = Float4{static_cast<float>(options.glass_colour.x), static_cast<float>(options.glass_colour.y),
+                      static_cast<float>(options.glass_colour.z), 1.0F};
+    }
+
+    /// Sets the bare picture to a blurred picture.
+    void setBlurred(const Picture& picture, const Highlights& highlights)
+    {
+        LightPicture behind{picture.width, picture.height, {}};
+        behind.light.resize(picture.rgb.size() / 3);
+        std::array<float, 256> times{};
+        for (std::size_t level = 0; level < times.size(); ++level) {
+            times[level] = highlights.factor(static_cast<float>(level) / 255.0F);
+        }
+        const std::array<float, 256>& levels = displayLevels();
+        forPixels([&](std::size_t at) {
+            const std::uint8_t* const from = picture.rgb.data() + 3 * at;
+            const Float4 light{levels[from[0]], levels[from[1]], levels[from[2]], 1.0F};
+            behind.light[at] = float4(times[std::max({from[0], from[1], from[2]})]) * light;
+        });
+        expose(defocused(std::move(behind), blur()));
+    }
+
+    /// Diameter of the blur's disc [px].
+    [[nodiscard]] float blur() const
+    {
+        return static_cast<float>(2.0 * std::tan(0.5 * scene.options.background_blur)) / scene.eye.tangent();
+    }
+
+    /// Sets the bare picture to the panorama, until there is a picture.
+    void setSurroundings(const Environment& environment)
+    {
+        const Eye& eye = scene.eye;
+        LightPicture behind{eye.width(), eye.height(), {}};
+        behind.light.resize(bare.rgb.size() / 3);
+        const PictureFrame frame = eye.frame();
+        forPixels([&](std::size_t at) {
+            const auto column = static_cast<float>(at % static_cast<std::size_t>(eye.width()));
+            const std::size_t rows_above = at / static_cast<std::size_t>(eye.width());
+            const auto row = static_cast<float>(rows_above);
+            constexpr int kAcross = 2;  // rays per pixel, across and down
+            Vec3f sum;
+            for (int k = 0; k < kAcross * kAcross; ++k) {
+                const float u = 0.25F + 0.5F * static_cast<float>(k % kAcross);
+                const float v = k < kAcross ? 0.25F : 0.75F;
+                sum = sum + radianceFrom(environment, unit(frame.toCar(eye.rayAt(column + u, row + v))));
+            }
+            const float share = exposure() / (kAcross * kAcross);
+            behind.light[at] = Float4{share * sum.x, share * sum.y, share * sum.z, 1.0F};
+        });
+        expose(defocused(std::move(behind), blur()));
+        Float4 sum = float4(0.0F);
+        for (std::size_t at = 0; at < bare.rgb.size(); at += 3) {
+            sum += lightOf(bare.rgb[at], bare.rgb[at + 1], bare.rgb[at + 2]);
+        }
+        darken(float4(3.0F / static_cast<float>(bare.rgb.size())) * sum);
+    }
+
+    /// Restarts with the present surroundings and without water.
+    void restart()
+    {
+        if (around) {
+            scene.backdrop.setEnvironment(*around, scene.eye.frame(), exposure(), !has_picture);
+        }
+        stills.emplace(scene);
+        running.emplace(scene);
+    }
+
+    [[nodiscard]] float exposure() const { return static_cast<float>(std::exp2(scene.options.exposure)); }
+
+    /// Sets the light of the cabin: a tenth of the light ahead, chosen by eye.
+    void darken(const Float4& mean) { cabin = Float4{0.1F, 0.1F, 0.1F, 1.0F} * mean; }
+
+    /// Sets the bare picture to light seen through the pane.
+    void expose(const LightPicture& behind)
+    {
+        const EncodedLevels& levels = encodedLevels();
+        forPixels([&](std::size_t at) {
+            const Float4 light = pane * behind.light[at];
+            // What is brighter than white keeps its hue.
+            const Float4 straight = float4(1.0F / std::max({light[0], light[1], light[2], 1.0F})) * light;
+            for (std::size_t c = 0; c < 3; ++c) {
+                bare.rgb[3 * at + c] = encoded(straight[static_cast<int>(c)], levels);
+            }
+        });
+    }
+
+    template <typename Work>
+    void forPixels(const Work& work) const
+    {
+        constexpr std::size_t kPixelsPerBlock = 16384;
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bare.rgb.size() / 3, kPixelsPerBlock),
+                          [&](const auto& range) {
+                              for (std::size_t at = range.begin(); at < range.end(); ++at) {
+                                  work(at);
+                              }
+                          });
+    }
+
+    /// Draws droplets of a tile that are not blurred; their light is premultiplied by their cover.
+    /// @return  number of moments of blurred droplets; 1: there are none
+    int drawResting(std::size_t tile, TileLight& light) const
+    {
+        light.fill(float4(0.0F));
+        const float share = shareOfRay();
+        for (const StillSample& sample : stills->inTile(tile)) {
+            light[sample.pixel] += float4(share * static_cast<float>(sample.cover)) *
+                                   seen(scene.backdrop.at(sample.outside), static_cast<float>(sample.light) / 255.0F);
+        }
+        const bool has_wipers = wipers.reach(tile);
+        if (has_wipers) {
+            drawWaterLeft(tile, light);
+        }
+        int moments = has_wipers ? wipers.moments() : 1;
+        for (const RaysInTile& in_tile : running->inTile(tile)) {
+            moments = std::max(moments, in_tile.moments);
+            if (in_tile.moments == 1) {
+                drawRays(*in_tile.rays, light);
+            }
+        }
+        if (has_wipers && moments == 1) {
+            drawWipers(tile, 0, light, [](std::size_t) {});
+        }
+        return moments;
+    }
+
+    /// Calls work(pixel of the tile, its ray's direction, place on the glass) for all pixels that see the glass.
+    template <typename Work>
+    void forTile(std::size_t tile, const Work& work) const
+    {
+        const auto columns = static_cast<std::size_t>(scene.tiles.columns());
+        const int left = static_cast<int>(tile % columns) * kTile;
+        const int top = static_cast<int>(tile / columns) * kTile;
+        for (int y = top; y < std::min(top + kTile, scene.eye.height()); ++y) {
+            for (int x = left; x < std::min(left + kTile, scene.eye.width()); ++x) {
+                const Vec2f place = scene.eye.place(x, y);
+                if (!std::isnan(place.x)) {
+                    work(pixelInTile(x, y), scene.eye.ray(x, y), place);
+                }
+            }
+        }
+    }
+
+    /// Refraction of a ray that leaves water on the glass.
+    [[nodiscard]] Interface beyond(const WaterMet& water, const ViewTile& tile, Vec3f ray) const
+    {
+        const auto ior = static_cast<float>(scene.options.ior);
+        Interface out =
+            intoAir(intoWater(toFrame(tile.frame, ray), ior), unit({-water.slope.x, -water.slope.y, 1.0F}), ior);
+        out.transmitted = fromFrame(tile.frame, out.transmitted);
+        return out;
+    }
+
+    /// Light through a bead, premultiplied.
+    [[nodiscard]] Float4 throughBead(const WaterMet& water, const ViewTile& tile, Vec3f ray) const
+    {
+        const Interface out = beyond(water, tile, ray);
+        const Float4 outside =
+            out.reflected < 1.0F ? scene.backdrop.at(scene.backdrop.placeOf(out.transmitted, 0)) : cabin;
+        return float4(water.cover) * seen(outside, 1.0F - out.reflected);
+    }
+
+    /// Light through a film, premultiplied: the bare picture, slightly displaced.
+    [[nodiscard]] Float4 throughFilm(const WaterMet& water, const ViewTile& tile, Vec3f ray) const
+    {
+        const Interface out = beyond(water, tile, ray);
+        if (out.reflected >= 1.0F || out.transmitted.y <= 0.0F) {
+            Float4 dark = pane * cabin;
+            dark[3] = 1.0F;
+            return float4(water.cover) * dark;
+        }
+        const auto index = [](float place, int count) {
+            return std::clamp(place - 0.5F, 0.0F, static_cast<float>(count - 1));
+        };
+        const Eye& eye = scene.eye;
+        const float scale = 1.0F / (out.transmitted.y * eye.tangent());
+        const float x = index(scale * out.transmitted.x + 0.5F * static_cast<float>(eye.width()), eye.width());
+        const float y = index(0.5F * static_cast<float>(eye.height()) - scale * out.transmitted.z, eye.height());
+        const int column = std::min(static_cast<int>(x), eye.width() - 2);
+        const int row = std::min(static_cast<int>(y), eye.height() - 2);
+        const auto at = [&](int i, int j) {
+            const std::uint8_t* const from = bare.rgb.data() + 3 * eye.at(column + i, row + j);
+            return lightOf(from[0], from[1], from[2]);
+        };
+        const float right = x - static_cast<float>(column);
+        const float below = y - static_cast<float>(row);
+        const Float4 above = at(0, 0) + float4(right) * (at(1, 0) - at(0, 0));
+        const Float4 under = at(0, 1) + float4(right) * (at(1, 1) - at(0, 1));
+        Float4 light = (above + float4(below) * (under - above)) * float4(1.0F - out.reflected) +
+                       float4(out.reflected) * (pane * cabin);
+        light[3] = 1.0F;
+        return float4(water.cover) * light;
+    }
+
+    /// Draws water that wipers have left below the light.
+    void drawWaterLeft(std::size_t number, TileLight& light) const
+    {
+        const ViewTile& tile = scene.tiles[number];
+        forTile(number, [&](std::size_t pixel, Vec3f ray, Vec2f place) {
+            const WaterMet water = wipers.waterLeft(place, tile.pixel);
+            if (water.cover > 0.0F) {
+                light[pixel] += float4(1.0F - light[pixel][3]) *
+                                (water.is_bead ? throughBead(water, tile, ray) : throughFilm(water, tile, ray));
+            }
+        });
+    }
+
+    /// Draws wipers, and the water that they push, over the light.
+    template <typename Touch>
+    void drawWipers(std::size_t number, int moment, TileLight& light, const Touch& touch) const
+    {
+        const ViewTile& tile = scene.tiles[number];
+        forTile(number, [&](std::size_t pixel, Vec3f ray, Vec2f place) {
+            const WiperMet met = wipers.at(place, tile.pixel, moment);
+            if (met.cover > 0.0F) {
+                Float4 rubber = float4(met.cover * met.shine) * (pane * cabin);
+                rubber[3] = met.cover;
+                light[pixel] = rubber + float4(1.0F - met.cover) * light[pixel];
+            }
+            if (met.pushed.cover > 0.0F) {
+                light[pixel] = throughBead(met.pushed, tile, ray) + float4(1.0F - met.pushed.cover) * light[pixel];
+            }
+            if (met.cover > 0.0F || met.pushed.cover > 0.0F) {
+                touch(pixel);
+            }
+        });
+    }
+
+    /// Draws the rays of a droplet over the light.
+    [[gnu::always_inline]] void drawRays(const std::vector<Ray>& rays, TileLight& light) const
+    {
+        const float share = shareOfRay();
+        for (auto ray = rays.begin(); ray != rays.end();) {
+            const std::uint8_t pixel = ray->pixel;
+            Float4 sum = float4(0.0F);
+            for (; ray != rays.end() && ray->pixel == pixel; ++ray) {
+                const float part = (ray->is_whole ? 1.0F / 255.0F : share) * static_cast<float>(ray->cover);
+                const Float4 outside = ray->light > 0 ? scene.backdrop.at(ray->place) : cabin;
+                sum += float4(part) * seen(outside, static_cast<float>(ray->light) / 255.0F);
+            }
+            light[pixel] = sum + float4(1.0F - sum[3]) * light[pixel];
+        }
+    }
+
+    /// Weight of a ray in its pixel, for a cover of 1/255.
+    [[nodiscard]] float shareOfRay() const
+    {
+        return 1.0F / (255.0F * static_cast<float>(scene.options.samples * scene.options.samples));
+    }
+
+    /// Light of a ray of which a share leaves the water and the rest returns to the cabin.
+    [[nodiscard]] Float4 seen(Float4 outside, float share) const
+    {
+        return pane * (cabin + float4(share) * (outside - cabin));
+    }
+
+    /// Light of a tile's pixels, summed over the moments in which blurred droplets or wipers cover them.
+    struct MomentSums {
+        std::array<Float4, kTilePixels> light;
+        std::array<int, kTilePixels> moments;  ///< number of moments that differ from `base`
+    };
+
+    /// Sums up the light of a tile over all moments.
+    /// @param base  light of everything that does not move
+    /// @param look  value of (pixel of the tile, light) that is summed up
+    template <typename Look>
+    void sumMoments(std::size_t tile, int moments, const TileLight& base, const Look& look, MomentSums& sums) const
+    {
+        sums.light.fill(float4(0.0F));
+        sums.moments.fill(0);
+        TileLight light = base;
+        std::vector<std::uint8_t> touched;
+        for (int moment = 0; moment < moments; ++moment) {
+            touched.clear();
+            for (const RaysInTile& in_tile : running->inTile(tile)) {
+                if (in_tile.moments > 1 && in_tile.moment == moment * in_tile.moments / moments) {
+                    drawRays(*in_tile.rays, light);
+                    for (const Ray& ray : *in_tile.rays) {
+                        touched.push_back(ray.pixel);
+                    }
+                }
+            }
+            if (wipers.reach(tile)) {
+                drawWipers(tile, moment * wipers.moments() / moments, light,
+                           [&](std::size_t pixel) { touched.push_back(static_cast<std::uint8_t>(pixel)); });
+            }
+            std::sort(touched.begin(), touched.end());
+            touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+            for (const std::uint8_t pixel : touched) {
+                sums.light[pixel] += look(pixel, light[pixel]);
+                ++sums.moments[pixel];
+                light[pixel] = base[pixel];
+            }
+        }
+    }
+
+    /// Writes the light of a tile in which nothing is blurred.
+    template <typename Writer>
+    void writeTile(int column, int row, const TileLight& light, const EncodedLevels& levels, Writer& writer) const
+    {
+        const int left = column * kTile;
+        const auto across = static_cast<std::size_t>(std::min(kTile, scene.eye.width() - left));
+        const int bottom = std::min((row + 1) * kTile, scene.eye.height());
+        const Float4* from = light.data();
+        for (int y = row * kTile; y < bottom; ++y, from += kTile) {
+            const std::size_t first = scene.eye.at(left, y);
+            for (std::size_t x = 0; x < across; ++x) {
+                const StraightPixel straight = straightOf(from[x], levels);
+                if (straight.alpha > 0) {
+                    writer.take(first + x, straight);
+                }
+            }
+        }
+    }
+
+    /// Draws all water, in parallel; tiles without water are skipped.
+    template <typename Writer>
+    void drawWater(Writer& writer) const
+    {
+        const Tiles& tiles = scene.tiles;
+        tbb::parallel_for(0, tiles.rows(), [&](int r) {
+            TileLight light;
+            MomentSums sums;
+            const EncodedLevels& levels = encodedLevels();
+            for (int c = 0; c < tiles.columns(); ++c) {
+                const std::size_t tile = tiles.number(c, r);
+                if (stills->inTile(tile).empty() && running->inTile(tile).empty() && !wipers.reach(tile)) {
+                    continue;
+                }
+                const int moments = drawResting(tile, light);
+                const auto number = [&](std::size_t pixel) {
+                    return scene.eye.at(c * kTile + static_cast<int>(pixel % kTile),
+                                        r * kTile + static_cast<int>(pixel / kTile));
+                };
+                if (moments == 1) {
+                    writeTile(c, r, light, levels, writer);
+                    continue;
+                }
+                const auto look = [&](std::uint8_t pixel, const Float4& seen) {
+                    return writer.light(number(pixel), straightOf(seen));
+                };
+                sumMoments(tile, moments, light, look, sums);
+                for (int y = r * kTile; y < std::min((r + 1) * kTile, scene.eye.height()); ++y) {
+                    for (int x = c * kTile; x < std::min((c + 1) * kTile, scene.eye.width()); ++x) {
+                        const std::uint8_t pixel = pixelInTile(x, y);
+                        const StraightPixel straight = straightOf(light[pixel], levels);
+                        if (sums.moments[pixel] > 0) {
+                            const std::size_t at = scene.eye.at(x, y);
+                            const auto rest = static_cast<float>(moments - sums.moments[pixel]);
+                            writer.writeMean(at, float4(1.0F / static_cast<float>(moments)) *
+                                                     (sums.light[pixel] + float4(rest) * writer.light(at, straight)));
+                        } else if (straight.alpha > 0) {
+                            writer.take(scene.eye.at(x, y), straight);
+                        }
+                    }
+                }
+            }
+        });
+    }
+
+    ViewContext scene;
+    std::optional<StillSamples> stills;
+    std::optional<RunningRays> running;
+    WiperView wipers;
+    std::optional<Environment> around;
+    bool has_picture = false;
+    Picture bare;
+    std::array<std::uint16_t, 48> through_pane{};            ///< factors of levels, in 256ths, for 16 pixels
+    std::array<std::array<std::uint8_t, 256>, 3> exposed{};  ///< level after exposure, for each colour and level
+    Float4 pane{};
+    Float4 cabin{0.0F, 0.0F, 0.0F, 1.0F};  ///< light inside the car
+};
+
+DriversView::DriversView(const Glass& glass, const ViewOptions& options)
+{
+    options.validate();
+    content_ = std::make_unique<Content>(glass, options);
+}
+
+DriversView::~DriversView() = default;
+DriversView::DriversView(DriversView&&) noexcept = default;
+DriversView& DriversView::operator=(DriversView&&) noexcept = default;
+
+void DriversView::setBackground(const Picture& picture)
+{
+    picture.validate();
+    Content& content = *content_;
+    if (picture.width != content.scene.eye.width() || picture.height != content.scene.eye.height()) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "the picture has " + std::to_string(picture.width) + " by " + std::to_string(picture.height) +
+                        " pixels; it must have the frame's " + std::to_string(content.scene.eye.width()) + " by " +
+                        std::to_string(content.scene.eye.height()));
+    }
+    const ViewOptions& options = content.scene.options;
+    if (content.around && !content.has_picture) {
+        content.has_picture = true;
+        content.restart();
+    }
+    content.has_picture = true;
+    const Highlights highlights(picture, content.exposure(), options.highlight_boost);
+    content.scene.backdrop.setPicture(picture, highlights);
+    content.darken(content.scene.backdrop.mean());
+    if (options.background_blur > 0.0) {
+        content.setBlurred(picture, highlights);
+        return;
+    }
+    const std::array<std::uint16_t, 48> shares = content.through_pane;
+    const std::uint8_t* const from = picture.rgb.data();
+    std::uint8_t* const to = content.bare.rgb.data();
+    constexpr std::size_t kRun = 48;  // levels that are computed at once
+    constexpr std::size_t kRunsPerBlock = 512;
+    const std::size_t runs = picture.rgb.size() / kRun;
+    if (options.exposure != 0.0) {
+        const auto& levels = content.exposed;
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, picture.rgb.size() / 3, kRun * kRunsPerBlock),
+                          [&](const auto& range) {
+                              for (std::size_t at = range.begin(); at < range.end(); ++at) {
+                                  for (std::size_t c = 0; c < 3; ++c) {
+                                      to[3 * at + c] = levels[c][from[3 * at + c]];
+                                  }
+                              }
+                          });
+        return;
+    }
+    // 16 bits suffice: 255 × 256 + 128.
+    const auto dimmed = [](std::uint8_t level, std::uint16_t share) {
+        return static_cast<std::uint8_t>(static_cast<std::uint16_t>(level * share + 128) >> 8);
+    };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, runs, kRunsPerBlock), [&](const auto& range) {
+        // Copies for each thread: for the compiler, written bytes may alias read ones.
+        const std::array<std::uint16_t, kRun> own = shares;
+        for (std::size_t run = range.begin(); run < range.end(); ++run) {
+            std::array<std::uint8_t, kRun> levels;
+            std::copy_n(from + run * kRun, kRun, levels.begin());
+            for (std::size_t k = 0; k < kRun; ++k) {
+                levels[k] = dimmed(levels[k], own[k]);
+            }
+            std::copy_n(levels.begin(), kRun, to + run * kRun);
+        }
+    });
+    for (std::size_t k = 0; runs * kRun + k < picture.rgb.size(); ++k) {
+        to[runs * kRun + k] = dimmed(from[runs * kRun + k], shares[k]);
+    }
+}
+
+void DriversView::setEnvironment(const Environment& environment)
+{
+    environment.validate();
+    Content& content = *content_;
+    content.around = environment;
+    content.restart();
+    if (!content.has_picture) {
+        content.setSurroundings(environment);
+    }
+}
+
+void DriversView::show(const WindshieldState& state)
+{
+    content_->stills->update(StillCells::of(state.still));
+    content_->running->update(state.droplets);
+    content_->wipers.update(state.time);
+}
+
+const Picture& DriversView::bare() const
+{
+    return content_->bare;
+}
+
+Layer DriversView::layer() const
+{
+    const Content& content = *content_;
+    Layer layer{content.scene.eye.width(), content.scene.eye.height(), {}};
+    layer.rgba.assign(content.bare.rgb.size() / 3 * 4, 0);
+    LayerWriter writer(layer);
+    content.drawWater(writer);
+    return layer;
+}
+
+Picture DriversView::frame() const
+{
+    const Content& content = *content_;
+    Picture frame = content.bare;
+    FrameWriter writer(frame);
+    content.drawWater(writer);
+    return frame;
+}
+
+std::optional<Vec2> DriversView::onGlass(int x, int y) const
+{
+    const Content& content = *content_;
+    if (x < 0 || y < 0 || x >= content.scene.eye.width() || y >= content.scene.eye.height()) {
+        return std::nullopt;
+    }
+    const Vec2f place = content.scene.eye.place(x, y);
+    return std::isnan(place.x) ? std::nullopt
+                               : std::optional(Vec2{static_cast<double>(place.x), static_cast<double>(place.y)});
+}
+
+std::size_t DriversView::cellsDrawn() const
+{
+    return content_->stills->cellsDrawn();
+}
+
+}  // namespace droplet

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "windshield_view/wiper_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "windshield_view/hashed_number.h"
+
+namespace droplet {
+namespace {
+
+constexpr float kBladeHalf = 0.0045F;  // half the width of a blade in its middle [m]
+constexpr float kArmHalf = 0.0075F;    // half the width of an arm at its joint [m]
+constexpr float kFilmLasts = 0.75F;    // lifetime of a film [s]
+constexpr float kWedgeLasts = 0.8F;    // lifetime of a wedge [s]
+constexpr float kWidestBead = 0.007F;  // largest width of pushed water [m]
+
+/// Smooth random field from 0 to 1, and its derivatives.
+struct Field {
+    float value = 0.0F;
+    float by_u = 0.0F;
+    float by_v = 0.0F;
+};
+
+Field fieldAt(float u, float v, std::uint32_t seed)
+{
+    const float column = std::floor(u);
+    const float row = std::floor(v);
+    const auto corner = [&](float i, float j) {
+        const auto a = static_cast<std::uint32_t>(static_cast<std::int32_t>(column + i));
+        const auto b = static_cast<std::uint32_t>(static_cast<std::int32_t>(row + j));
+        return hashedNumber(a * 0x9e3779b9U + b * 0x85ebca6bU + seed * 0xc2b2ae35U);
+    };
+    const float x = u - column;
+    const float y = v - row;
+    const float sx = x * x * (3.0F - 2.0F * x);
+    const float sy = y * y * (3.0F - 2.0F * y);
+    const float a = corner(0.0F, 0.0F);
+    const float b = corner(1.0F, 0.0F);
+    const float c = corner(0.0F, 1.0F);
+    const float d = corner(1.0F, 1.0F);
+    const float twist = a - b - c + d;
+    return {a + sx * (b - a) + sy * (c - a) + sx * sy * twist, 6.0F * x * (1.0F - x) * (b - a + sy * twist),
+            6.0F * y * (1.0F - y) * (c - a + sx * twist)};
+}
+
+Vec2f toFloats2(Vec2 v)
+{
+    return {static_cast<float>(v.x), static_cast<float>(v.y)};
+}
+
+float size(Vec2f v)
+{
+    return std::sqrt(v.x * v.x + v.y * v.y);
+}
+
+/// Share of a pixel inside an edge, at a distance from it that is positive inside.
+float within(float distance, float pixel)
+{
+    return std::clamp(distance / pixel + 0.5F, 0.0F, 1.0F);
+}
+
+/// Progress of a wiper from `first` to `last` at an angle, 0 … 1; outside that range it never has this angle.
+float shareOfWay(const Wiper& wiper, float angle)
+{
+    const auto first = static_cast<float>(wiper.first);
+    const auto way = static_cast<float>(wiper.last - wiper.first);
+    constexpr float kRound = 2.0F * std::numbers::pi_v<float>;
+    const float turned = std::remainder(angle - first - 0.5F * way, kRound) + 0.5F * way;
+    return turned / way;
+}
+
+/// Half-round bead of water on the glass.
+/// @param across  distance from its near edge, in the given direction [m]
+WaterMet beadAt(float across, float width, Vec2f direction, float pixel)
+{
+    if (width < 0.3e-3F || across < -pixel || across > width + pixel) {
+        return {};
+    }
+    const float x = std::clamp(2.0F * across / width - 1.0F, -0.96F, 0.96F);
+    // Half an ellipse whose height is 0.35 of its width.
+    const float slope = -0.7F * x / std::sqrt(1.0F - x * x);
+    return {std::min(within(across, pixel), within(width - across, pixel)),
+            {slope * direction.x, slope * direction.y},
+            true};
+}
+
+}  // namespace
+
+WiperView::Blade WiperView::bladeAt(const Wiper& wiper, double time)
+{
+    const double angle = wiper.angleAt(time);
+    Blade blade{{static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))}, 0.0F, 0.0F};
+    const double since = time - wiper.start;
+    const double within_period = since - wiper.period * std::floor(since / wiper.period);
+    if (since > 0.0 && within_period < wiper.stroke) {
+        const bool is_there = within_period < 0.5 * wiper.stroke;
+        const auto done =
+            static_cast<float>(std::abs((angle - (is_there ? wiper.first : wiper.last)) / (wiper.last - wiper.first)));
+        blade.forward = is_there == (wiper.last > wiper.first) ? 1.0F : -1.0F;
+        // The blade releases the water just before it turns.
+        blade.pushed = std::sqrt(done) * (1.0F - smoothstep(0.97F, 1.0F, done));
+    }
+    return blade;
+}
+
+void WiperView::update(double time)
+{
+    const ViewOptions& options = scene_.options;
+    if (options.wipers.empty()) {
+        return;
+    }
+    states_.clear();
+    moments_ = 1;
+    const Vec2 middle{0.5 * scene_.glass.width(), 0.5 * scene_.glass.height()};
+    for (const Wiper& wiper : options.wipers) {
+        constexpr double kInstant = 1e-4;  // [s]
+        const double turn = wiper.angleAt(time + 0.5 * kInstant) - wiper.angleAt(time - 0.5 * kInstant);
+        moments_ = std::max(moments_, scene_.momentsOf(middle, wiper.outer * std::abs(turn) / kInstant));
+    }
+    for (const Wiper& wiper : options.wipers) {
+        const double since = time - wiper.start;
+        const double strokes = std::floor(since / wiper.period);
+        WiperState one{
+            wiper, since - wiper.period * strokes, since > 0.0 ? static_cast<std::uint32_t>(strokes) : 0U, {}};
+        if (since <= 0.0) {
+            one.since = -1.0;
+        }
+        for (int k = 0; k < moments_; ++k) {
+            one.blades.push_back(bladeAt(wiper, time + scene_.timeOf(k, moments_)));
+        }
+        states_.push_back(std::move(one));
+    }
+    // Tiles with a part within reach of a blade.
+    tiles_.assign(scene_.tiles.count(), 0);
+    for (std::size_t k = 0; k < tiles_.size(); ++k) {
+        const ViewTile& tile = scene_.tiles[k];
+        for (const WiperState& one : states_) {
+            const Vec2f pivot = toFloats2(one.wiper.pivot);
+            const float x = std::clamp(pivot.x, tile.low.x, tile.high.x) - pivot.x;
+            const float y = std::clamp(pivot.y, tile.low.y, tile.high.y) - pivot.y;
+            const auto reach = static_cast<float>(one.wiper.outer) + 0.02F;
+            tiles_[k] = tiles_[k] != 0 || (tile.on_glass && x * x + y * y < reach * reach) ? 1 : 0;
+        }
+    }
+}
+
+bool WiperView::isInOtherField(const WiperState& own, Vec2f place) const
+{
+    return std::any_of(states_.begin(), states_.end(), [&](const WiperState& other) {
+        const Vec2f pivot = toFloats2(other.wiper.pivot);
+        const Vec2f from{place.x - pivot.x, place.y - pivot.y};
+        const float far = size(from);
+        const float share = shareOfWay(other.wiper, std::atan2(from.y, from.x));
+        return &other != &own && far > static_cast<float>(other.wiper.inner) &&
+               far < static_cast<float>(other.wiper.outer) && share > 0.0F && share < 1.0F;
+    });
+}
+
+WaterMet WiperView::film(const WiperState& one, Vec2f from, float pixel) const
+{
+    const Wiper& wiper = one.wiper;
+    const float radius = size(from);
+    if (one.since < 0.0 || radius < static_cast<float>(wiper.inner) || radius > static_cast<float>(wiper.outer)) {
+        return {};
+    }
+    const float angle = std::atan2(from.y, from.x);
+    const float share = shareOfWay(wiper, angle);
+    if (share <= 0.0F || share >= 1.0F) {
+        return {};
+    }
+    // Times at which the blade passed: forward, and on its way back.
+    const auto stroke = static_cast<float>(wiper.stroke);
+    const float there = stroke / (2.0F * std::numbers::pi_v<float>)*std::acos(1.0F - 2.0F * share);
+    const auto since = static_cast<float>(one.since);
+    std::uint32_t seed = 2 * one.stroke;
+    float age = since - there;
+    if (since >= stroke - there) {
+        age = since - (stroke - there);
+        seed += 1;
+    } else if (age < 0.0F) {
+        if (one.stroke == 0) {
+            return {};
+        }
+        age = since + static_cast<float>(wiper.period) - (stroke - there);
+        seed -= 1;
+    }
+    if (age >= kFilmLasts) {
+        return {};
+    }
+    // Streaks along the blade's motion, thick and thin.
+    constexpr float kLong = 0.045F;
+    constexpr float kWide = 0.0042F;
+    const float along = angle * static_cast<float>(wiper.outer);
+    const Field thick = fieldAt(along / kLong, radius / kWide, seed);
+    const Field thin = fieldAt(2.1F * along / kLong, 2.7F * radius / kWide, seed + 77U);
+    const float level = 0.62F * thick.value + 0.38F * thin.value - (0.12F + 0.88F * std::sqrt(age / kFilmLasts));
+    if (level <= 0.0F) {
+        return {};
+    }
+    const float along_slope = (0.62F * thick.by_u + 0.38F * 2.1F * thin.by_u) / kLong;
+    const float across_slope = (0.62F * thick.by_v + 0.38F * 2.7F * thin.by_v) / kWide;
+    // The rims are steeper, as they recede.
+    constexpr float kThick = 4.5e-5F;  // [m]
+    const float scale = kThick * (0.35F + 0.65F * std::exp(-age / 0.3F)) * (1.0F + 1.2F * std::exp(-level / 0.05F));
+    const Vec2f outward{from.x / radius, from.y / radius};
+    const float slope = std::hypot(along_slope, across_slope);
+    return {within(level / std::max(slope, 1e-3F), pixel),
+            {scale * (across_slope * outward.x - along_slope * outward.y),
+             scale * (across_slope * outward.y + along_slope * outward.x)},
+            false};
+}
+
+WaterMet WiperView::wedge(const WiperState& one, Vec2f from, float pixel) const
+{
+    const Wiper& wiper = one.wiper;
+    const float radius = size(from);
+    const auto inner = static_cast<float>(wiper.inner);
+    const auto outer = static_cast<float>(wiper.outer);
+    if (one.since < 0.0 || radius < inner || radius > outer) {
+        return {};
+    }
+    // Place of the last turn: at `last`, or back at `first`.
+    const bool is_far = one.since >= 0.5 * wiper.stroke && one.since < wiper.stroke;
+    const double turned = is_far                      ? 0.5 * wiper.stroke
+                          : one.since >= wiper.stroke ? wiper.stroke
+                                                      : wiper.stroke - wiper.period;
+    const auto age = static_cast<float>(one.since - turned);
+    if (age > kWedgeLasts || (turned < 0.0 && one.stroke == 0)) {
+        return {};
+    }
+    const double angle = is_far ? wiper.last : wiper.first;
+    const float way = is_far == (wiper.last > wiper.first) ? 1.0F : -1.0F;
+    const Vec2f along{static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+    const Vec2f ahead{-way * along.y, way * along.x};
+    const float beyond = from.x * ahead.x + from.y * ahead.y - kBladeHalf;
+    // The wedge drains along the blade's line, last at thick places, and is wider further out.
+    const float left = age / kWedgeLasts;
+    const float place = (radius - inner) / (outer - inner);
+    const Field uneven = fieldAt(radius / 0.018F + 2.0F * left, 0.5F, 2 * one.stroke + (is_far ? 1U : 0U));
+    const float width = 1.7F * kWidestBead * (0.35F + 0.65F * place) *
+                        std::max(uneven.value * 0.6F + 0.5F - 1.1F * left, 0.0F) *
+                        smoothstep(0.0F, 0.03F, std::min(radius - inner, outer - radius));
+    return beadAt(beyond, width, ahead, pixel);
+}
+
+WaterMet WiperView::waterLeft(Vec2f place, float pixel) const
+{
+    WaterMet met;
+    for (const WiperState& one : states_) {
+        const Vec2f pivot = toFloats2(one.wiper.pivot);
+        const Vec2f from{place.x - pivot.x, place.y - pivot.y};
+        const WaterMet bead = wedge(one, from, pixel);
+        if (bead.cover > 0.0F && !isInOtherField(one, place)) {
+            return bead;
+        }
+        const WaterMet thin = film(one, from, pixel);
+        if (thin.cover > met.cover) {
+            met = thin;
+        }
+    }
+    return met;
+}
+
+WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
+{
+    WiperMet met;
+    for (const WiperState& one : states_) {
+        const Wiper& wiper = one.wiper;
+        const Blade& blade = one.blades[static_cast<std::size_t>(moment)];
+        const Vec2f pivot = toFloats2(wiper.pivot);
+        const Vec2f from{place.x - pivot.x, place.y - pivot.y};
+        const float along = from.x * blade.along.x + from.y * blade.along.y;
+        const float aside = from.y * blade.along.x - from.x * blade.along.y;
+        constexpr float kReach = 0.06F;  // reach of arm and water [m]
+        if (std::abs(aside) > kReach) {
+            continue;
+        }
+        const auto inner = static_cast<float>(wiper.inner);
+        const auto outer = static_cast<float>(wiper.outer);
+        const float middle = 0.5F * (inner + outer);
+        const float end = std::min(along - inner, outer - along);
+        const float taper = 0.55F + 0.45F * smoothstep(0.0F, 0.4F * (outer - inner), end);
+        const float half = kBladeHalf * taper;
+        const float on_blade = std::min(within(half - std::abs(aside), pixel), within(end, pixel));
+        // The arm runs from the pivot beside the blade and meets it in its middle.
+        const float joint = std::clamp(along / middle, 0.0F, 1.0F);
+        const float arm_aside = aside + 0.028F * (1.0F - joint);
+        const float arm_half = kArmHalf * (1.15F - 0.5F * joint);
+        const float on_arm =
+            std::min(within(arm_half - std::abs(arm_aside), pixel), within(std::min(along, middle - along), pixel));
+        const float cover = std::max(on_blade, on_arm);
+        if (cover > met.cover) {
+            met.cover = cover;
+            // Rubber is dark except for a gleam along one side; the arm is round.
+            const float across = on_blade >= on_arm ? aside / half : arm_aside / arm_half;
+            const float gleam = std::exp(-12.0F * (across - 0.45F) * (across - 0.45F));
+            met.shine = on_blade >= on_arm ? 0.25F + 2.2F * gleam : 0.35F + 2.8F * gleam;
+        }
+        if (blade.forward != 0.0F && end > 0.0F) {
+            const Vec2f ahead{-blade.forward * blade.along.y, blade.forward * blade.along.x};
+            const Field uneven = fieldAt(along / 0.014F, 2.0F * blade.pushed, 2 * one.stroke + 5U);
+            const float fades = isInOtherField(one, place) ? 1.0F - smoothstep(0.6F, 0.95F, blade.pushed) : 1.0F;
+            const float width =
+                kWidestBead * blade.pushed * fades * (0.35F + 0.65F * uneven.value) * smoothstep(0.0F, 0.03F, end);
+            const WaterMet bead = beadAt(blade.forward * aside - half, width, ahead, pixel);
+            if (bead.cover > met.pushed.cover) {
+                met.pushed = bead;
+            }
+        }
+    }
+    return met;
+}
+
+}  // namespace droplet

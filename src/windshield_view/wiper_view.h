@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "droplet/windshield/wipers.h"
+#include "windshield_view/view_context.h"
+
+namespace droplet {
+
+/// Water that a ray meets on the glass.
+struct WaterMet {
+    float cover = 0.0F;    ///< share of the pixel
+    Vec2f slope;           ///< slope of its surface along the glass's x and y
+    bool is_bead = false;  ///< thick, like a droplet
+};
+
+/// Wiper that a ray meets at one moment.
+struct WiperMet {
+    float cover = 0.0F;  ///< share of the pixel that blade or arm covers
+    float shine = 0.0F;  ///< its light over that of the cabin
+    WaterMet pushed;     ///< water ahead of the blade
+};
+
+/// Visible wipers: blades and arms, the water that they push, and the water that they leave. The film that they leave
+/// breaks up into streaks and vanishes within a second. Where a blade has turned, a wedge of water remains for a while,
+/// unless another blade passes there. The water balance counts all of this as wiped.
+///
+/// Shapes and sizes are chosen by eye, after blades and arms of cars.
+class WiperView {
+public:
+    /// @param scene  must outlive this
+    explicit WiperView(const ViewContext& scene) : scene_(scene) {}
+
+    /// Moves the wipers to a time [s].
+    void update(double time);
+
+    /// Whether wipers may be visible in a tile (upper bound).
+    [[nodiscard]] bool reach(std::size_t tile) const { return !tiles_.empty() && tiles_[tile] != 0; }
+    /// Number of moments at which blades are drawn while the shutter is open.
+    [[nodiscard]] int moments() const { return moments_; }
+
+    /// Water that a wiper has left: films and wedges.
+    /// @param pixel  size of a pixel's image on the glass [m]
+    [[nodiscard]] WaterMet waterLeft(Vec2f place, float pixel) const;
+    /// Wiper at a place and moment.
+    /// @param moment  0 … moments() − 1
+    [[nodiscard]] WiperMet at(Vec2f place, float pixel, int moment) const;
+
+private:
+    /// Blade at a moment.
+    struct Blade {
+        Vec2f along;           ///< unit direction from the pivot
+        float forward = 0.0F;  ///< 1: its angle grows; −1: it shrinks; 0: at rest
+        float pushed = 0.0F;   ///< amount of pushed water, 0 … 1
+    };
+    /// Wiper at the present time.
+    struct WiperState {
+        Wiper wiper;
+        double since = 0.0;         ///< time since the begin of its period [s]
+        std::uint32_t stroke = 0;   ///< number of the stroke
+        std::vector<Blade> blades;  ///< blade at each moment
+    };
+
+    [[nodiscard]] static Blade bladeAt(const Wiper& wiper, double time);
+    [[nodiscard]] WaterMet film(const WiperState& one, Vec2f from, float pixel) const;
+    [[nodiscard]] WaterMet wedge(const WiperState& one, Vec2f from, float pixel) const;
+    /// Whether a place is in the field of another wiper.
+    [[nodiscard]] bool isInOtherField(const WiperState& own, Vec2f place) const;
+
+    const ViewContext& scene_;
+    std::vector<WiperState> states_;
+    std::vector<std::uint8_t> tiles_;
+    int moments_ = 1;
+};
+
+}  // namespace droplet
