@@ -84,20 +84,8 @@ void readSequencePreview(const CommandLine& line, AnimateOptions& options)
 
 void readSequence(const CommandLine& line, AnimateOptions& options)
 {
-    using droplet::VolumeMode;
-    if (const auto mode = line.value("--volume-mode")) {
-        options.volume_mode = choice<VolumeMode>(
-            *mode, {{"total", VolumeMode::Total}, {"track", VolumeMode::Track}, {"fill", VolumeMode::Fill}});
-    }
-    if (const auto rate = line.value("--fps")) {
-        const auto number = finiteNumber(rate->text);
-        if (!number || *number < 1e-3 || *number > 1e3) {
-            refuse(*rate, "a number from 0.001 to 1000");
-        }
-        options.frames_per_second = *number;
-    }
     droplet::Fill& fill = options.settings.droplet.solve.fill;
-    if (options.volume_mode == VolumeMode::Total) {
+    if (options.volume_mode == droplet::VolumeMode::Total) {
         if (line.value("--fill") && fill.sharing == droplet::FillSharing::Each) {
             refuse(
                 "--fill each and --volume-mode total exclude each other: the total volume is shared by all droplets");
@@ -114,13 +102,16 @@ void readSequence(const CommandLine& line, AnimateOptions& options)
 
 }  // namespace
 
-void declareAnimation(CommandLine& line)
+void declareAnimation(CommandLine& line, AnimateOptions& options)
 {
-    line.add("Sequence", "--volume-mode", "total|track|fill",
+    using droplet::VolumeMode;
+    line.add("Sequence", "--volume-mode",
              "Volume that stays the same: total, of all droplets together at one pressure; track, of every droplet, "
-             "through merging and splitting; fill, none, every frame has the --contact-angle, --volume or --height "
-             "[total]");
-    line.add("Sequence", "--fps", "RATE", "Frames per second [24, or the video's]");
+             "through merging and splitting; fill, none, every frame has the --contact-angle, --volume or --height",
+             into(options.volume_mode,
+                  {{"total", VolumeMode::Total}, {"track", VolumeMode::Track}, {"fill", VolumeMode::Fill}}));
+    line.add("Sequence", "--fps", "RATE", "Frames per second [24, or the video's]",
+             into(options.frames_per_second, NumberRange{1e-3, 1e3, "a number from 0.001 to 1000"}));
     line.add("Sequence", "--contact-sheet", "FILE",
              "Write a PNG of up to 60 frames side by side, seen by one camera; - is standard output");
     line.add("Picture", "--preview", "FILE",
@@ -128,29 +119,25 @@ void declareAnimation(CommandLine& line)
              "needs ffmpeg");
     declareView(line);
     declareVideoEncoding(line, "Picture");
-    declareFootprint(line);
-    declareLiquid(line);
-    declareGround(line);
-    declareSurface(line);
+    declareFootprint(line, options.footprint);
+    declareLiquid(line, options.settings);
+    declareGround(line, options.settings);
+    declareSurface(line, options.settings);
     declareCompression(line, "Surface");
     declareHtml(line);
-    line.add("Run", "--json", "FILE", "Write a report; - is standard output");
-    line.addFlag("Run", "--resume", "Continue an interrupted run of the same options");
+    line.add("Run", "--json", "FILE", "Write a report; - is standard output", into(options.json));
+    line.addFlag("Run", "--resume", "Continue an interrupted run of the same options", options.resume);
     declareRun(line);
     line.exclude({"--resume", "--no-clobber"});
 }
 
-AnimateOptions readAnimation(const CommandLine& line, std::vector<std::string> inputs, std::string output)
+void readAnimation(const CommandLine& line, AnimateOptions& options)
 {
-    AnimateOptions options;
-    options.footprint = readFootprint(line);
+    readFootprint(line, options.footprint);
     options.footprint.mask.allow_dry = true;
     options.footprint.trace.allow_dry = true;
-    options.settings = readDroplet(line);
+    readDroplet(line, options.settings);
     options.run = readRun(line);
-    if (const auto json = line.value("--json")) {
-        options.json = json->text;
-    }
     options.html = readHtml(line);
     if (const auto sheet = line.value("--contact-sheet")) {
         if (sheet->text != kStandardStream && std::filesystem::path(sheet->text).extension() != ".png") {
@@ -158,16 +145,12 @@ AnimateOptions readAnimation(const CommandLine& line, std::vector<std::string> i
         }
         options.contact_sheet = sheet->text;
     }
-    options.inputs = std::move(inputs);
-    options.output = std::move(output);
     readSequence(line, options);
     readSequencePreview(line, options);
     readOutput(line, options);
-    options.resume = line.flag("--resume");
     options.fingerprint = optionsOfFrames(line, options.output,
                                           {"--verbose", "--html", "--contact-sheet", "--preview", "--preview-size",
                                            "--view", "--camera", "--codec", "--quality"});
-    return options;
 }
 
 std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* const* argv)
@@ -178,7 +161,8 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
                       "video, which needs ffmpeg, or -, PNG, PGM or PPM pictures on standard input. OUTPUT is a .glb, "
                       ".gltf, .usda or .usdz that plays, or a pattern for one file per frame "
                       "such as out/%04d.glb, .gltf, .obj, .ply, .stl, .usda or .usdz");
-    declareAnimation(line);
+    AnimateOptions options;
+    declareAnimation(line, options);
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
         return *text;
@@ -188,14 +172,15 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
         refuse(std::string(files.empty() ? "INPUT" : "OUTPUT") + " is missing; usage: " + commandText().name + " " +
                commandText().usage);
     }
-    std::vector<std::string> inputs;
+    line.read();
     for (std::size_t i = 0; i + 1 < files.size(); ++i) {
-        inputs.push_back(files[i].text);
+        options.inputs.push_back(files[i].text);
     }
-    if (inputs.size() > 1 && std::any_of(inputs.begin(), inputs.end(), isStream)) {
+    if (options.inputs.size() > 1 && std::any_of(options.inputs.begin(), options.inputs.end(), isStream)) {
         refuse("INPUT: - must stand alone: all frames are on standard input");
     }
-    AnimateOptions options = readAnimation(line, std::move(inputs), files.back().text);
+    options.output = files.back().text;
+    readAnimation(line, options);
     if (options.resume && (!options.files || isStream(options.inputs.front()))) {
         refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.glb, and INPUT in files");
     }

@@ -40,13 +40,13 @@ struct AnimateOptions {
 };
 
 /// Declares the options of an animation: all of `animate` but its files.
-void declareAnimation(CommandLine& line);
+void declareAnimation(CommandLine& line, AnimateOptions& options);
 
-/// Reads the options of declareAnimation(), but those of a video's encoding, which the caller may have another use for.
-/// @param inputs          paths of the frames
-/// @param output          path of the animation
+/// Reads the options of declareAnimation() that CommandLine::read() does not read, but those of a video's encoding,
+/// which the caller may have another use for.
+/// @param options         those of declareAnimation(), with the paths of the frames and of the animation
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
-AnimateOptions readAnimation(const CommandLine& line, std::vector<std::string> inputs, std::string output);
+void readAnimation(const CommandLine& line, AnimateOptions& options);
 
 /// Reads the command line and the configuration file that it names.
 /// @return                the options, or the text that --help or --version prints

@@ -49,14 +49,14 @@ const CommandText& commandText()
     return text;
 }
 
-void declare(CommandLine& line)
+void declare(CommandLine& line, ShapeOptions& shared)
 {
     line.addArguments("INPUT", "Pictures and folders of pictures");
     line.add("Batch", "-o,--output", "OUTPUT", "Pattern of the output files, such as 'out/{stem}.glb'");
     line.addFlag("Batch", "--recursive", "Read subfolders, too");
     line.add("Batch", "--json", "FILE", "Write a report for each picture, such as 'out/{stem}.json'");
     declareBatch(line);
-    declareShapes(line);
+    declareShapes(line, shared);
     declareRun(line);
 }
 
@@ -204,7 +204,8 @@ std::string settingsFingerprint(const ShapeOptions& options, const BatchOptions&
 int runBatch(int argc, const char* const* argv)
 {
     CommandLine line(commandText());
-    declare(line);
+    ShapeOptions shared;
+    declare(line, shared);
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
         print(*text);
@@ -219,9 +220,9 @@ int runBatch(int argc, const char* const* argv)
         refuse("--output is missing: give a path for each droplet, such as -o 'out/{stem}.glb'");
     }
     const auto report = line.value("--json");
-    ShapeOptions named;
-    named.output = output->text;
-    const ShapeOptions shared = readShapes(line, std::move(named), "--output");
+    line.read();
+    shared.output = output->text;
+    readShapes(line, shared, "--output");
     BatchOptions options = readBatch(line, shared.run, output->text);
     options.material = shared.settings.material;
     RunFiles read;

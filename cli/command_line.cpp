@@ -155,6 +155,30 @@ public:
         descriptions_[app_.get_options().back()] = description;
     }
 
+    void add(const char* group, const char* names, const char* type, const std::string& description,
+             OptionTarget target)
+    {
+        const bool has_own = described(description).usual.empty() && !target.usual.empty();
+        add(group, names, type, has_own ? description + " [" + target.usual + "]" : description);
+        targets_[app_.get_options().back()] = std::move(target);
+    }
+
+    void addFlag(const char* group, const char* names, const std::string& description, bool& value)
+    {
+        addFlag(group, names, description);
+        targets_[app_.get_options().back()] = {[&value](const Given& given) { value = given.text == "true"; }};
+    }
+
+    void read() const
+    {
+        for (const CLI::Option* option : app_.get_options()) {
+            const auto target = targets_.find(option);
+            if (target != targets_.end() && option->count() > 0) {
+                target->second.read(*value(nameOf(option)));
+            }
+        }
+    }
+
     void addList(const char* group, const char* names, const char* type, const std::string& description)
     {
         add(group, names, type, description);
@@ -320,6 +344,13 @@ private:
         for (std::size_t k = 1; k < option->get_lnames().size(); ++k) {
             former.push_back("--" + option->get_lnames()[k]);
         }
+        const auto target = targets_.find(option);
+        nlohmann::ordered_json min;
+        nlohmann::ordered_json max;
+        if (target != targets_.end() && target->second.range) {
+            min = target->second.range->front();
+            max = target->second.range->back();
+        }
         return {{"name", nameOf(option)},
                 {"short", option->get_snames().empty() ? "" : "-" + option->get_snames().front()},
                 {"former", former},
@@ -329,6 +360,8 @@ private:
                 {"unit", kind.unit},
                 {"words", words},
                 {"several", isList(option)},
+                {"min", min},
+                {"max", max},
                 {"default", description.usual},
                 {"text", description.text}};
     }
@@ -472,7 +505,8 @@ private:
     std::vector<std::vector<std::string>> exclusive_;
     std::unordered_set<const CLI::Option*> lists_;
     std::unordered_map<const CLI::Option*, std::string> descriptions_;  ///< as declared
-    std::unordered_map<std::string, std::string> origins_;              ///< places of options in the configuration file
+    std::unordered_map<const CLI::Option*, OptionTarget> targets_;
+    std::unordered_map<std::string, std::string> origins_;  ///< places of options in the configuration file
 };
 
 CommandLine::CommandLine(const CommandText& text) : parser_(std::make_unique<Parser>(text)) {}
@@ -492,6 +526,31 @@ void CommandLine::addList(const char* group, const char* names, const char* type
 void CommandLine::addFlag(const char* group, const char* names, const std::string& description)
 {
     parser_->addFlag(group, names, description);
+}
+
+void CommandLine::add(const char* group, const char* names, const char* type, const std::string& description,
+                      OptionTarget target)
+{
+    parser_->add(group, names, type, description, std::move(target));
+}
+
+void CommandLine::add(const char* group, const char* names, const std::string& description, OptionTarget target)
+{
+    std::string type;
+    for (const std::string& word : target.words) {
+        type += (type.empty() ? "" : "|") + word;
+    }
+    parser_->add(group, names, type.c_str(), description, std::move(target));
+}
+
+void CommandLine::addFlag(const char* group, const char* names, const std::string& description, bool& value)
+{
+    parser_->addFlag(group, names, description, value);
+}
+
+void CommandLine::read() const
+{
+    parser_->read();
 }
 
 void CommandLine::addArgument(const char* name, const std::string& description)

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "option_target.h"
 #include "option_values.h"
 
 namespace cli {
@@ -23,8 +24,8 @@ struct CommandText {
 
 /// Options from the command line and the configuration file; the command line takes precedence.
 ///
-/// A command declares its options, parses, and then reads their values. Every option but a flag takes one value, and
-/// may be given once.
+/// A command declares its options, each with the variable that it is read into or without, parses, and then reads.
+/// Every option but a flag takes one value, and may be given once.
 class CommandLine {
 public:
     explicit CommandLine(const CommandText& text);
@@ -40,10 +41,17 @@ public:
     /// @param type         name of the value in the help, or the allowed words: `LENGTH`, `linear|exact`, `V|every`
     /// @param description  ends with the default value, in brackets
     void add(const char* group, const char* names, const char* type, const std::string& description);
+    /// Declares an option that read() reads. Its default is the target's, unless the description ends with one.
+    void add(const char* group, const char* names, const char* type, const std::string& description,
+             OptionTarget target);
+    /// Declares an option whose values are the words of its target.
+    void add(const char* group, const char* names, const std::string& description, OptionTarget target);
     /// Declares an option that may be given several times.
     void addList(const char* group, const char* names, const char* type, const std::string& description);
     /// Declares an option without a value.
     void addFlag(const char* group, const char* names, const std::string& description);
+    /// Declares a flag that read() reads.
+    void addFlag(const char* group, const char* names, const std::string& description, bool& value);
     /// Declares a positional argument; arguments come in the order of the calls.
     void addArgument(const char* name, const std::string& description);
     /// Declares any number of positional arguments; they must be the last.
@@ -54,6 +62,10 @@ public:
     /// Parses the command line, and reads the configuration file that --config names.
     /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
     void parse(int argc, const char* const* argv);
+
+    /// Reads all given options that have targets, in the order of their declaration.
+    /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
+    void read() const;
 
     /// Whether an option of this name is declared.
     [[nodiscard]] bool knows(const std::string& name) const;

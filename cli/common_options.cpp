@@ -64,7 +64,7 @@ std::optional<std::size_t> readThreads(const CommandLine& line)
 {
     constexpr std::size_t kMaxThreads = 1024;  // more than any machine this runs on
     const auto threads = line.value("--threads");
-    return threads ? std::optional(count(*threads, kMaxThreads, "1024")) : std::nullopt;
+    return threads ? std::optional(count(*threads, {1, kMaxThreads, "1024"})) : std::nullopt;
 }
 
 RunOptions readRun(const CommandLine& line)

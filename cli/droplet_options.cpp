@@ -27,6 +27,9 @@ constexpr Range kTension{Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m t
 constexpr Range kDensity{Dimension::Density, 0.0, 1e6, "from 0kg/m3 to 1e6kg/m3"};
 constexpr Range kGravity{Dimension::Acceleration, -1e6, 1e6, "from -1e6m/s2 to 1e6m/s2"};
 constexpr Range kHalfTurn{Dimension::Angle, 0.0, std::numbers::pi, "from 0deg to 180deg"};
+constexpr NumberRange kThreshold{std::numeric_limits<double>::min(), 1.0 - std::numeric_limits<double>::epsilon(),
+                                 "a number over 0 and under 1, such as 0.5"};
+constexpr NumberRange kSpeckSize{0.0, std::numeric_limits<double>::max(), "a number of square pixels, at least 0"};
 constexpr Range kDirection{Dimension::Angle, -2 * std::numbers::pi, 2 * std::numbers::pi, "from -360deg to 360deg"};
 
 /// Contact angle that a liquid takes by itself on what it lies on.
@@ -53,16 +56,13 @@ void readLiquid(const CommandLine& line, DropletSettings& settings)
 {
     auto& solve = settings.droplet.solve;
     if (const auto volume = line.value("--volume")) {
-        solve.fill = {droplet::FillBy::Volume, quantity(*volume, kVolume)};
+        solve.fill.by = droplet::FillBy::Volume;
+        solve.fill.amount = quantity(*volume, kVolume);
     }
     if (const auto height = line.value("--height")) {
-        solve.fill = {droplet::FillBy::Height, quantity(*height, kLength)};
+        solve.fill.by = droplet::FillBy::Height;
+        solve.fill.amount = quantity(*height, kLength);
     }
-    if (const auto sharing = line.value("--fill")) {
-        solve.fill.sharing = choice<droplet::FillSharing>(
-            *sharing, {{"each", droplet::FillSharing::Each}, {"total", droplet::FillSharing::Total}});
-    }
-
     const auto liquid = line.value("--liquid");
     if (liquid) {
         solve.liquid = forOption(liquid->subject, [&] { return droplet::liquidNamed(liquid->text); });
@@ -87,11 +87,6 @@ void readLiquid(const CommandLine& line, DropletSettings& settings)
     if (line.value("--on") && !is_natural) {
         settings.warnings.push_back("--on has no effect without --contact-angle natural");
     }
-    if (const auto model = line.value("--model")) {
-        solve.model = choice<droplet::Model>(
-            *model,
-            {{"auto", droplet::Model::Auto}, {"linear", droplet::Model::Linear}, {"exact", droplet::Model::Exact}});
-    }
     const bool is_default = !angle && !line.value("--volume") && !line.value("--height");
     settings.droplet.allow_less = is_default || is_natural;
     solve.fill.below_puddle = is_default;
@@ -103,20 +98,11 @@ void readLiquid(const CommandLine& line, DropletSettings& settings)
 void readGravity(const CommandLine& line, DropletSettings& settings)
 {
     auto& solve = settings.droplet.solve;
-    if (const auto gravity = line.value("--gravity")) {
-        solve.gravity = quantity(*gravity, kGravity);
+    if (solve.tilt > 0.0 && solve.gravity == 0.0) {
+        settings.warnings.push_back("--tilt has no effect: there is no gravity");
     }
-    if (const auto tilt = line.value("--tilt")) {
-        solve.tilt = quantity(*tilt, kHalfTurn);
-        if (solve.tilt > 0.0 && solve.gravity == 0.0) {
-            settings.warnings.push_back("--tilt has no effect: there is no gravity");
-        }
-    }
-    if (const auto direction = line.value("--tilt-direction")) {
-        solve.tilt_direction = quantity(*direction, kDirection);
-        if (solve.tilt == 0.0 || solve.tilt == kHalfTurn.max) {
-            settings.warnings.push_back("--tilt-direction has no effect: level ground has no downhill direction");
-        }
+    if (line.value("--tilt-direction") && (solve.tilt == 0.0 || solve.tilt == kHalfTurn.max)) {
+        settings.warnings.push_back("--tilt-direction has no effect: level ground has no downhill direction");
     }
 }
 
@@ -143,14 +129,7 @@ void readHysteresis(const CommandLine& line, DropletSettings& settings)
 /// Reads the options that separate liquid from dry and clean the mask.
 void readSegment(const CommandLine& line, FootprintOptions& options)
 {
-    using droplet::Segmentation;
     const auto segment = line.value("--segment");
-    if (segment) {
-        options.mask.segment = choice<Segmentation>(*segment, {{"auto", Segmentation::Auto},
-                                                               {"threshold", Segmentation::Threshold},
-                                                               {"adaptive", Segmentation::Adaptive},
-                                                               {"grabcut", Segmentation::GrabCut}});
-    }
     const auto channel = line.value("--channel");
     if (segment && channel && channel->text == "alpha" && (segment->text == "adaptive" || segment->text == "grabcut")) {
         refuse("--segment " + segment->text +
@@ -163,17 +142,6 @@ void readSegment(const CommandLine& line, FootprintOptions& options)
             refuse("--segment and --colour exclude each other, give one of them");
         }
         options.mask.colour = forOption(colour->subject, [&] { return droplet::parseCssColour(colour->text); });
-    }
-    droplet::CleanOptions& clean = options.trace.clean;
-    if (const auto smooth = line.value("--smooth")) {
-        clean.smooth = quantity(*smooth, kLength);
-    }
-    if (const auto holes = line.value("--fill-holes")) {
-        clean.fill_holes = quantity(*holes, kArea);
-    }
-    if (const auto keep = line.value("--keep")) {
-        constexpr std::size_t kMax = 1'000'000;
-        clean.keep = count(*keep, kMax, "1M");
     }
 }
 
@@ -275,10 +243,6 @@ void readGround(const CommandLine& line, DropletSettings& settings)
             settings.warnings.push_back("--surface-depth has no effect: the ground is no height map");
         }
     }
-    if (const auto onto = line.value("--onto")) {
-        settings.onto = onto->text;
-    }
-    solve.no_penetration = line.flag("--no-penetration");
     const bool pulled_down = solve.gravity >= 0.0 && solve.tilt == 0.0;
     if (solve.no_penetration && pulled_down && settings.ground.kind == droplet::GroundKind::Flat) {
         settings.warnings.push_back("--no-penetration has no effect: on level flat ground the liquid stays above it");
@@ -287,26 +251,9 @@ void readGround(const CommandLine& line, DropletSettings& settings)
 
 void readSurface(const CommandLine& line, DropletSettings& settings)
 {
-    if (const auto triangles = line.value("--triangles")) {
-        settings.droplet.mesh.triangles = count(*triangles, kMaxTriangles, "100M, such as 5000, 5k or 1M");
-    }
-    if (const auto edge = line.value("--edge")) {
-        settings.droplet.mesh.edge = quantity(*edge, kLength);
-    }
-    if (const auto grading = line.value("--grading")) {
-        settings.droplet.mesh.grading = choice<std::optional<int>>(
-            *grading,
-            {{"auto", std::nullopt}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}});
-    }
-    settings.droplet.open = line.flag("--open");
     const auto material = line.value("--material");
     settings.material = material ? forOption(material->subject, [&] { return droplet::materialNamed(material->text); })
                                  : droplet::materialOf(settings.droplet.solve.liquid);
-    if (const auto unit = line.value("--unit")) {
-        using droplet::LengthUnit;
-        settings.unit = choice<LengthUnit>(
-            *unit, {{"m", LengthUnit::Metre}, {"cm", LengthUnit::Centimetre}, {"mm", LengthUnit::Millimetre}});
-    }
     if (const auto solver = line.value("--solver")) {
         if (solver->text == "cholmod") {
             refuse(solver->subject + ": 'cholmod' is no longer built in; llt factorises the same matrix");
@@ -319,24 +266,38 @@ void readSurface(const CommandLine& line, DropletSettings& settings)
 
 }  // namespace
 
-void declareFootprint(CommandLine& line)
+void declareFootprint(CommandLine& line, FootprintOptions& options)
 {
+    using droplet::Channel;
+    using droplet::Segmentation;
+    droplet::TraceOptions& trace = options.trace;
     constexpr const char* kGroup = "Footprint";
-    line.add(kGroup, "--width", "LENGTH", "Width of the picture; an SVG may state its own [20mm]");
-    line.add(kGroup, "--pixel-size", "LENGTH", "Size of one pixel, instead of --width");
-    line.add(kGroup, "--channel", "auto|alpha|luma",
+    line.add(kGroup, "--width", "LENGTH", "Width of the picture; an SVG may state its own", into(trace.width, kLength));
+    line.add(kGroup, "--pixel-size", "LENGTH", "Size of one pixel, instead of --width",
+             into(trace.pixel_size, kLength));
+    line.add(kGroup, "--channel",
              "Channel that shows the liquid: auto takes alpha if the picture has transparent parts, else what differs "
-             "from the brightness of its border [auto]");
-    line.add(kGroup, "--threshold", "F", "Coverage at which liquid begins, between 0 and 1 [0.5]");
-    line.addFlag(kGroup, "--invert", "Exchange liquid and dry");
-    line.add(kGroup, "--segment", "auto|threshold|adaptive|grabcut",
+             "from the brightness of its border",
+             into(options.mask.channel, {{"auto", Channel::Auto}, {"alpha", Channel::Alpha}, {"luma", Channel::Luma}}));
+    line.add(kGroup, "--threshold", "F", "Coverage at which liquid begins, between 0 and 1",
+             into(trace.threshold, kThreshold));
+    line.addFlag(kGroup, "--invert", "Exchange liquid and dry", options.mask.invert);
+    line.add(kGroup, "--segment",
              "How to separate liquid from dry: threshold for drawings and scans, adaptive for photographs in uneven "
-             "light, grabcut by colour; auto chooses and reports its choice [auto]");
+             "light, grabcut by colour; auto chooses and reports its choice",
+             into(options.mask.segment, {{"auto", Segmentation::Auto},
+                                         {"threshold", Segmentation::Threshold},
+                                         {"adaptive", Segmentation::Adaptive},
+                                         {"grabcut", Segmentation::GrabCut}}));
     line.add(kGroup, "--colour", "COLOUR", "Take the regions of this colour, such as red or #e30613");
-    line.add(kGroup, "--smooth", "LENGTH", "Remove spots, and bends of the rim, that are narrower than this");
-    line.add(kGroup, "--fill-holes", "AREA", "Fill holes smaller than this, such as glints: 1mm2");
-    line.add(kGroup, "--keep", "N", "Keep only the N largest droplets");
-    line.add(kGroup, "--speck-size", "F", "Drop spots and holes smaller than F square pixels [3]");
+    line.add(kGroup, "--smooth", "LENGTH", "Remove spots, and bends of the rim, that are narrower than this",
+             withoutDefault(into(trace.clean.smooth, kLength)));
+    line.add(kGroup, "--fill-holes", "AREA", "Fill holes smaller than this, such as glints: 1mm2",
+             withoutDefault(into(trace.clean.fill_holes, kArea)));
+    line.add(kGroup, "--keep", "N", "Keep only the N largest droplets",
+             into(trace.clean.keep, CountRange{1, 1'000'000, "1M"}));
+    line.add(kGroup, "--speck-size", "F", "Drop spots and holes smaller than F square pixels",
+             into(trace.speck_size, kSpeckSize));
     line.exclude({"--width", "--pixel-size"});
 }
 
@@ -371,37 +332,45 @@ void declareMaskOut(CommandLine& line)
     line.add("Footprint", "--mask-out", "FILE", "Write the mask that was used, as PNG; - is standard output");
 }
 
-void declareLiquid(CommandLine& line)
+void declareLiquid(CommandLine& line, DropletSettings& settings)
 {
+    droplet::SolveOptions& solve = settings.droplet.solve;
     constexpr const char* kGroup = "Liquid";
     line.add(
         kGroup, "--contact-angle", "ANGLE",
         "Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of the liquid on "
         "what it lies on. By default no droplet is higher than a puddle of 40deg; by default and with natural, the "
-        "largest angle that exists is taken if that one does not [40deg]");
+        "largest angle that exists is taken if that one does not [" +
+            quantityText(solve.fill.amount, Dimension::Angle) + "]");
     line.add(kGroup, "--on", "glass|ptfe|wax|lotus", "What the liquid lies on, for --contact-angle natural [glass]");
     line.add(kGroup, "--volume", "VOLUME", "Amount of liquid, by its volume");
     line.add(kGroup, "--height", "LENGTH",
              "Amount of liquid, by its largest height; if two droplets have it, the one with less liquid");
-    line.add(kGroup, "--fill", "each|total",
-             "each: every droplet gets this amount; total: all droplets share it at one pressure [each]");
+    line.add(kGroup, "--fill", "each: every droplet gets this amount; total: all droplets share it at one pressure",
+             into(solve.fill.sharing, {{"each", droplet::FillSharing::Each}, {"total", droplet::FillSharing::Total}}));
     line.add(kGroup, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");
     line.add(kGroup, "--surface-tension", "S", "Surface tension, instead of the liquid's own");
     line.add(kGroup, "--density", "D", "Density, instead of the liquid's own");
     line.add(
-        kGroup, "--model", "auto|linear|exact",
+        kGroup, "--model",
         "Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all slopes, also where liquid "
-        "hangs over its rim; auto takes linear where it is within 0.3 % [auto]");
+        "hangs over its rim; auto takes linear where it is within 0.3 %",
+        into(solve.model,
+             {{"auto", droplet::Model::Auto}, {"linear", droplet::Model::Linear}, {"exact", droplet::Model::Exact}}));
     line.exclude({"--contact-angle", "--volume", "--height"});
 }
 
-void declareGround(CommandLine& line)
+void declareGround(CommandLine& line, DropletSettings& settings)
 {
+    droplet::SolveOptions& solve = settings.droplet.solve;
     constexpr const char* kGroup = "Gravity and ground";
-    line.add(kGroup, "--gravity", "G", "Gravity into the ground; negative under a ceiling [9.81m/s2]");
-    line.add(kGroup, "--tilt", "ANGLE", "Tilt of the ground: 90deg is a wall, 180deg a ceiling [0deg]");
+    line.add(kGroup, "--gravity", "G", "Gravity into the ground; negative under a ceiling",
+             into(solve.gravity, kGravity));
+    line.add(kGroup, "--tilt", "ANGLE", "Tilt of the ground: 90deg is a wall, 180deg a ceiling",
+             into(solve.tilt, kHalfTurn));
     line.add(kGroup, "--tilt-direction", "ANGLE",
-             "Direction of downhill, counter-clockwise from the picture's right; -90deg is its lower edge [-90deg]");
+             "Direction of downhill, counter-clockwise from the picture's right; -90deg is its lower edge",
+             into(solve.tilt_direction, kDirection));
     line.add(kGroup, "--surface", "GROUND",
              "Curved ground: a height map's file, white is high; sphere:R=40mm; or cylinder:R=33mm,axis=y, with axis "
              "x, y or an angle; R < 0 is a bowl or a gutter [flat]");
@@ -409,28 +378,37 @@ void declareGround(CommandLine& line)
         kGroup, "--surface-depth", "LENGTH",
         "Height of white above black in the height map; samples that are floating-point numbers are metres without it");
     line.addFlag(kGroup, "--no-penetration",
-                 "Keep the liquid above the ground; where it would sink in, the ground stays dry");
+                 "Keep the liquid above the ground; where it would sink in, the ground stays dry",
+                 solve.no_penetration);
     line.add(kGroup, "--onto", "OBJECT",
-             "Lay the droplets on the object in a .glb or .gltf file by its texture coordinates");
+             "Lay the droplets on the object in a .glb or .gltf file by its texture coordinates", into(settings.onto));
     line.add(kGroup, "--advancing", "ANGLE",
              "Advancing contact angle; with --receding the report says whether droplets slide");
     line.add(kGroup, "--receding", "ANGLE", "Receding contact angle, at most --advancing");
     line.exclude({"--surface", "--onto"});
 }
 
-void declareSurface(CommandLine& line)
+void declareSurface(CommandLine& line, DropletSettings& settings)
 {
+    using droplet::LengthUnit;
+    droplet::TriangulateOptions& mesh = settings.droplet.mesh;
     constexpr const char* kGroup = "Surface";
-    line.add(kGroup, "--triangles", "N",
-             "Number of triangles of the liquid's surface, within 10 %: 5000, 5k, 1M [40k]");
-    line.add(kGroup, "--edge", "LENGTH", "Edge length of the triangles, instead of --triangles");
-    line.add(kGroup, "--grading", "auto|1|2|4|8|16|32|64",
+    line.add(kGroup, "--triangles", "N", "Number of triangles of the liquid's surface, within 10 %: 5000, 5k, 1M",
+             into(mesh.triangles, {1, kMaxTriangles, "100M, such as 5000, 5k or 1M"}));
+    line.add(kGroup, "--edge", "LENGTH", "Edge length of the triangles, instead of --triangles",
+             into(mesh.edge, kLength));
+    line.add(kGroup, "--grading",
              "Largest edge length far from the rim, as a multiple of the length at the rim; auto: 1, or 64 in puddles "
-             "where gravity flattens all but the rim [auto]");
-    line.addFlag(kGroup, "--open", "Leave out the base");
+             "where gravity flattens all but the rim",
+             into<std::optional<int>>(
+                 mesh.grading,
+                 {{"auto", std::nullopt}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}}));
+    line.addFlag(kGroup, "--open", "Leave out the base", settings.droplet.open);
     line.add(kGroup, "--material", "water|ink|mercury|honey|plain",
              "Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own]");
-    line.add(kGroup, "--unit", "m|cm|mm", "Unit of length in OBJ and STL [mm]");
+    line.add(kGroup, "--unit", "Unit of length in OBJ and STL",
+             into(settings.unit,
+                  {{"m", LengthUnit::Metre}, {"cm", LengthUnit::Centimetre}, {"mm", LengthUnit::Millimetre}}));
     line.exclude({"--triangles", "--edge"});
 }
 
@@ -460,39 +438,10 @@ bool isPreviewColour(const std::string& text)
     return text == "look" || text == "contours" || text == "contact-angle";
 }
 
-FootprintOptions readFootprint(const CommandLine& line)
+void readFootprint(const CommandLine& line, FootprintOptions& options)
 {
-    FootprintOptions options;
-    auto& trace = options.trace;
-    if (const auto width = line.value("--width")) {
-        trace.width = quantity(*width, kLength);
-    }
-    if (const auto pixel = line.value("--pixel-size")) {
-        trace.pixel_size = quantity(*pixel, kLength);
-    }
     options.sized = line.value("--width") || line.value("--pixel-size");
-    if (const auto channel = line.value("--channel")) {
-        options.mask.channel = choice<droplet::Channel>(
-            *channel,
-            {{"auto", droplet::Channel::Auto}, {"alpha", droplet::Channel::Alpha}, {"luma", droplet::Channel::Luma}});
-    }
-    if (const auto threshold = line.value("--threshold")) {
-        const auto number = finiteNumber(threshold->text);
-        if (!number || *number <= 0.0 || *number >= 1.0) {
-            refuse(*threshold, "a number over 0 and under 1, such as 0.5");
-        }
-        trace.threshold = *number;
-    }
-    options.mask.invert = line.flag("--invert");
     readSegment(line, options);
-    if (const auto speck = line.value("--speck-size")) {
-        const auto number = finiteNumber(speck->text);
-        if (!number || *number < 0.0) {
-            refuse(*speck, "a number of square pixels, at least 0");
-        }
-        trace.speck_size = *number;
-    }
-    return options;
 }
 
 std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector<std::string>& warnings)
@@ -500,7 +449,7 @@ std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector
     const auto given = [&](const char* name) { return line.knows(name) ? line.value(name) : std::nullopt; };
     ByColourOptions options;
     if (const auto colours = given("--colours"); colours && colours->text != "auto") {
-        options.colours = count(*colours, droplet::kMaxColours, "64, or auto");
+        options.colours = count(*colours, {1, droplet::kMaxColours, "64, or auto"});
     }
     if (const auto gap = given("--gap")) {
         options.gap = quantity(*gap, kLength);
@@ -516,15 +465,13 @@ std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector
     return std::nullopt;
 }
 
-DropletSettings readDroplet(const CommandLine& line)
+void readDroplet(const CommandLine& line, DropletSettings& settings)
 {
-    DropletSettings settings;
     readLiquid(line, settings);
     readGravity(line, settings);
     readHysteresis(line, settings);
     readGround(line, settings);
     readSurface(line, settings);
-    return settings;
 }
 
 void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown, DropletSettings& settings)

@@ -59,18 +59,19 @@ struct DropletSettings {
     std::vector<std::string> warnings;                           ///< options without effect
 };
 
-// Each command declares its groups of options in the order of its help, and reads them after parsing.
+// Each command declares its groups of options in the order of its help, with the structs that CommandLine::read() fills
+// after parsing; then it reads the rest.
 
-void declareFootprint(CommandLine& line);
+void declareFootprint(CommandLine& line, FootprintOptions& options);
 /// Declares --by-colour, --colours and --gap.
 void declareByColour(CommandLine& line);
 /// Declares --gap.
 void declareGap(CommandLine& line, const char* group);
 /// Declares --mask-out, for commands that make a single file.
 void declareMaskOut(CommandLine& line);
-void declareLiquid(CommandLine& line);
-void declareGround(CommandLine& line);
-void declareSurface(CommandLine& line);
+void declareLiquid(CommandLine& line, DropletSettings& settings);
+void declareGround(CommandLine& line, DropletSettings& settings);
+void declareSurface(CommandLine& line, DropletSettings& settings);
 void declareRun(CommandLine& line);
 
 // All read functions throw droplet::Error InvalidArgument, naming option, value and what is allowed.
@@ -78,12 +79,12 @@ void declareRun(CommandLine& line);
 /// Whether a value of --colour belongs to --preview-colour, which was called --colour before.
 bool isPreviewColour(const std::string& text);
 
-FootprintOptions readFootprint(const CommandLine& line);
+void readFootprint(const CommandLine& line, FootprintOptions& options);
 /// Reads --by-colour and the options that go with it, as far as the command has them; nothing without --by-colour.
 /// @param warnings  receives warnings about options without effect
 std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector<std::string>& warnings);
 /// Reads the options of liquid, ground and surface.
-DropletSettings readDroplet(const CommandLine& line);
+void readDroplet(const CommandLine& line, DropletSettings& settings);
 
 /// Adds warnings about options that have no effect on a format.
 /// @param is_shown  whether another output, such as a preview, shows the material

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow_options.h"
 
-#include <charconv>
 #include <filesystem>
 #include <set>
 #include <string_view>
@@ -65,8 +64,9 @@ const CommandText& commandText()
     return text;
 }
 
-void declare(CommandLine& line)
+void declare(CommandLine& line, FlowOptions& options)
 {
+    droplet::FlowParameters& parameters = options.parameters;
     line.addArgument("OBJECT", "Mesh to run over: .glb, .gltf, .obj, .ply or .stl; OBJ and STL in millimetres");
     line.addArgument(
         "OUTPUT",
@@ -76,47 +76,61 @@ void declare(CommandLine& line)
     constexpr const char* kObject = "Object";
     line.add(kObject, "--preset", presetNames().c_str(),
              "Named scene with its own object and droplets, instead of OBJECT; other options change it");
-    line.add(kObject, "--scale", "NUMBER", "Factor on the lengths of the file [1]");
-    line.add(kObject, "--object-size,--size", "LENGTH", "Longest side of the object; scales it");
+    line.add(kObject, "--scale", "NUMBER", "Factor on the lengths of the file [1]",
+             into(options.reading.scale, NumberRange{1e-9, 1e9, "a number from 1e-9 to 1e9"}));
+    line.add(kObject, "--object-size,--size", "LENGTH", "Longest side of the object; scales it",
+             into(options.reading.size, kSize));
     line.exclude({"--scale", "--object-size"});
-    line.add(kObject, "--up", "y|z", "Axis that points up in an .obj, .ply or .stl [y, of .ply z]");
+    line.add(kObject, "--up", "Axis that points up in an .obj, .ply or .stl [y, of .ply z]",
+             into(options.reading.up, {{"y", droplet::UpAxis::Y}, {"z", droplet::UpAxis::Z}}));
     line.add(kObject, "--spin", "ANGLE/s", "Turn the object, such as 30deg/s");
     line.add(kObject, "--spin-axis", "X,Y,Z", "Axis through the origin that --spin turns it about [0,1,0]");
     line.add(kObject, "--motion", "FILE",
              "Move the object: CSV with the columns time_s, x_m, y_m, z_m and a quaternion rotation_x, rotation_y, "
-             "rotation_z, rotation_w");
+             "rotation_z, rotation_w",
+             into(options.motion));
     line.exclude({"--spin", "--motion"});
     line.addFlag(kObject, "--no-animation", "Ignore the animation of the object's file");
     constexpr const char* kSources = "Droplets";
-    line.add(kSources, "--drops", "N", "Scatter droplets over the object at the start [0]");
-    line.add(kSources, "--volume", "VOLUME", "Volume of scattered and emitted droplets, the median [20uL]");
+    line.add(kSources, "--drops", "N", "Scatter droplets over the object at the start",
+             into(options.drops, {0, 1'000'000, "1M"}));
+    line.add(kSources, "--volume", "VOLUME", "Volume of scattered and emitted droplets, the median",
+             into(options.volumes.median, kVolume));
     line.add(kSources, "--radius", "LENGTH", "Contact radius instead of --volume");
     line.exclude({"--volume", "--radius"});
     line.add(kSources, "--volume-spread", "NUMBER",
-             "Spread of the volumes: standard deviation of their logarithm, 0 to 3 [0]");
+             "Spread of the volumes: standard deviation of their logarithm, 0 to 3",
+             into(options.volumes.spread, {0.0, 3.0, "a number from 0 to 3"}));
     line.add(kSources, "--from", "X,Y,Z",
              "Direction that rain comes from; --drops then wet only what it can reach [for --rain 0,1,0]");
-    line.add(kSources, "--mask", "FILE", "Mask over the object's texture coordinates: --drops start on it");
+    line.add(kSources, "--mask", "FILE", "Mask over the object's texture coordinates: --drops start on it",
+             into(options.mask));
     line.add(kSources, "--start", "FILE",
              "Droplets at the start: CSV with the columns x_m, y_m, z_m, volume_m3 and, if they move, "
-             "velocity_x_m_per_s, velocity_y_m_per_s, velocity_z_m_per_s");
+             "velocity_x_m_per_s, velocity_y_m_per_s, velocity_z_m_per_s",
+             into(options.start));
     line.addList(kSources, "--emitter", "X,Y,Z,RATE", "Release droplets at a place, such as 0,0.1,0,50uL/s");
     line.add(kSources, "--rain", "RAINFALL", "Rain, with the drop sizes of Marshall and Palmer [0mm/h]");
     line.add(kSources, "--condensation", "RAINFALL",
              "Dew: growth of the water's mean thickness, such as 5mm/h [0mm/h]");
     line.add(kSources, "--dew-spacing", "LENGTH", "Mean distance of new droplets of dew on a dry surface [3mm]");
     constexpr const char* kMotion = "Motion";
-    line.add(kMotion, "--retention,--model", "capillary|paper",
-             "What holds droplets: capillary is contact angle hysteresis, paper is roughness alone [capillary]");
+    line.add(
+        kMotion, "--retention,--model",
+        "What holds droplets: capillary is contact angle hysteresis, paper is roughness alone",
+        into(parameters.model, {{"capillary", droplet::FlowModel::Capillary}, {"paper", droplet::FlowModel::Paper}}));
     line.add(kMotion, "--hysteresis", "NUMBER",
-             "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [0.2]");
+             "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle",
+             into(parameters.forces.wetting.hysteresis, {0.0, 2.0, "a number from 0 to 2"}));
     line.add(kMotion, "--friction", "F", "Viscous friction in kg/s instead of --viscosity-factor");
     line.add(kMotion, "--roughness", "LENGTH",
              "Height of the surface's bumps; those of a droplet's height hold it [0mm]");
     line.add(kMotion, "--roughness-map", "FILE",
-             "Picture over the object's texture coordinates: black is smooth, white has bumps of --roughness");
+             "Picture over the object's texture coordinates: black is smooth, white has bumps of --roughness",
+             into(options.roughness_map));
     line.add(kMotion, "--friction-map", "FILE",
-             "Picture over the object's texture coordinates: black is without viscous friction, white has all of it");
+             "Picture over the object's texture coordinates: black is without viscous friction, white has all of it",
+             into(options.friction_map));
     line.addList(kMotion, "--ground", "NAME:VALUES",
                  "Properties of a material of the object: roughness, and factors on friction and hysteresis, such as "
                  "Glass:roughness=0.1mm,friction=2,hysteresis=0.5");
@@ -125,18 +139,24 @@ void declare(CommandLine& line)
     line.add(kMotion, "--wind-velocity,--wind", "X,Y,Z", "Wind, which pushes droplets along the surface [0,0,0]");
     line.addFlag(kMotion, "--no-merge", "Droplets that touch stay apart");
     line.addFlag(kMotion, "--no-wetting", "Streaks do not smooth the surface for the next droplets");
-    line.add(kMotion, "--film", "LENGTH", "Thickness of the film that droplets leave behind; it becomes beads [0mm]");
-    line.add(kMotion, "--bead-spacing", "LENGTH", "Distance of these beads [4mm]");
-    line.add(kMotion, "--drying", "DURATION", "Time after which streaks and beads are dry [never]");
-    declareForces(line);
+    line.add(kMotion, "--film", "LENGTH", "Thickness of the film that droplets leave behind; it becomes beads",
+             into(parameters.streaks.film, kFilm));
+    line.add(kMotion, "--bead-spacing", "LENGTH", "Distance of these beads",
+             into(parameters.streaks.spacing, kSpacing));
+    line.add(kMotion, "--drying", "DURATION", "Time after which streaks and beads are dry [never]",
+             into(parameters.drying, kTime));
+    declareForces(line, parameters.forces);
     constexpr const char* kTimes = "Time";
-    line.add(kTimes, "--time", "DURATION", "Time to show [5s]");
-    line.add(kTimes, "--fps", "RATE", "Frames per second; they do not change the paths [30]");
-    line.add(kTimes, "--seed", "N", "Random seed [1]");
+    line.add(kTimes, "--time", "DURATION", "Time to show [5s]", into(options.duration, kTime));
+    line.add(kTimes, "--fps", "RATE", "Frames per second; they do not change the paths",
+             into(options.frames_per_second, {1.0, 1000.0, "a number from 1 to 1000"}));
+    line.add(kTimes, "--seed", "N", "Random seed", seedInto(parameters.seed));
     constexpr const char* kOut = "Output";
-    line.add(kOut, "--shape", "capillary|springs|capsule",
-             "Shape of the droplets: capillary has least energy, springs is the paper's, capsule a cut capsule "
-             "[capillary]");
+    line.add(kOut, "--shape",
+             "Shape of the droplets: capillary has least energy, springs is the paper's, capsule a cut capsule",
+             into(options.shape, {{"capillary", droplet::BodyShape::Capillary},
+                                  {"springs", droplet::BodyShape::Springs},
+                                  {"capsule", droplet::BodyShape::Capsule}}));
     line.add(kOut, "--material", "NAME", "Look of the droplets: water, ink, mercury, honey or plain [by liquid]");
     line.add("Picture", "--preview", "FILE",
              "Write a rendered picture of the last frame beside meshes, as PNG; - is standard output");
@@ -148,24 +168,21 @@ void declare(CommandLine& line)
     line.add(kOut, "--maps", "PATH",
              "Textures of the water in the object's uv, such as maps/%05d.png or .exr: four files per frame, -normal, "
              "-thickness, -age and -wet, which tells where the age counts");
-    line.add(kOut, "--map-width", "N", "Width and height of the textures in pixels [1024]");
-    line.add(kOut, "--map-thickness", "LENGTH", "Thickness of the water that is white in a PNG [5mm]");
-    line.add(kOut, "--map-age", "DURATION", "Greatest age in the textures, white in a PNG [10s]");
+    line.add(kOut, "--map-width", "N", "Width and height of the textures in pixels",
+             into(options.map_width, {16, 8192, "8192"}));
+    line.add(kOut, "--map-thickness", "LENGTH", "Thickness of the water that is white in a PNG",
+             into(options.full_thickness, kMapThickness));
+    line.add(kOut, "--map-age", "DURATION", "Greatest age in the textures, white in a PNG",
+             into(options.full_age, kTime));
     line.add(kOut, "--droplets", "FILE", "Write a table of all droplets in every frame: .csv or .json");
-    line.add(kOut, "--json", "FILE", "Write a report, with the liquid's balance every second; - is standard output");
+    line.add(kOut, "--json", "FILE", "Write a report, with the liquid's balance every second; - is standard output",
+             into(options.json));
     constexpr const char* kRun = "Run";
-    line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
+    line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options", options.resume);
     line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
     declareFrameProgress(line, kRun);
     declareCommon(line, kRun, "time = \"5s\"");
     line.exclude({"--resume", "--no-clobber"});
-}
-
-void readQuantity(const CommandLine& line, const char* option, const Range& range, double& value)
-{
-    if (const auto given = line.value(option)) {
-        value = quantity(*given, range);
-    }
 }
 
 std::optional<std::string> text(const CommandLine& line, const char* option)
@@ -253,15 +270,6 @@ void readObject(const CommandLine& line, FlowOptions& options)
     if (!options.preset) {
         options.object = line.argument("OBJECT");
     }
-    if (const auto scale = line.value("--scale")) {
-        options.reading.scale = number(*scale, {1e-9, 1e9, "a number from 1e-9 to 1e9"});
-    }
-    if (const auto size = line.value("--object-size")) {
-        options.reading.size = quantity(*size, kSize);
-    }
-    if (const auto up = line.value("--up")) {
-        options.reading.up = choice<droplet::UpAxis>(*up, {{"y", droplet::UpAxis::Y}, {"z", droplet::UpAxis::Z}});
-    }
     const auto spin = line.value("--spin");
     const auto axis = line.value("--spin-axis");
     if (axis && !spin) {
@@ -271,29 +279,19 @@ void readObject(const CommandLine& line, FlowOptions& options)
         options.parameters.motion.spin =
             rate(*spin, kTurn, kTurn.allowed) * (axis ? direction(*axis) : Vec3{0.0, 0.0, 1.0});
     }
-    options.motion = text(line, "--motion");
     options.keeps_animation = !line.flag("--no-animation") && !spin && !options.motion;
 }
 
 void readSources(const CommandLine& line, FlowOptions& options)
 {
     droplet::FlowParameters& parameters = options.parameters;
-    if (const auto drops = line.value("--drops")) {
-        options.drops = drops->text == "0" ? 0 : count(*drops, 1'000'000, "1M");
-    }
-    readQuantity(line, "--volume", kVolume, options.volumes.median);
     if (const auto radius = line.value("--radius")) {
         options.volumes.median =
             droplet::capVolume(quantity(*radius, kRadius), parameters.forces.wetting.contact_angle);
     }
-    if (const auto spread = line.value("--volume-spread")) {
-        options.volumes.spread = number(*spread, {0.0, 3.0, "a number from 0 to 3"});
-    }
     if (const auto from = line.value("--from")) {
         options.from = direction(*from);
     }
-    options.mask = text(line, "--mask");
-    options.start = text(line, "--start");
     if (options.mask && options.drops == 0) {
         refuse("--mask needs --drops");
     }
@@ -317,7 +315,9 @@ void readSources(const CommandLine& line, FlowOptions& options)
     if (const auto dew = line.value("--condensation")) {
         droplet::FlowCondensation condensation;
         condensation.rate = quantity(*dew, kRain);
-        readQuantity(line, "--dew-spacing", kSpacing, condensation.spacing);
+        if (const auto spacing = line.value("--dew-spacing")) {
+            condensation.spacing = quantity(*spacing, kSpacing);
+        }
         parameters.condensation = condensation.rate > 0.0 ? std::optional(condensation) : std::nullopt;
     } else if (line.value("--dew-spacing")) {
         refuse("--dew-spacing needs --condensation");
@@ -361,25 +361,13 @@ void readMaterial(const Given& given, FlowOptions& options)
 void readMotion(const CommandLine& line, FlowOptions& options)
 {
     droplet::FlowParameters& parameters = options.parameters;
-    if (options.preset) {
-        parameters = options.preset->parameters;
-    }
-    parameters.forces = readForces(line, parameters.forces);
-    if (const auto model = line.value("--retention")) {
-        parameters.model = choice<droplet::FlowModel>(
-            *model, {{"capillary", droplet::FlowModel::Capillary}, {"paper", droplet::FlowModel::Paper}});
-    }
-    if (const auto hysteresis = line.value("--hysteresis")) {
-        parameters.forces.wetting.hysteresis = number(*hysteresis, {0.0, 2.0, "a number from 0 to 2"});
-    }
+    readForces(line, parameters.forces);
     if (const auto friction = line.value("--friction")) {
         parameters.friction = inUnit(*friction, "kg/s", {0.0, 1e3, "a number from 0 to 1000, in kg/s"});
     }
     if (const auto roughness = line.value("--roughness")) {
         parameters.roughness = plainOr(*roughness, kBump);
     }
-    options.roughness_map = text(line, "--roughness-map");
-    options.friction_map = text(line, "--friction-map");
     if (options.roughness_map && !line.value("--roughness")) {
         refuse("--roughness-map needs --roughness, the height of the bumps where the picture is white");
     }
@@ -396,18 +384,6 @@ void readMotion(const CommandLine& line, FlowOptions& options)
     }
     parameters.merges = parameters.merges && !line.flag("--no-merge");
     parameters.wets = parameters.wets && !line.flag("--no-wetting");
-    readQuantity(line, "--film", kFilm, parameters.streaks.film);
-    readQuantity(line, "--bead-spacing", kSpacing, parameters.streaks.spacing);
-    if (const auto drying = line.value("--drying")) {
-        parameters.drying = quantity(*drying, kTime);
-    }
-    if (const auto seed = line.value("--seed")) {
-        const char* const end = seed->text.data() + seed->text.size();
-        const auto [stop, failure] = std::from_chars(seed->text.data(), end, parameters.seed);
-        if (failure != std::errc{} || stop != end) {
-            refuse(*seed, "a whole number from 0 to 18446744073709551615");
-        }
-    }
 }
 
 /// OUTPUT; with a preset it is the only argument.
@@ -433,6 +409,7 @@ void readPreset(const CommandLine& line, FlowOptions& options)
         return;
     }
     options.preset = forOption("--preset", [&] { return droplet::flowPresetNamed(preset->text); });
+    options.parameters = options.preset->parameters;
     for (const char* option : {"--scale", "--object-size", "--up", "--no-animation"}) {
         if (line.value(option) || line.flag(option)) {
             refuse(std::string(option) + " needs OBJECT, not --preset");
@@ -502,11 +479,6 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     if (is_video) {
         requireEvenSides("--preview-size", options.view.width, options.view.height);
     }
-    if (const auto shape = line.value("--shape")) {
-        options.shape = choice<droplet::BodyShape>(*shape, {{"capillary", droplet::BodyShape::Capillary},
-                                                            {"springs", droplet::BodyShape::Springs},
-                                                            {"capsule", droplet::BodyShape::Capsule}});
-    }
     if (const auto material = line.value("--material")) {
         options.material = forOption("--material", [&] { return droplet::materialNamed(material->text); });
     }
@@ -535,17 +507,7 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     if (line.value("--map-thickness") && options.are_maps_exr) {
         refuse("--map-thickness needs --maps with .png: .exr has metres");
     }
-    readQuantity(line, "--map-thickness", kMapThickness, options.full_thickness);
-    readQuantity(line, "--map-age", kTime, options.full_age);
-    if (const auto width = line.value("--map-width")) {
-        options.map_width = static_cast<int>(count(*width, 8192, "8192"));
-        if (options.map_width < 16) {
-            refuse(*width, "a whole number from 16 to 8192");
-        }
-    }
     options.droplets = ending_in("--droplets", {".csv", ".json"}, "a file that ends in .csv or .json");
-    options.json = text(line, "--json");
-    options.resume = line.flag("--resume");
     if (options.resume && !options.files) {
         refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.obj, not '" + options.output + "'");
     }
@@ -556,23 +518,18 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
 std::variant<FlowOptions, std::string> parseFlow(int argc, const char* const* argv)
 {
     CommandLine line(commandText());
-    declare(line);
+    FlowOptions options;
+    declare(line, options);
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
         return *text;
     }
-    FlowOptions options;
     readPreset(line, options);
+    line.read();
     readMotion(line, options);
     readObject(line, options);
     readSources(line, options);
     readOutputs(line, options);
-    if (const auto duration = line.value("--time")) {
-        options.duration = quantity(*duration, kTime);
-    }
-    if (const auto rate = line.value("--fps")) {
-        options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
-    }
     options.run = readRun(line);
     options.fingerprint = optionsOfFrames(line, options.output, {"--droplets"});
     return options;

@@ -41,9 +41,6 @@ void readLiquid(const CommandLine& line, droplet::ForceModel& model)
     if (!liquid && (tension || density)) {
         model.liquid.name = "custom";
     }
-    if (const auto gravity = line.value("--gravity")) {
-        model.gravity = quantity(*gravity, kGravity);
-    }
 }
 
 double viscosityFactor(const Given& given, double contact_angle)
@@ -65,53 +62,38 @@ double viscosityFactor(const Given& given, double contact_angle)
 
 }  // namespace
 
-void declareForces(CommandLine& line)
+void declareForces(CommandLine& line, droplet::ForceModel& model)
 {
     constexpr const char* kCoating = "Coating";
-    line.add(kCoating, "--contact-angle", "ANGLE",
-             "Contact angle of droplets at rest, from 1deg to 179deg [by preset]");
+    line.add(kCoating, "--contact-angle", "ANGLE", "Contact angle of droplets at rest, from 1deg to 179deg [by preset]",
+             into(model.wetting.contact_angle, kContactAngle));
     line.add(
         kCoating, "--viscosity-factor", "V|artistic|wedge",
         "Viscous drag per radius and speed: artistic is 0.5Pa.s, wedge is that of water by wedge theory [by preset]");
-    line.add(kCoating, "--kinetic-fraction", "F", "Friction of a moving droplet, as a fraction of that at rest [1]");
+    line.add(kCoating, "--kinetic-fraction", "F", "Friction of a moving droplet, as a fraction of that at rest",
+             into(model.wetting.kinetic_fraction, kFraction));
     constexpr const char* kAir = "Air";
-    line.add(kAir, "--drag-coefficient", "C", "Drag coefficient of droplets in the wind [1]");
-    line.add(kAir, "--boundary-layer", "L", "Thickness of the layer in which the wind is slower [by preset]");
+    line.add(kAir, "--drag-coefficient", "C", "Drag coefficient of droplets in the wind",
+             into(model.air.drag_coefficient, kDragCoefficient));
+    line.add(kAir, "--boundary-layer", "L", "Thickness of the layer in which the wind is slower [by preset]",
+             into(model.air.boundary_layer, kBoundaryLayer));
     line.add(kAir, "--profile-exponent", "NUMBER",
-             "Exponent of the wind's growth with height in that layer; 0.143 for a turbulent one [0.5]");
-    line.add(kAir, "--air-density", "D", "Density of the air [1.204kg/m3]");
+             "Exponent of the wind's growth with height in that layer; 0.143 for a turbulent one",
+             into(model.air.profile_exponent, kExponent));
+    line.add(kAir, "--air-density", "D", "Density of the air", into(model.air.density, kAirDensity));
     constexpr const char* kLiquid = "Liquid";
     line.add(kLiquid, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");
     line.add(kLiquid, "--surface-tension", "S", "Surface tension, instead of the liquid's own");
     line.add(kLiquid, "--density", "D", "Density, instead of the liquid's own");
-    line.add(kLiquid, "--gravity", "G", "Gravity, downwards [9.81m/s2]");
+    line.add(kLiquid, "--gravity", "G", "Gravity, downwards", into(model.gravity, kGravity));
 }
 
-droplet::ForceModel readForces(const CommandLine& line, droplet::ForceModel model)
+void readForces(const CommandLine& line, droplet::ForceModel& model)
 {
     readLiquid(line, model);
-    if (const auto angle = line.value("--contact-angle")) {
-        model.wetting.contact_angle = quantity(*angle, kContactAngle);
-    }
     if (const auto factor = line.value("--viscosity-factor")) {
         model.wetting.viscosity_factor = viscosityFactor(*factor, model.wetting.contact_angle);
     }
-    if (const auto fraction = line.value("--kinetic-fraction")) {
-        model.wetting.kinetic_fraction = number(*fraction, kFraction);
-    }
-    if (const auto drag = line.value("--drag-coefficient")) {
-        model.air.drag_coefficient = number(*drag, kDragCoefficient);
-    }
-    if (const auto layer = line.value("--boundary-layer")) {
-        model.air.boundary_layer = quantity(*layer, kBoundaryLayer);
-    }
-    if (const auto exponent = line.value("--profile-exponent")) {
-        model.air.profile_exponent = number(*exponent, kExponent);
-    }
-    if (const auto density = line.value("--air-density")) {
-        model.air.density = quantity(*density, kAirDensity);
-    }
-    return model;
 }
 
 }  // namespace cli

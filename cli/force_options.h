@@ -9,10 +9,11 @@ namespace cli {
 /// Declares the options of liquid, air and coating: --contact-angle, --viscosity-factor, --kinetic-fraction,
 /// --drag-coefficient, --boundary-layer, --profile-exponent, --air-density, --liquid, --surface-tension, --density,
 /// --gravity.
-void declareForces(CommandLine& line);
+/// @param model  receives most of them by CommandLine::read()
+void declareForces(CommandLine& line, droplet::ForceModel& model);
 
-/// Force model in which the given options replace the values of `model`.
+/// Reads the others, after CommandLine::read().
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
-droplet::ForceModel readForces(const CommandLine& line, droplet::ForceModel model);
+void readForces(const CommandLine& line, droplet::ForceModel& model);
 
 }  // namespace cli

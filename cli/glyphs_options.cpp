@@ -38,7 +38,7 @@ const CommandText& commandText()
     return text;
 }
 
-void declare(CommandLine& line)
+void declare(CommandLine& line, GlyphsOptions& options)
 {
     constexpr const char* kGroup = "Type";
     line.add(kGroup, "--font", "FILE", "Font: TrueType, OpenType, a collection, WOFF or Type 1");
@@ -52,11 +52,15 @@ void declare(CommandLine& line)
     line.addFlag(kGroup, "--list", "Print the font's axes and glyphs; write nothing");
     line.add(kGroup, "-o,--output", "OUTPUT",
              "Output file, such as water.glb; for many glyphs a pattern, such as 'out/{name}.glb'");
-    line.add(kGroup, "--em", "LENGTH", "Type size: edge of the em square [20mm]");
-    line.add(kGroup, "--tolerance", "LENGTH", "Largest error of a curve drawn as lines [em/20000]");
-    line.add(kGroup, "--align", "start|centre|end",
-             "Alignment of the lines of a text; Hebrew and Arabic start on the right [start]");
-    line.add(kGroup, "--line-spacing", "F", "Distance of lines, as a multiple of the font's own [1]");
+    line.add(kGroup, "--em", "LENGTH", "Type size: edge of the em square", into(options.type.glyph.em, kLength));
+    line.add(kGroup, "--tolerance", "LENGTH", "Largest error of a curve drawn as lines [em/20000]",
+             into(options.type.glyph.tolerance, kLength));
+    line.add(kGroup, "--align", "Alignment of the lines of a text; Hebrew and Arabic start on the right",
+             into(options.type.align, {{"start", droplet::TextAlign::Start},
+                                       {"centre", droplet::TextAlign::Centre},
+                                       {"end", droplet::TextAlign::End}}));
+    line.add(kGroup, "--line-spacing", "F", "Distance of lines, as a multiple of the font's own",
+             into(options.type.line_spacing, {0.01, 100.0, "a number from 0.01 to 100"}));
     line.addFlag(
         kGroup, "--equal-height",
         "Make all letters, and the dots on them, as high as the letter o at the contact angle, or as --height");
@@ -71,41 +75,22 @@ void declare(CommandLine& line)
     line.exclude({"--text", "--charset", "--all", "--list"});
     line.exclude({"--by-colour", "--equal-height"});
     declareBatch(line);
-    declareDroplets(line);
+    declareDroplets(line, options.shape);
     declarePreview(line, PreviewOf::Text);
     declareHtml(line);
     declareRun(line);
 }
 
-double number(const Given& given, double min, double max, const std::string& allowed)
-{
-    const auto value = finiteNumber(given.text);
-    if (!value || *value < min || *value > max) {
-        refuse(given, allowed);
-    }
-    return *value;
-}
-
-std::size_t index(const Given& given)
-{
-    constexpr double kMax = 65535.0;  // limit of FreeType
-    const std::string allowed = "a whole number from 0 to 65535";
-    const double value = number(given, 0.0, kMax, allowed);
-    const auto whole = static_cast<std::size_t>(value);
-    if (static_cast<double>(whole) != value) {
-        refuse(given, allowed);
-    }
-    return whole;
-}
+constexpr std::size_t kMaxIndex = 65535;  // limit of FreeType
 
 droplet::FontOptions readFace(const CommandLine& line)
 {
     droplet::FontOptions face;
     if (const auto given = line.value("--face-index")) {
-        face.face_index = index(*given);
+        face.face_index = count(*given, {0, kMaxIndex, "65535"});
     }
     if (const auto given = line.value("--palette"); given && line.flag("--by-colour")) {
-        face.palette = index(*given);
+        face.palette = count(*given, {0, kMaxIndex, "65535"});
     }
     for (const Given& axis : line.values("--axis")) {
         const auto equals = axis.text.find('=');
@@ -117,29 +102,6 @@ droplet::FontOptions readFace(const CommandLine& line)
         face.axes.push_back({axis.text.substr(0, equals), *value});
     }
     return face;
-}
-
-droplet::TextOptions readType(const CommandLine& line)
-{
-    droplet::TextOptions type;
-    if (const auto em = line.value("--em")) {
-        type.glyph.em = quantity(*em, kLength);
-    }
-    if (const auto tolerance = line.value("--tolerance")) {
-        type.glyph.tolerance = quantity(*tolerance, kLength);
-    }
-    if (const auto colour = line.value("--text-colour")) {
-        type.glyph.text_colour = forOption(colour->subject, [&] { return droplet::parseCssColour(colour->text); });
-    }
-    if (const auto align = line.value("--align")) {
-        type.align = choice<droplet::TextAlign>(*align, {{"start", droplet::TextAlign::Start},
-                                                         {"centre", droplet::TextAlign::Centre},
-                                                         {"end", droplet::TextAlign::End}});
-    }
-    if (const auto spacing = line.value("--line-spacing")) {
-        type.line_spacing = number(*spacing, 0.01, 100.0, "a number from 0.01 to 100");
-    }
-    return type;
 }
 
 /// Replaces `\n` by line feeds and `\\` by backslashes.
@@ -229,7 +191,8 @@ void refuseInapplicable(const CommandLine& line, bool is_text)
 std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const* argv)
 {
     CommandLine line(commandText());
-    declare(line);
+    GlyphsOptions options;
+    declare(line, options);
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
         return *text;
@@ -238,10 +201,13 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
     if (!font || font->text.empty() || isStream(font->text)) {
         refuse(std::string("--font must name a file; ") + kUsage);
     }
-    GlyphsOptions options;
+    line.read();
     options.font = font->text;
     options.face = readFace(line);
-    options.type = readType(line);
+    if (const auto colour = line.value("--text-colour")) {
+        options.type.glyph.text_colour =
+            forOption(colour->subject, [&] { return droplet::parseCssColour(colour->text); });
+    }
     options.sized = line.value("--em").has_value();
     if (line.flag("--list")) {
         return options;
@@ -275,7 +241,7 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
             lookFromFront(line, *options.shape.preview);
         }
     }
-    options.shape = readDroplets(line, std::move(options.shape), "--output");
+    readDroplets(line, options.shape, "--output");
     options.shape.footprint.by_colour = readByColour(line, warnings);
     options.shape.settings.warnings.insert(options.shape.settings.warnings.end(), warnings.begin(), warnings.end());
     const auto json = line.value("--json");

@@ -62,69 +62,84 @@ const CommandText& commandText()
     return text;
 }
 
-void declare(CommandLine& line)
+void declare(CommandLine& line, Liquid2dOptions& options)
 {
     line.addArgument("OUTPUT",
                      "Drawings of all frames, such as out/%04d.svg or out/%04d.png; an .svg or .png of the last frame; "
                      "a .json with all frames as a Lottie animation, for web pages, apps and animation programs; or a "
                      "video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; may be left out with --masks");
     constexpr const char* kLiquid = "Liquid";
-    line.add(kLiquid, "--scene", presetNames().c_str(), "Scene to simulate [splash]");
-    line.add(kLiquid, "--particle-count", "N", "Number of particles at the start, up to 1M [the scene's]");
-    line.add(kLiquid, "--walls", "FILE", "Further walls: a mask, drawn over the width of the window");
-    line.add(kLiquid, "--gravity", "ACCELERATION", "Gravity instead of the scene's, downwards");
-    line.add(kLiquid, "--surface-tension", "TENSION", "Surface tension instead of the scene's");
+    line.add(kLiquid, "--scene", presetNames().c_str(), "Scene to simulate", into(options.scene));
+    line.add(kLiquid, "--particle-count", "N", "Number of particles at the start, up to 1M [the scene's]",
+             into(options.particle_count, CountRange{1, 1'000'000, "1M"}));
+    line.add(kLiquid, "--walls", "FILE", "Further walls: a mask, drawn over the width of the window",
+             into(options.walls));
+    line.add(kLiquid, "--gravity", "ACCELERATION", "Gravity instead of the scene's, downwards",
+             into(options.gravity, kGravity));
+    line.add(kLiquid, "--surface-tension", "TENSION", "Surface tension instead of the scene's",
+             into(options.surface_tension, kTension));
     line.add(kLiquid, "--particles", "PATH",
              "Particles of another simulation, such as sim/%04d.vtp or a single file, instead of a scene: .csv, .vtk, "
              ".vtp, .vtu or .bgeo");
-    line.add(kLiquid, "--particle-scale", "NUMBER", "Length of the unit of these files in metres [1]");
-    line.add(kLiquid, "--plane", "xy|xz|yz|zx|zy|yx", "Axes of these files that become x and y [xy]");
-    line.add(kLiquid, "--spacing", "LENGTH", "Distance of their particles at rest [median distance of neighbours]");
+    line.add(kLiquid, "--particle-scale", "NUMBER", "Length of the unit of these files in metres",
+             into(options.particle_reading.scale, {1e-9, 1e9, "a number from 1e-9 to 1e9"}));
+    line.add(kLiquid, "--plane", "Axes of these files that become x and y",
+             into(options.particle_reading.plane,
+                  {{"xy", "xy"}, {"xz", "xz"}, {"yz", "yz"}, {"zx", "zx"}, {"zy", "zy"}, {"yx", "yx"}}));
+    line.add(kLiquid, "--spacing", "LENGTH", "Distance of their particles at rest [median distance of neighbours]",
+             into(options.particle_reading.spacing, kSpacing));
     line.exclude({"--scene", "--particles"});
     constexpr const char* kTimes = "Time";
-    line.add(kTimes, "--time", "DURATION", "Time to show [the scene's]");
-    line.add(kTimes, "--fps", "RATE", "Frames per second [24]");
+    line.add(kTimes, "--time", "DURATION", "Time to show [the scene's]", into(options.duration, kTime));
+    line.add(kTimes, "--fps", "RATE", "Frames per second",
+             into(options.frames_per_second, {1.0, 1000.0, "a number from 1 to 1000"}));
     constexpr const char* kSurface = "Surface";
     line.add(kSurface, "--style", "realistic|cartoon|wave",
              "Starting point of these controls: cartoon has tails, wave also hollows crests [the scene's, or cartoon]");
-    line.add(kSurface, "--tail", "DURATION", "Time whose way the tail of a droplet in flight shows [by style]");
-    line.add(kSurface, "--tail-slope", "NUMBER", "Taper of tails, from 0.2, thick, to 1.2, thin [0.7]");
-    line.add(kSurface, "--max-tail", "NUMBER", "Maximum length of a tail, in radii of its droplet [7]");
-    line.add(kSurface, "--air", "NUMBER", "Rate at which air enters crests, in areas of a particle per second");
-    line.add(kSurface, "--release", "NUMBER", "Rate at which slow liquid releases air");
-    line.add(kSurface, "--max-air", "NUMBER", "Maximum air of a particle, in its areas");
-    line.add(kSurface, "--eraser-share", "NUMBER", "Share of particles that may hold air, 0 to 1 [0.15]");
+    droplet::ExpressionOptions& controls = options.controls;
+    line.add(kSurface, "--tail", "DURATION", "Time whose way the tail of a droplet in flight shows [by style]",
+             into(controls.tail_length, kTail));
+    line.add(kSurface, "--tail-slope", "NUMBER", "Taper of tails, from 0.2, thick, to 1.2, thin",
+             into(controls.tail_slope, {0.2, 1.2, "a number from 0.2 to 1.2"}));
+    line.add(kSurface, "--max-tail", "NUMBER", "Maximum length of a tail, in radii of its droplet",
+             into(controls.max_tail, {0.0, 100.0, "a number from 0 to 100"}));
+    line.add(kSurface, "--air", "NUMBER",
+             "Rate at which air enters crests, in areas of a particle per second [by style]",
+             into(controls.air, {0.0, 1e6, "a number from 0 to 1e6"}));
+    line.add(kSurface, "--release", "NUMBER", "Rate at which slow liquid releases air [by style]",
+             into(controls.release, {0.0, 1e6, "a number from 0 to 1e6"}));
+    line.add(kSurface, "--max-air", "NUMBER", "Maximum air of a particle, in its areas [by style]",
+             into(controls.max_air, {0.0, 1000.0, "a number from 0 to 1000"}));
+    line.add(kSurface, "--eraser-share", "NUMBER", "Share of particles that may hold air, 0 to 1",
+             into(controls.eraser_share, {0.0, 1.0, "a number from 0 to 1"}));
     line.addFlag(kSurface, "--no-crest-gate", "Air enters anywhere at the surface, as in the paper");
-    line.add(kSurface, "--smoothing", "NUMBER", "Smoothness of the surface, 0 to 2 [1]");
-    line.add(kSurface, "--fairing", "NUMBER", "Smoothing of bends as short as a particle, 0 to 10 [2.5, realistic 1]");
+    line.add(kSurface, "--smoothing", "NUMBER", "Smoothness of the surface, 0 to 2",
+             into(controls.smoothing, {0.0, 2.0, "a number from 0 to 2"}));
+    line.add(kSurface, "--fairing", "NUMBER", "Smoothing of bends as short as a particle, 0 to 10 [2.5, realistic 1]",
+             into(controls.fairing, {0.0, 10.0, "a number from 0 to 10"}));
     line.add(kSurface, "--resolution", "NUMBER",
-             "Grid of the surface, in distances of particles, 0.2 to 1 [0.4, realistic 0.5]");
+             "Grid of the surface, in distances of particles, 0.2 to 1 [0.4, realistic 0.5]",
+             into(controls.resolution, {0.2, 1.0, "a number from 0.2 to 1"}));
     constexpr const char* kOut = "Output";
-    line.add(kOut, "--frame-width,--width", "N", "Width of drawings and masks in pixels, up to 16384 [1280]");
+    line.add(kOut, "--frame-width,--width", "N", "Width of drawings and masks in pixels, up to 16384",
+             into(options.width, {16, 16384, "16384"}));
     line.add(kOut, "--look", lookNames().c_str(), "Colours and lines [comic; flat for realistic]");
     line.add(kOut, "--line-width", "NUMBER", "Width of outlines, in thousandths of the drawing's width");
     line.add(kOut, "--masks", "PATH",
              "Masks of all frames, such as masks/%04d.png; - writes them to standard output, for animate");
     declareVideoEncoding(line, kOut);
     declareVideoAlpha(line, kOut);
-    line.add(kOut, "--json", "FILE", "Write a report; - is standard output");
+    line.add(kOut, "--json", "FILE", "Write a report; - is standard output", into(options.json));
     constexpr const char* kRun = "Run";
-    line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options");
+    line.addFlag(kRun, "--resume", "Continue an interrupted run of the same options", options.resume);
     line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
     declareFrameProgress(line, kRun);
     declareCommon(line, kRun, "time = \"5s\"");
     line.exclude({"--resume", "--no-clobber"});
 }
 
-std::optional<std::string> text(const CommandLine& line, const char* option)
-{
-    const auto given = line.value(option);
-    return given ? std::optional(given->text) : std::nullopt;
-}
-
 void readLiquid(const CommandLine& line, Liquid2dOptions& options)
 {
-    options.scene = text(line, "--scene").value_or(options.scene);
     if (const auto particles = line.value("--particles")) {
         options.particles = particles->text;
         options.particle_files = NumberedPath::of(particles->text, "--particles");
@@ -140,26 +155,6 @@ void readLiquid(const CommandLine& line, Liquid2dOptions& options)
             }
         }
     }
-    if (const auto number_of = line.value("--particle-count")) {
-        options.particle_count = count(*number_of, 1'000'000, "1M");
-    }
-    options.walls = text(line, "--walls");
-    if (const auto gravity = line.value("--gravity")) {
-        options.gravity = quantity(*gravity, kGravity);
-    }
-    if (const auto tension = line.value("--surface-tension")) {
-        options.surface_tension = quantity(*tension, kTension);
-    }
-    if (const auto scale = line.value("--particle-scale")) {
-        options.particle_reading.scale = number(*scale, {1e-9, 1e9, "a number from 1e-9 to 1e9"});
-    }
-    if (const auto plane = line.value("--plane")) {
-        options.particle_reading.plane = choice<std::string>(
-            *plane, {{"xy", "xy"}, {"xz", "xz"}, {"yz", "yz"}, {"zx", "zx"}, {"zy", "zy"}, {"yx", "yx"}});
-    }
-    if (const auto spacing = line.value("--spacing")) {
-        options.particle_reading.spacing = quantity(*spacing, kSpacing);
-    }
 }
 
 droplet::LiquidStyle styleNamed(const Given& given)
@@ -169,46 +164,26 @@ droplet::LiquidStyle styleNamed(const Given& given)
                                                 {"wave", droplet::LiquidStyle::Wave}});
 }
 
-void readSurface(const CommandLine& line, Liquid2dOptions& options)
+/// Reads --style, whose controls the other options change.
+void readStyle(const CommandLine& line, Liquid2dOptions& options)
 {
-    std::string style = "cartoon";
-    if (!options.particles) {
+    if (!line.value("--particles")) {
+        const std::string scene = line.value("--scene").value_or(Given{options.scene, ""}).text;
         for (const droplet::FluidPreset& preset : droplet::fluidPresets()) {
-            style = preset.name == options.scene ? preset.style : style;
+            options.style = preset.name == scene ? preset.style : options.style;
         }
     }
-    style = text(line, "--style").value_or(style);
-    options.style = style;
-    options.controls = droplet::expressionOf(styleNamed({style, "--style"}));
-    droplet::ExpressionOptions& controls = options.controls;
-    if (const auto tail = line.value("--tail")) {
-        controls.tail_length = quantity(*tail, kTail);
-    }
-    struct Control {
-        const char* option;
-        double* value;
-        NumberRange range;
-    };
-    const std::vector<Control> all{
-        {"--tail-slope", &controls.tail_slope, {0.2, 1.2, "a number from 0.2 to 1.2"}},
-        {"--max-tail", &controls.max_tail, {0.0, 100.0, "a number from 0 to 100"}},
-        {"--air", &controls.air, {0.0, 1e6, "a number from 0 to 1e6"}},
-        {"--release", &controls.release, {0.0, 1e6, "a number from 0 to 1e6"}},
-        {"--max-air", &controls.max_air, {0.0, 1000.0, "a number from 0 to 1000"}},
-        {"--eraser-share", &controls.eraser_share, {0.0, 1.0, "a number from 0 to 1"}},
-        {"--smoothing", &controls.smoothing, {0.0, 2.0, "a number from 0 to 2"}},
-        {"--fairing", &controls.fairing, {0.0, 10.0, "a number from 0 to 10"}},
-        {"--resolution", &controls.resolution, {0.2, 1.0, "a number from 0.2 to 1"}},
-    };
-    for (const Control& control : all) {
-        if (const auto given = line.value(control.option)) {
-            *control.value = number(*given, control.range);
-        }
-    }
-    controls.crest_gate = !line.flag("--no-crest-gate");
+    const Given style = line.value("--style").value_or(Given{options.style, "--style"});
+    options.style = style.text;
+    options.controls = droplet::expressionOf(styleNamed(style));
+}
+
+void readLook(const CommandLine& line, Liquid2dOptions& options)
+{
+    options.controls.crest_gate = !line.flag("--no-crest-gate");
     const auto look = line.value("--look");
     options.look = forOption("--look", [&] {
-        return droplet::liquidLookNamed(look ? look->text : style == "realistic" ? "flat" : "comic");
+        return droplet::liquidLookNamed(look ? look->text : options.style == "realistic" ? "flat" : "comic");
     });
     if (const auto width = line.value("--line-width")) {
         options.look.line_width = number(*width, {0.0, 50.0, "a number from 0 to 50"});
@@ -243,12 +218,6 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
                    "animation; or a .mp4, .mkv, .mov or .webm");
         }
     }
-    if (const auto width = line.value("--frame-width")) {
-        options.width = static_cast<int>(count(*width, 16384, "16384"));
-        if (options.width < 16) {
-            refuse(*width, "a whole number from 16 to 16384");
-        }
-    }
     options.encoding = readVideoEncoding(line, options.kind == LiquidOutput::Video, "OUTPUT");
     if (line.flag("--alpha")) {
         if (options.kind != LiquidOutput::Video) {
@@ -256,8 +225,6 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
         }
         keepAlpha(options.encoding, *options.output, "--alpha");
     }
-    options.json = text(line, "--json");
-    options.resume = line.flag("--resume");
     const bool has_files =
         options.kind == LiquidOutput::Drawings || (options.kind == LiquidOutput::None && options.mask_files);
     if (options.resume && (!has_files || (options.masks && !options.mask_files))) {
@@ -270,21 +237,18 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
 std::variant<Liquid2dOptions, std::string> parseLiquid2d(int argc, const char* const* argv)
 {
     CommandLine line(commandText());
-    declare(line);
+    Liquid2dOptions options;
+    options.controls = droplet::expressionOf(droplet::LiquidStyle::Cartoon);
+    declare(line, options);
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
         return *text;
     }
-    Liquid2dOptions options;
+    readStyle(line, options);
+    line.read();
     readLiquid(line, options);
-    readSurface(line, options);
+    readLook(line, options);
     readOutputs(line, options);
-    if (const auto duration = line.value("--time")) {
-        options.duration = quantity(*duration, kTime);
-    }
-    if (const auto rate = line.value("--fps")) {
-        options.frames_per_second = number(*rate, {1.0, 1000.0, "a number from 1 to 1000"});
-    }
     options.run = readRun(line);
     options.fingerprint = optionsOfFrames(line, options.output.value_or(""));
     return options;

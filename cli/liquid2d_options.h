@@ -39,7 +39,7 @@ struct Liquid2dOptions {
     std::optional<std::string> particles;        ///< path or pattern of another simulation instead of a scene
     std::optional<NumberedPath> particle_files;  ///< set if `particles` is a pattern
     droplet::ParticleFileOptions particle_reading;
-    std::optional<std::string> style;     ///< empty: the preset's, or cartoon
+    std::string style = "cartoon";        ///< by default the preset's
     droplet::ExpressionOptions controls;  ///< of the style, with changes
     droplet::LiquidLook look;
     int width = 1280;  ///< of drawings and masks [px]

@@ -306,7 +306,7 @@ public:
         report_.particles = options.particles;
         report_.output = options.output;
         report_.masks = options.masks;
-        report_.style = *options.style;
+        report_.style = options.style;
         report_.options = options.controls;
         report_.size = view_.size;
         report_.frames_per_second = options.frames_per_second;

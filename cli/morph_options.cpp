@@ -33,7 +33,7 @@ const CommandText& commandText()
     return text;
 }
 
-void declare(CommandLine& line)
+void declare(CommandLine& line, MorphCommandOptions& options)
 {
     line.addArguments("FILES",
                       "INPUT... is the footprints: pictures of one size, or SVG files, which are fitted into them. "
@@ -41,17 +41,21 @@ void declare(CommandLine& line)
                       ".stl or .usdz; masks such as out/%04d.png; - for masks on standard output; drawings such as "
                       "out/%04d.svg; or a video of drawings, .mp4, .mkv, .mov or .webm, which needs ffmpeg");
     constexpr const char* kMorph = "Flow";
-    line.add(kMorph, "--text", "TEXT", "First footprint, before those of the pictures");
-    line.add(kMorph, "--font-family,--font", "FAMILY",
-             "Font of the text, by the name that the system knows [sans-serif]");
-    line.add(kMorph, "--frames", "N", "Number of frames of the whole, up to 100k [120]");
-    line.add(kMorph, "--particle-count", "N", "Number of particles of the liquid, 1k to 200k [8k]");
-    line.add(kMorph, "--rounding", "NUMBER", "How fast surface tension rounds the liquid on its way, 0 to 10 [1]");
+    line.add(kMorph, "--text", "TEXT", "First footprint, before those of the pictures", into(options.text));
+    line.add(kMorph, "--font-family,--font", "FAMILY", "Font of the text, by the name that the system knows",
+             into(options.font));
+    line.add(kMorph, "--frames", "N", "Number of frames of the whole, up to 100k",
+             into(options.frames, {1, 100'000, "100k"}));
+    line.add(kMorph, "--particle-count", "N", "Number of particles of the liquid, 1k to 200k",
+             into(options.particles, {1000, 200'000, "200k"}));
+    line.add(kMorph, "--rounding", "NUMBER", "How fast surface tension rounds the liquid on its way, 0 to 10",
+             into(options.rounding, {0.0, 10.0, "a number from 0 to 10"}));
     line.add(kMorph, "--mask-width", "N",
-             "Width of masks and drawings in pixels, up to 16384 [that of the first picture, or 1024]");
+             "Width of masks and drawings in pixels, up to 16384 [that of the first picture, or 1024]",
+             into(options.width, CountRange{16, 16384, "16384"}));
     line.add(kMorph, "--look", "flat|comic|ink|night", "Colours and lines of drawings [flat]");
     declareVideoAlpha(line, kMorph);
-    declareAnimation(line);
+    declareAnimation(line, options.animation);
 }
 
 void readKind(const CommandLine& line, MorphCommandOptions& options)
@@ -90,24 +94,19 @@ void readKind(const CommandLine& line, MorphCommandOptions& options)
 std::variant<MorphCommandOptions, std::string> parseMorph(int argc, const char* const* argv)
 {
     CommandLine line(commandText());
-    declare(line);
+    MorphCommandOptions options;
+    declare(line, options);
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
         return *text;
     }
-    MorphCommandOptions options;
+    line.read();
     const std::vector<Given> files = line.values("FILES");
-    if (const auto given = line.value("--text")) {
-        if (given->text.empty()) {
-            refuse(*given, "a text that is not empty");
-        }
-        options.text = given->text;
+    if (options.text && options.text->empty()) {
+        refuse(*line.value("--text"), "a text that is not empty");
     }
-    if (const auto font = line.value("--font-family")) {
-        if (!options.text) {
-            refuse("--font-family needs --text");
-        }
-        options.font = font->text;
+    if (line.value("--font-family") && !options.text) {
+        refuse("--font-family needs --text");
     }
     const std::size_t needed = options.text ? 1 : 2;
     if (files.size() < needed + 1) {
@@ -123,33 +122,17 @@ std::variant<MorphCommandOptions, std::string> parseMorph(int argc, const char* 
     }
     readKind(line, options);
     const std::string model = options.kind == MorphOutput::Model ? options.output : "frames.glb";
-    options.animation = readAnimation(line, {kStandardStream}, model);
+    options.animation.inputs = {kStandardStream};
+    options.animation.output = model;
+    readAnimation(line, options.animation);
     if (options.animation.resume && !options.files && !options.animation.files) {
         refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.svg");
-    }
-    if (const auto frames = line.value("--frames")) {
-        options.frames = count(*frames, 100'000, "100k");
     }
     const std::size_t transitions = options.inputs.size() + (options.text ? 1 : 0) - 1;
     if (options.frames < 2 * transitions + 1) {
         refuse("--frames: " + std::to_string(transitions) +
                (transitions == 1 ? " transition needs" : " transitions need") + " at least " +
                std::to_string(2 * transitions + 1) + " frames");
-    }
-    if (const auto particles = line.value("--particle-count")) {
-        options.particles = count(*particles, 200'000, "200k");
-        if (options.particles < 1000) {
-            refuse(*particles, "a whole number from 1k to 200k");
-        }
-    }
-    if (const auto rounding = line.value("--rounding")) {
-        options.rounding = number(*rounding, {0.0, 10.0, "a number from 0 to 10"});
-    }
-    if (const auto width = line.value("--mask-width")) {
-        options.width = static_cast<int>(count(*width, 16384, "16384"));
-        if (*options.width < 16) {
-            refuse(*width, "a whole number from 16 to 16384");
-        }
     }
     const auto look = line.value("--look");
     options.look = forOption("--look", [&] { return droplet::liquidLookNamed(look ? look->text : "flat"); });

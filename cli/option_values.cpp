@@ -78,7 +78,7 @@ std::optional<double> finiteNumber(std::string_view text)
     return value;
 }
 
-std::size_t count(const Given& given, std::size_t max, const std::string& max_text)
+std::size_t count(const Given& given, const CountRange& range)
 {
     std::string_view digits = given.text;
     double factor = 1.0;
@@ -86,10 +86,10 @@ std::size_t count(const Given& given, std::size_t max, const std::string& max_te
         factor = digits.back() == 'k' ? 1e3 : 1e6;
         digits.remove_suffix(1);
     }
-    const auto number = finiteNumber(digits);
-    const double value = number.value_or(0.0) * factor;
-    if (value < 1.0 || value > static_cast<double>(max) || value != std::floor(value)) {
-        refuse(given, "a whole number from 1 to " + max_text);
+    const double value = finiteNumber(digits).value_or(-1.0) * factor;
+    if (value < static_cast<double>(range.min) || value > static_cast<double>(range.max) ||
+        value != std::floor(value)) {
+        refuse(given, fmt::format("a whole number from {} to {}", range.min, range.max_text));
     }
     return static_cast<std::size_t>(value);
 }

@@ -59,15 +59,22 @@ double quantity(const Given& given, const Range& range);
 /// Number, if the whole text is a finite number.
 std::optional<double> finiteNumber(std::string_view text);
 
+/// Allowed range of a whole number.
+struct CountRange {
+    std::size_t min;
+    std::size_t max;
+    std::string max_text;  ///< for messages, such as `1M`
+};
+
 /// Parses a count such as 5000, 5k, 2.5k or 1M.
-/// @param max_text        `max` as text, for messages
-/// @throws droplet::Error InvalidArgument: not a whole number from 1 to max
-std::size_t count(const Given& given, std::size_t max, const std::string& max_text);
+/// @throws droplet::Error InvalidArgument: not a whole number of the range
+std::size_t count(const Given& given, const CountRange& range);
 
 /// Value of a name.
+/// @param known           pairs of names and values
 /// @throws droplet::Error InvalidArgument, listing the known names
-template <typename Value>
-Value choice(const Given& given, std::initializer_list<std::pair<const char*, Value>> known)
+template <typename Known>
+auto choiceOf(const Given& given, const Known& known)
 {
     std::string names;
     for (const auto& [name, value] : known) {
@@ -77,6 +84,12 @@ Value choice(const Given& given, std::initializer_list<std::pair<const char*, Va
         names += std::string(names.empty() ? "" : ", ") + name;
     }
     refuse(given, "one of " + names);
+}
+
+template <typename Value>
+Value choice(const Given& given, std::initializer_list<std::pair<const char*, Value>> known)
+{
+    return choiceOf(given, known);
 }
 
 }  // namespace cli

@@ -167,7 +167,7 @@ bool readPreviewFile(const CommandLine& line, PreviewOptions& options)
         return true;
     }
     if (turntable) {
-        options.turns = count(*turntable, kMaxTurns, "360");
+        options.turns = count(*turntable, {1, kMaxTurns, "360"});
     }
     if (!preview) {
         return false;

@@ -54,7 +54,7 @@ const CommandText& commandText()
     return text;
 }
 
-void declareShape(CommandLine& line)
+void declareShape(CommandLine& line, ShapeOptions& options)
 {
     line.addArgument(
         "INPUT",
@@ -63,14 +63,14 @@ void declareShape(CommandLine& line)
     line.addArgument(
         "OUTPUT",
         "The droplet: .glb, .gltf, .obj, .ply, .stl, .usda or .usdz; - is standard output and needs --format");
-    declareShapes(line);
+    declareShapes(line, options);
     declareMaskOut(line);
     declarePreview(line);
-    line.add("Run", "--json", "FILE", "Write a report; - is standard output");
+    line.add("Run", "--json", "FILE", "Write a report; - is standard output", into(options.json));
     declareHtml(line);
-    line.add("Run", "--export-evolver", "FILE",
-             "Write the droplets as input for Surface Evolver; - is standard output");
-    line.addFlag("Run", "--watch", "Make the droplet again whenever INPUT is saved, until Ctrl-C");
+    line.add("Run", "--export-evolver", "FILE", "Write the droplets as input for Surface Evolver; - is standard output",
+             into(options.evolver));
+    line.addFlag("Run", "--watch", "Make the droplet again whenever INPUT is saved, until Ctrl-C", options.watch);
     declareRun(line);
     line.exclude({"--watch", "--no-clobber"});
 }
@@ -165,16 +165,18 @@ void readFillRange(const CommandLine& line, ShapeOptions& options)
 
 }  // namespace
 
-void declareDroplets(CommandLine& line)
+void declareDroplets(CommandLine& line, ShapeOptions& options)
 {
-    declareLiquid(line);
-    declareGround(line);
-    declareSurface(line);
+    DropletSettings& settings = options.settings;
+    declareLiquid(line, settings);
+    declareGround(line, settings);
+    declareSurface(line, settings);
     line.add("Surface", "--format", "glb|gltf|obj|ply|stl|usda|usdz",
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
-    line.add("Surface", "--nodes", "one|each",
+    line.add("Surface", "--nodes",
              "Nodes in glTF and USD: one for all droplets, or one each, named droplet_1, droplet_2 and so on, with its "
-             "figures [one]");
+             "figures",
+             into(settings.nodes, {{"one", droplet::Nodes::One}, {"each", droplet::Nodes::Each}}));
     line.add("Surface", "--materials", "FILE",
              "TOML file with a material, colour, roughness or index of refraction for single droplets");
     line.add("Surface", "--fill-range", "RANGE",
@@ -183,17 +185,19 @@ void declareDroplets(CommandLine& line)
     line.add(
         "Surface", "--sink", "LENGTH",
         "Lower the droplet into the ground by LENGTH in its file, so that a ground at height 0 cuts it: a base just "
-        "above the ground leaves a film of air, which mirrors the sky");
+        "above the ground leaves a film of air, which mirrors the sky",
+        withoutDefault(into(settings.sink, kLength)));
     declareCompression(line, "Surface");
 }
 
-void declareShapes(CommandLine& line)
+void declareShapes(CommandLine& line, ShapeOptions& options)
 {
-    declareFootprint(line);
+    declareFootprint(line, options.footprint);
     declareByColour(line);
-    declareDroplets(line);
+    declareDroplets(line, options);
     line.addFlag("Surface", "--colour-map",
-                 "Lay the picture on the liquid, as a tint in glTF, USDZ, previews and the page");
+                 "Lay the picture on the liquid, as a tint in glTF, USDZ, previews and the page",
+                 options.settings.colour_map);
     line.exclude({"--by-colour", "--colour-map"});
 }
 
@@ -214,61 +218,45 @@ std::optional<std::string> readHtml(const CommandLine& line)
     return html->text;
 }
 
-ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const std::string& subject)
+void readDroplets(const CommandLine& line, ShapeOptions& options, const std::string& subject)
 {
-    options.settings = readDroplet(line);
-    options.settings.colour_map = line.knows("--colour-map") && line.flag("--colour-map");
+    readDroplet(line, options.settings);
     options.run = readRun(line);
-    if (const auto nodes = line.value("--nodes")) {
-        options.settings.nodes =
-            choice<droplet::Nodes>(*nodes, {{"one", droplet::Nodes::One}, {"each", droplet::Nodes::Each}});
-    }
     if (const auto materials = line.value("--materials")) {
         options.settings.materials = readMaterials(materials->text);
-    }
-    if (const auto sink = line.value("--sink")) {
-        options.settings.sink = quantity(*sink, kLength);
     }
     readFormat(line, subject, options);
     readFillRange(line, options);
     options.compression = readCompression(line, options.format);
-    return options;
 }
 
-ShapeOptions readShapes(const CommandLine& line, ShapeOptions options, const std::string& subject)
+void readShapes(const CommandLine& line, ShapeOptions& options, const std::string& subject)
 {
-    options = readDroplets(line, std::move(options), subject);
-    options.footprint = readFootprint(line);
+    readDroplets(line, options, subject);
+    readFootprint(line, options.footprint);
     options.footprint.by_colour = readByColour(line, options.settings.warnings);
-    return options;
 }
 
 std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* argv)
 {
     CommandLine line(commandText());
-    declareShape(line);
+    ShapeOptions options;
+    declareShape(line, options);
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
         return *text;
     }
-    ShapeOptions options;
+    line.read();
     options.input = line.argument("INPUT");
     options.output = line.argument("OUTPUT");
-    if (const auto json = line.value("--json")) {
-        options.json = json->text;
-    }
-    if (const auto evolver = line.value("--export-evolver")) {
-        options.evolver = evolver->text;
-    }
     options.html = readHtml(line);
     std::vector<std::string> warnings;
     options.preview = readPreview(line, warnings);
-    options = readShapes(line, std::move(options), "OUTPUT");
+    readShapes(line, options, "OUTPUT");
     if (const auto mask = line.value("--mask-out")) {
         options.footprint.mask_out = mask->text;
     }
     options.settings.warnings.insert(options.settings.warnings.end(), warnings.begin(), warnings.end());
-    options.watch = line.flag("--watch");
     if (options.watch) {
         requireFiles(options);
     }

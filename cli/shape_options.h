@@ -40,19 +40,19 @@ std::optional<std::string> readHtml(const CommandLine& line);
 
 /// Declares the options of every command that makes droplets: liquid, ground and surface, --format, --nodes,
 /// --materials and --fill-range.
-void declareDroplets(CommandLine& line);
+void declareDroplets(CommandLine& line, ShapeOptions& options);
 
-/// Reads the options of declareDroplets and of the run.
-/// @param options         options with the paths of inputs and outputs, or their patterns
+/// Reads the options of declareDroplets and of the run that CommandLine::read() does not read.
+/// @param options         those of declareDroplets, with the paths of inputs and outputs, or their patterns
 /// @param subject         name of the output in messages
 /// @throws droplet::Error InvalidArgument
-ShapeOptions readDroplets(const CommandLine& line, ShapeOptions options, const std::string& subject);
+void readDroplets(const CommandLine& line, ShapeOptions& options, const std::string& subject);
 
 /// Declares the options of every command that makes droplets from pictures: those of declareDroplets and the footprint.
-void declareShapes(CommandLine& line);
+void declareShapes(CommandLine& line, ShapeOptions& options);
 
 /// Reads the options of declareShapes and of the run, as readDroplets does.
-ShapeOptions readShapes(const CommandLine& line, ShapeOptions options, const std::string& subject);
+void readShapes(const CommandLine& line, ShapeOptions& options, const std::string& subject);
 
 /// Reads the command line and the configuration file that it names.
 /// @return                the options, or the text that --help or --version prints

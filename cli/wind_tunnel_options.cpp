@@ -27,29 +27,30 @@ constexpr NumberRange kHysteresis{0.0, 2.0, "numbers from 0 to 2"};
 
 const CommandText& commandText()
 {
-    static const CommandText text{
-        "droplet-shape wind-tunnel", "compute how droplets move on a slope in the wind", "[OPTIONS] [OUTPUT...]",
-        "Every volume is combined with every wind, slope and hysteresis. A LIST is\n"
-        "10,20,30uL, or a range with a step: 10..100uL:10, 0..16m/s:0.25; a unit at the\n"
-        "end applies to all its numbers.\n"
-        "\n"
-        "Quantities carry a unit:\n"
-        "  volumes nL uL mL L mm3 cm3 m3; speeds mm/s m/s km/h mph; angles deg rad;\n"
-        "  times ms s min h; lengths nm um mm cm m in; viscosity mPa.s Pa.s;\n"
-        "  surface tension mN/m N/m dyn/cm; density kg/m3 g/cm3 g/mL;\n"
-        "  acceleration m/s2 mm/s2 g\n"
-        "\n"
-        "Examples:\n"
-        "  droplet-shape wind-tunnel --preset hashimoto plane.csv --chart plane.svg\n"
-        "  droplet-shape wind-tunnel --volume 1..100uL:1 --slope 30,45deg --map map.png\n"
-        "  droplet-shape wind-tunnel --volume 30uL --wind-speed 9m/s --gust 2m/s --trace a.csv\n"
-        "\n"
-        "Exit codes:\n"
-        "  0 done; 1 internal error; 2 usage; 4 output cannot be written"};
+    static const CommandText text{"droplet-shape wind-tunnel", "compute how droplets move on a slope in the wind",
+                                  "[OPTIONS] [OUTPUT...]",
+                                  "Every volume is combined with every wind, slope and hysteresis. A LIST is\n"
+                                  "10,20,30uL, or a range with a step: 10..100uL:10, 0..16m/s:0.25; a unit at the\n"
+                                  "end applies to all its numbers.\n"
+                                  "\n"
+                                  "Quantities carry a unit:\n"
+                                  "  volumes nL uL mL L mm3 cm3 m3; speeds mm/s m/s km/h mph; angles deg rad;\n"
+                                  "  times ms s min h; lengths nm um mm cm m in; viscosity mPa.s Pa.s;\n"
+                                  "  surface tension mN/m N/m dyn/cm; density kg/m3 g/cm3 g/mL;\n"
+                                  "  acceleration m/s2 mm/s2 g\n"
+                                  "\n"
+                                  "Examples:\n"
+                                  "  droplet-shape wind-tunnel --preset hashimoto plane.csv --chart plane.svg\n"
+                                  "  droplet-shape wind-tunnel --volume 1..100uL:1 --slope 30,45deg --map map.png\n"
+                                  "  droplet-shape wind-tunnel --volume 30uL --wind-speed 9m/s --gust 2m/s \\\n"
+                                  "      --trace a.csv\n"
+                                  "\n"
+                                  "Exit codes:\n"
+                                  "  0 done; 1 internal error; 2 usage; 4 output cannot be written"};
     return text;
 }
 
-void declare(CommandLine& line)
+void declare(CommandLine& line, WindTunnelOptions& options, droplet::ForceModel& model)
 {
     line.addArguments("OUTPUT", "Table, .csv or .json, or chart, .svg or .png; - is a table on standard output");
     constexpr const char* kSweep = "Sweep";
@@ -65,7 +66,7 @@ void declare(CommandLine& line)
              "Hysteresis, by the slope at which a droplet begins to run");
     line.add(kSweep, "--sliding-volume,--falling-volume", "V|every",
              "Volume of the droplet that runs at --sliding-angle; every: all of them do [30uL]");
-    declareForces(line);
+    declareForces(line, model);
     constexpr const char* kOut = "Charts and series";
     line.add(kOut, "--chart", "FILE",
              "Draw the acceleration at rest against the wind, a curve for each volume: .svg or .png");
@@ -74,14 +75,15 @@ void declare(CommandLine& line)
         kOut, "--measured", "BAND",
         "Measured range of winds in which droplets stay, drawn beside the results [7..11m/s for unchanged presets]");
     line.add(kOut, "--trace", "FILE", "Write the motion of one droplet over time: .csv or .json");
-    line.add(kOut, "--time", "TIME", "Duration of the trace [1s]");
-    line.add(kOut, "--trace-step", "TIME", "Time between two lines of the trace [10ms]");
-    line.add(kOut, "--initial-speed", "SPEED", "Speed at the start, up the slope; negative is down [0m/s]");
-    line.add(kOut, "--gust", "SPEED", "Amplitude of the wind's gusts [0m/s]");
-    line.add(kOut, "--gust-period", "TIME", "Time from one gust to the next [1s]");
+    line.add(kOut, "--time", "TIME", "Duration of the trace", into(options.trace.duration, kTime));
+    line.add(kOut, "--trace-step", "TIME", "Time between two lines of the trace", into(options.trace.interval, kTime));
+    line.add(kOut, "--initial-speed", "SPEED", "Speed at the start, up the slope; negative is down",
+             into(options.trace.velocity, kSpeed));
+    line.add(kOut, "--gust", "SPEED", "Amplitude of the wind's gusts", into(options.gust.amplitude, kWind));
+    line.add(kOut, "--gust-period", "TIME", "Time from one gust to the next", into(options.gust.period, kTime));
     constexpr const char* kRun = "Run";
     line.add(kRun, "--json", "FILE", "Write all results as JSON; - is standard output");
-    line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
+    line.addFlag(kRun, "--no-clobber", "Do not replace existing files", options.files.no_clobber);
     declareCommon(line, kRun, "slope = \"45deg\"");
     line.exclude({"--hysteresis", "--sliding-angle"});
 }
@@ -133,27 +135,12 @@ void readOutputs(const CommandLine& line, WindTunnelOptions& options)
     }
 }
 
-void readTrace(const CommandLine& line, WindTunnelOptions& options)
+void checkTrace(const CommandLine& line, const WindTunnelOptions& options)
 {
     for (const char* option : {"--time", "--trace-step", "--initial-speed", "--gust", "--gust-period"}) {
         if (line.value(option) && !options.traces) {
             refuse(std::string(option) + " needs --trace");
         }
-    }
-    if (const auto time = line.value("--time")) {
-        options.trace.duration = quantity(*time, kTime);
-    }
-    if (const auto step = line.value("--trace-step")) {
-        options.trace.interval = quantity(*step, kTime);
-    }
-    if (const auto speed = line.value("--initial-speed")) {
-        options.trace.velocity = quantity(*speed, kSpeed);
-    }
-    if (const auto gust = line.value("--gust")) {
-        options.gust.amplitude = quantity(*gust, kWind);
-    }
-    if (const auto period = line.value("--gust-period")) {
-        options.gust.period = quantity(*period, kTime);
     }
     if (options.gust.amplitude > 0.0 && options.trace.duration / options.gust.period > droplet::kMaxGusts) {
         refuse("--gust-period: too short; --time must be at most 100000 periods");
@@ -227,12 +214,16 @@ void readFallingAngle(const CommandLine& line, droplet::TunnelRun& run)
     }
 }
 
-droplet::TunnelRun runOf(const CommandLine& line, const droplet::ForcePreset& preset)
+/// @param model  the variable of the declared options
+droplet::TunnelRun runOf(const CommandLine& line, const droplet::ForcePreset& preset, droplet::ForceModel& model)
 {
+    model = preset.model;
+    line.read();
+    readForces(line, model);
     droplet::TunnelRun run;
     run.preset = preset.name;
     droplet::TunnelSweep& swept = run.swept;
-    swept.model = readForces(line, preset.model);
+    swept.model = model;
     swept.volumes = preset.volumes;
     if (const auto volumes = line.value("--volume")) {
         swept.volumes = quantities(*volumes, kVolume);
@@ -254,7 +245,7 @@ droplet::TunnelRun runOf(const CommandLine& line, const droplet::ForcePreset& pr
     return run;
 }
 
-std::vector<droplet::TunnelRun> readRuns(const CommandLine& line)
+std::vector<droplet::TunnelRun> readRuns(const CommandLine& line, droplet::ForceModel& model)
 {
     const Given given = line.value("--preset").value_or(Given{"hashimoto", "--preset"});
     std::vector<droplet::TunnelRun> runs;
@@ -267,7 +258,7 @@ std::vector<droplet::TunnelRun> readRuns(const CommandLine& line)
         if (std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return run.preset == name; })) {
             refuse(given, "a list without repeated presets");
         }
-        runs.push_back(runOf(line, preset));
+        runs.push_back(runOf(line, preset, model));
         more = comma != std::string::npos;
         rest = more ? rest.substr(comma + 1) : "";
     }
@@ -318,21 +309,21 @@ void check(const WindTunnelOptions& options)
 std::variant<WindTunnelOptions, std::string> parseWindTunnel(int argc, const char* const* argv)
 {
     CommandLine line(commandText());
-    declare(line);
+    WindTunnelOptions options;
+    droplet::ForceModel model;
+    declare(line, options, model);
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
         return *text;
     }
-    WindTunnelOptions options;
     readOutputs(line, options);
-    readTrace(line, options);
-    options.runs = readRuns(line);
+    options.runs = readRuns(line, model);
+    checkTrace(line, options);
     options.gust.mean = options.runs.front().swept.winds.front();
     if (const auto config = line.value("--config")) {
         options.config = config->text;
     }
     options.threads = readThreads(line);
-    options.files.no_clobber = line.flag("--no-clobber");
     options.quiet = line.flag("--quiet");
     check(options);
     return options;

@@ -62,25 +62,26 @@ struct Given {
     MaskKind kind = MaskKind::Png;
 };
 
-void declare(cli::CommandLine& line)
+void declare(cli::CommandLine& line, cli::ShapeOptions& options)
 {
-    cli::declareShapes(line);
+    cli::declareShapes(line, options);
     cli::declareRun(line);
 }
 
 cli::ShapeOptions parse(const std::vector<std::string>& arguments)
 {
     cli::CommandLine line({"droplet-shape", "", "", ""});
-    declare(line);
+    cli::ShapeOptions options;
+    declare(line, options);
     std::vector<const char*> words{"droplet-shape"};
     for (const std::string& argument : arguments) {
         words.push_back(argument.c_str());
     }
     line.parse(static_cast<int>(words.size()), words.data());
-    cli::ShapeOptions options;
+    line.read();
     options.input = "mask";
     options.output = "droplet.glb";
-    options = cli::readShapes(line, std::move(options), "OUTPUT");
+    cli::readShapes(line, options, "OUTPUT");
     if (options.run.config || options.settings.ground.path || options.settings.onto) {
         throw Error(ErrorCode::InvalidArgument,
                     "--config, --onto and height maps of --surface need files, which the "
@@ -268,7 +269,8 @@ EMSCRIPTEN_KEEPALIVE const char* droplet_help()
 {
     static const std::string text = [] {
         cli::CommandLine line({"droplet-shape", "", "", ""});
-        declare(line);
+        cli::ShapeOptions options;
+        declare(line, options);
         return line.helpJson();
     }();
     return text.c_str();

@@ -86,7 +86,7 @@ void DropletBodies::make(const BodyConditions& conditions, std::span<Vec3> verti
             "finite and at least 0 m/s");
     const double gravity = length(conditions.gravity);
     require(std::isfinite(gravity), "gravity", gravity, "finite");
-    require(vertices.size() == kBodyVertices, "positions.size", vertices.size(), "the number of vertices");
+    require(vertices.size() == kBodyVertices, "vertices.size", vertices.size(), "the number of vertices");
     require(normals.size() == kBodyVertices, "normals.size", normals.size(), "the number of vertices");
     if (conditions.airborne) {
         makeBall(conditions.volume, vertices, normals);

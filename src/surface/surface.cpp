@@ -275,8 +275,8 @@ void checkRefill(const Surface& surface)
         before = state.fill;
         if (state.vertices.size() != count || state.normals.size() != count) {
             throw Error(ErrorCode::InvalidArgument,
-                        "surface has " + std::to_string(count) + " positions, and a refill of " +
-                            std::to_string(state.vertices.size()) + " positions and " +
+                        "surface has " + std::to_string(count) + " vertices, and a refill of " +
+                            std::to_string(state.vertices.size()) + " vertices and " +
                             std::to_string(state.normals.size()) + " normals; there must be equally many");
         }
         const std::size_t i = firstOf(count, [&](std::size_t v) {
@@ -284,7 +284,7 @@ void checkRefill(const Surface& surface)
                    state.vertices[surface.weld[v]] != state.vertices[v];
         });
         if (i < count) {
-            refuse("refill.positions", i, "must be finite, as its normal, and equal for all copies of a vertex");
+            refuse("refill.vertices", i, "must be finite, as its normal, and equal for all copies of a vertex");
         }
     }
 }
@@ -330,12 +330,12 @@ void Surface::validate() const
     }
     if (normals.size() != count || uvs.size() != count || weld.size() != count) {
         throw Error(ErrorCode::InvalidArgument,
-                    "surface has " + std::to_string(count) + " positions, " + std::to_string(normals.size()) +
+                    "surface has " + std::to_string(count) + " vertices, " + std::to_string(normals.size()) +
                         " normals, " + std::to_string(uvs.size()) + " uvs, " + std::to_string(weld.size()) +
                         " weld entries; there must be equally many");
     }
     if (!contact_angle.empty() && contact_angle.size() != count) {
-        throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(count) + " positions, " +
+        throw Error(ErrorCode::InvalidArgument, "surface has " + std::to_string(count) + " vertices, " +
                                                     std::to_string(contact_angle.size()) +
                                                     " contact angles; there must be none or equally many");
     }

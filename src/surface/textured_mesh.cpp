@@ -18,13 +18,13 @@ void TexturedMesh::validate() const
         refuse("triangles is empty; there must be at least one");
     }
     if (normals.size() != count || uvs.size() != count) {
-        refuse("positions, normals and uvs must be equally many: " + std::to_string(count) + ", " +
+        refuse("vertices, normals and uvs must be equally many: " + std::to_string(count) + ", " +
                std::to_string(normals.size()) + ", " + std::to_string(uvs.size()));
     }
     for (std::size_t v = 0; v < count; ++v) {
         const Vec3 p = vertices[v];
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-            refuse("positions[" + std::to_string(v) + "] must be finite");
+            refuse("vertices[" + std::to_string(v) + "] must be finite");
         }
         if (!(std::abs(length(normals[v]) - 1.0) <= kUnitTolerance)) {
             refuse("normals[" + std::to_string(v) + "] must have length 1");

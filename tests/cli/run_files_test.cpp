@@ -250,7 +250,7 @@ const std::vector<CommandFiles>& all()
           frames("OUTPUT", "out/%04d.png", "out/checkpoint.state"),
           frames("--maps", "maps/%04d.png", "maps/0002-velocity.png"),
           {"--droplets", "droplets.csv"},
-          {"--model", "model.glb"},
+          {"--animation", "model.glb"},
           {"--json", "out.json"}}},
     };
     return commands;

@@ -663,8 +663,8 @@ TEST(Compare, RefusesInvalidSurfaces)
     };
     Surface broken = sound;
     broken.vertices[3].y = std::numeric_limits<double>::quiet_NaN();
-    expect_refused(broken, sound, {}, "positions[3] must be finite");
-    expect_refused(sound, broken, {}, "positions[3] must be finite");
+    expect_refused(broken, sound, {}, "vertices[3] must be finite");
+    expect_refused(sound, broken, {}, "vertices[3] must be finite");
     EXPECT_THROW((void)signedDistances(sound, broken), Error);
     broken = sound;
     broken.triangles[0][1] = 100000;

@@ -52,6 +52,7 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
 ///
 /// Guarantees: the vertices of `mesh`'s rim come first, in the same order, and no other vertex is on the rim. Inner
 /// edges may join two rim vertices.
+/// @param mesh  its rim alone counts
 /// @param edge  length of even edges [m], for ground that bends
 PlanarMesh cover(const PlanarMesh& mesh, std::optional<double> edge = {});
 
