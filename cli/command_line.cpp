@@ -173,7 +173,7 @@ public:
     {
         for (const CLI::Option* option : app_.get_options()) {
             const auto target = targets_.find(option);
-            if (target != targets_.end() && option->count() > 0) {
+            if (target != targets_.end() && target->second.read && option->count() > 0) {
                 target->second.read(*value(nameOf(option)));
             }
         }

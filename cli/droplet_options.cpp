@@ -341,16 +341,18 @@ void declareLiquid(CommandLine& line, DropletSettings& settings)
         "Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of the liquid on "
         "what it lies on. By default no droplet is higher than a puddle of 40deg; by default and with natural, the "
         "largest angle that exists is taken if that one does not [" +
-            quantityText(solve.fill.amount, Dimension::Angle) + "]");
+            quantityText(solve.fill.amount, Dimension::Angle) + "]",
+        within(kAngle));
     line.add(kGroup, "--on", "glass|ptfe|wax|lotus", "What the liquid lies on, for --contact-angle natural [glass]");
-    line.add(kGroup, "--volume", "VOLUME", "Amount of liquid, by its volume");
+    line.add(kGroup, "--volume", "VOLUME", "Amount of liquid, by its volume", within(kVolume));
     line.add(kGroup, "--height", "LENGTH",
-             "Amount of liquid, by its largest height; if two droplets have it, the one with less liquid");
+             "Amount of liquid, by its largest height; if two droplets have it, the one with less liquid",
+             within(kLength));
     line.add(kGroup, "--fill", "each: every droplet gets this amount; total: all droplets share it at one pressure",
              into(solve.fill.sharing, {{"each", droplet::FillSharing::Each}, {"total", droplet::FillSharing::Total}}));
     line.add(kGroup, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");
-    line.add(kGroup, "--surface-tension", "S", "Surface tension, instead of the liquid's own");
-    line.add(kGroup, "--density", "D", "Density, instead of the liquid's own");
+    line.add(kGroup, "--surface-tension", "S", "Surface tension, instead of the liquid's own", within(kTension));
+    line.add(kGroup, "--density", "D", "Density, instead of the liquid's own", within(kDensity));
     line.add(
         kGroup, "--model",
         "Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all slopes, also where liquid "
@@ -383,8 +385,8 @@ void declareGround(CommandLine& line, DropletSettings& settings)
     line.add(kGroup, "--onto", "OBJECT",
              "Lay the droplets on the object in a .glb or .gltf file by its texture coordinates", into(settings.onto));
     line.add(kGroup, "--advancing", "ANGLE",
-             "Advancing contact angle; with --receding the report says whether droplets slide");
-    line.add(kGroup, "--receding", "ANGLE", "Receding contact angle, at most --advancing");
+             "Advancing contact angle; with --receding the report says whether droplets slide", within(kHalfTurn));
+    line.add(kGroup, "--receding", "ANGLE", "Receding contact angle, at most --advancing", within(kHalfTurn));
     line.exclude({"--surface", "--onto"});
 }
 

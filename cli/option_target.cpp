@@ -85,6 +85,11 @@ OptionTarget into(std::string& text)
     return {[&text](const Given& given) { text = given.text; }, text};
 }
 
+OptionTarget within(const Range& range)
+{
+    return {.read = {}, .usual = {}, .words = {}, .range = std::array{range.min, range.max}};
+}
+
 OptionTarget withoutDefault(OptionTarget target)
 {
     target.usual.clear();

@@ -21,7 +21,7 @@ namespace cli {
 /// Where the value of an option goes, and what it may be. into() makes it from a variable, which must outlive it, and
 /// whose present value is the default.
 struct OptionTarget {
-    /// Reads a given value into the variable.
+    /// Reads a given value into the variable; empty for an option that the command reads by itself.
     /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
     std::function<void(const Given&)> read;
     std::string usual = {};                           ///< default value as text; empty if there is none
@@ -39,6 +39,8 @@ std::string countText(std::size_t value);
 OptionTarget into(double& value, const Range& range);
 OptionTarget into(double& value, const NumberRange& range);
 OptionTarget into(std::string& text);
+/// Target without a variable, for an option that the command reads by itself: its range for --help=json.
+OptionTarget within(const Range& range);
 /// The same target for an option whose default the help does not show, as it only switches something off.
 OptionTarget withoutDefault(OptionTarget target);
 /// Target of a random seed.

@@ -12,9 +12,16 @@ from bpy.props import (
 from bpy_extras.object_utils import AddObjectHelper, add_object_align_init
 from mathutils import Matrix, Vector
 
-from . import command, footprints, glb, materials, meshes, places
+from . import command, footprints, glb, materials, meshes, options as known, places
 from .command import DropletError
 from .preferences import preferences
+
+
+_MODELS = {
+    "auto": ("Automatic", "The linear model where the liquid is flat enough for it, otherwise the exact one"),
+    "linear": ("Linear", "Fast; too high where the liquid is steep"),
+    "exact": ("Exact", "Right for all slopes"),
+}
 
 
 class DropletSettings(AddObjectHelper):
@@ -22,7 +29,8 @@ class DropletSettings(AddObjectHelper):
 
     width: FloatProperty(
         name="Width (mm)", description="Real width of the picture, or of the text or curve. It decides how the liquid "
-        "behaves: small droplets are round, large ones are flat", default=20, min=0.01, soft_max=500)
+        "behaves: small droplets are round, large ones are flat", default=known.number("width"), soft_min=0.01, soft_max=500,
+        **known.limits("width", 1e-3))
     scale: FloatProperty(
         name="Scale", description="Units of the scene in a metre of liquid. At 100, a picture of 20 mm is 2 units wide",
         default=100, min=1e-3, soft_max=10000)
@@ -32,20 +40,20 @@ class DropletSettings(AddObjectHelper):
         ("VOLUME", "Volume", "Volume of each droplet"),
         ("HEIGHT", "Height", "Largest height of each droplet")))
     contact_angle: FloatProperty(
-        name="Contact Angle", subtype="ANGLE", default=math.radians(40), min=math.radians(0.1), max=math.radians(179))
-    volume: FloatProperty(name="Volume (µL)", default=30, min=1e-6, soft_max=1000)
-    height: FloatProperty(name="Height (mm)", default=1, min=1e-6, soft_max=10)
+        name="Contact Angle", subtype="ANGLE", default=math.radians(known.number("contact-angle")),
+        **known.limits("contact-angle"))
+    volume: FloatProperty(name="Volume (µL)", default=30, soft_min=1e-6, soft_max=1000, **known.limits("volume", 1e-9))
+    height: FloatProperty(name="Height (mm)", default=1, soft_min=1e-6, soft_max=10, **known.limits("height", 1e-3))
     share: BoolProperty(
         name="Share Liquid", description="All droplets share the amount at one pressure", default=False)
     liquid: EnumProperty(name="Liquid", items=[
-        (name, name.capitalize(), "") for name in ("water", "ethanol", "glycerol", "mercury", "honey")])
+        (name, name.capitalize(), "") for name in known.words("liquid")])
     look: EnumProperty(name="Look", items=[("auto", "Of the Liquid", "")] + [
-        (name, name.capitalize(), "") for name in ("water", "ink", "mercury", "honey", "plain")])
-    model: EnumProperty(name="Model", items=(
-        ("auto", "Automatic", "The linear model where it is within 1 %, otherwise the exact one"),
-        ("linear", "Linear", "Fast; too high where the liquid is steep"),
-        ("exact", "Exact", "Right for all slopes")))
-    triangles: IntProperty(name="Triangles", default=40000, min=100, soft_max=200000)
+        (name, name.capitalize(), "") for name in known.words("material")])
+    model: EnumProperty(name="Model", items=[(name, *_MODELS.get(name, (name.capitalize(), ""))) for name in known.words("model")])
+    triangles: IntProperty(
+        name="Triangles", default=int(known.number("triangles")), soft_min=100, soft_max=200000,
+        **known.limits("triangles", whole=True))
     use_gravity: BoolProperty(
         name="World Gravity", description="Gravity points down in the world, so that liquid sags on a slope. "
         "Otherwise it points into the ground", default=True)

@@ -1,6 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The physics that Studio offers, as tables of fields; and a project's layer as options of the command.
 import { dashed } from '../../npm/droplet_shape.js';
+import { kOptions } from './options.js';
+
+const kUnitSizes = { '°': Math.PI / 180, mm: 1e-3, 'µL': 1e-9, 'mN/m': 1e-3, 'kg/m³': 1, 'm/s²': 1 };
+
+/** Unit, and range [min, max, step] in that unit, of an option. */
+function quantity(option, unit, step = 'any') {
+    const [min, max] = [kOptions[option].min, kOptions[option].max].map((end) => Number((end / kUnitSizes[unit]).toPrecision(12)));
+    return { unit, range: [min, max, step] };
+}
+
+/** The number in an option's default. */
+const usual = (option) => Number.parseFloat(kOptions[option].default);
+
+/** The words of an option with their labels; a word without one is its own. */
+const wordsOf = (option, labels) => Object.fromEntries(kOptions[option].words.map((word) =>
+    [word, labels[word] ?? word.replace(/^./, (letter) => letter.toUpperCase())]));
 
 /**
  * Fields: name; label; the value at first; `choices` {value: label}, or `unit` and `range` [min, max, step] of a number;
@@ -9,11 +25,11 @@ import { dashed } from '../../npm/droplet_shape.js';
 export const kLayerFields = [
     {
         name: 'liquid', label: 'Liquid', value: 'water',
-        choices: { water: 'Water', ethanol: 'Ethanol', glycerol: 'Glycerol', mercury: 'Mercury', honey: 'Honey' },
+        choices: wordsOf('liquid', {}),
     },
     {
         name: 'material', label: 'Look', value: 'own',
-        choices: { own: 'as the liquid', water: 'Clear water', ink: 'Blue ink', mercury: 'Mercury', honey: 'Honey', plain: 'Plain' },
+        choices: { own: 'as the liquid', ...wordsOf('material', { water: 'Clear water', ink: 'Blue ink' }) },
     },
     {
         name: 'by', label: 'Amount', value: 'free',
@@ -23,29 +39,29 @@ export const kLayerFields = [
     },
     { name: 'contactAngle', label: 'Contact angle', value: 60, unit: '°', range: [1, 179, 1], slider: true, when: ({ by }) => by === 'contactAngle' },
     {
-        name: 'on', label: 'Lies on', value: 'glass', choices: { glass: 'Glass', ptfe: 'PTFE', wax: 'Wax', lotus: 'Lotus leaf' },
+        name: 'on', label: 'Lies on', value: 'glass', choices: wordsOf('on', { ptfe: 'PTFE', lotus: 'Lotus leaf' }),
         when: ({ by }) => by === 'natural',
     },
-    { name: 'volume', label: 'Volume', value: 50, unit: 'µL', range: [0.001, 1e9, 'any'], when: ({ by }) => by === 'volume' },
-    { name: 'height', label: 'Height', value: 1.5, unit: 'mm', range: [0.001, 1e6, 'any'], when: ({ by }) => by === 'height' },
-    { name: 'fill', label: 'For', value: 'each', choices: { each: 'each droplet', total: 'all in total' } },
+    { name: 'volume', label: 'Volume', value: 50, ...quantity('volume', 'µL'), when: ({ by }) => by === 'volume' },
+    { name: 'height', label: 'Height', value: 1.5, ...quantity('height', 'mm'), when: ({ by }) => by === 'height' },
+    { name: 'fill', label: 'For', value: 'each', choices: wordsOf('fill', { each: 'each droplet', total: 'all in total' }) },
     {
         name: 'model', label: 'Model', value: 'auto',
-        choices: { auto: 'Automatic', linear: 'Linear', exact: 'Exact' }, more: true,
+        choices: wordsOf('model', { auto: 'Automatic' }), more: true,
     },
-    { name: 'surfaceTension', label: 'Surface tension', value: '', unit: 'mN/m', range: [0.001, 1e6, 'any'], optional: true, empty: 'own', more: true },
-    { name: 'density', label: 'Density', value: '', unit: 'kg/m³', range: [0, 1e6, 'any'], optional: true, empty: 'own', more: true },
-    { name: 'advancing', label: 'Advancing angle', value: '', unit: '°', range: [0, 180, 'any'], optional: true, empty: 'none', more: true },
-    { name: 'receding', label: 'Receding angle', value: '', unit: '°', range: [0, 180, 'any'], optional: true, empty: 'none', more: true },
+    { name: 'surfaceTension', label: 'Surface tension', value: '', ...quantity('surface-tension', 'mN/m'), optional: true, empty: 'own', more: true },
+    { name: 'density', label: 'Density', value: '', ...quantity('density', 'kg/m³'), optional: true, empty: 'own', more: true },
+    { name: 'advancing', label: 'Advancing angle', value: '', ...quantity('advancing', '°'), optional: true, empty: 'none', more: true },
+    { name: 'receding', label: 'Receding angle', value: '', ...quantity('receding', '°'), optional: true, empty: 'none', more: true },
 ];
 
 const curved = ({ ground }) => ground !== 'flat';
 
 export const kSceneFields = [
-    { name: 'width', label: 'Sheet width', value: 20, unit: 'mm', range: [0.01, 1e5, 'any'] },
-    { name: 'gravity', label: 'Gravity', value: 9.81, unit: 'm/s²', range: [-1000, 1000, 'any'] },
-    { name: 'tilt', label: 'Tilt', value: 0, unit: '°', range: [0, 180, 1], slider: true },
-    { name: 'tiltDirection', label: 'Downhill', value: -90, unit: '°', range: [-180, 180, 5], slider: true, when: ({ tilt }) => Number(tilt) > 0 },
+    { name: 'width', label: 'Sheet width', value: usual('width'), ...quantity('width', 'mm') },
+    { name: 'gravity', label: 'Gravity', value: usual('gravity'), ...quantity('gravity', 'm/s²') },
+    { name: 'tilt', label: 'Tilt', value: usual('tilt'), ...quantity('tilt', '°', 1), slider: true },
+    { name: 'tiltDirection', label: 'Downhill', value: usual('tilt-direction'), unit: '°', range: [-180, 180, 5], slider: true, when: ({ tilt }) => Number(tilt) > 0 },
     {
         name: 'ground', label: 'Surface', value: 'flat',
         choices: { flat: 'Flat', sphere: 'Sphere', bowl: 'Bowl', cylinder: 'Cylinder', gutter: 'Gutter' },
@@ -79,7 +95,7 @@ const kUnits = { surfaceTension: 'mN/m', density: 'kg/m3', advancing: 'deg', rec
 /** Options of the command for a layer, without those that are its defaults. */
 export function optionsOf({ liquid }, scene) {
     const options = { width: `${scene.width}mm` };
-    if (liquid.liquid !== 'water') {
+    if (liquid.liquid !== kOptions.liquid.default) {
         options.liquid = liquid.liquid;
     }
     if (liquid.material !== 'own') {
@@ -90,10 +106,10 @@ export function optionsOf({ liquid }, scene) {
     } else if (liquid.by in kAmounts) {
         options[liquid.by] = `${liquid[liquid.by]}${kAmounts[liquid.by]}`;
     }
-    if (liquid.fill !== 'each') {
+    if (liquid.fill !== kOptions.fill.default) {
         options.fill = liquid.fill;
     }
-    if (liquid.model !== 'auto') {
+    if (liquid.model !== kOptions.model.default) {
         options.model = liquid.model;
     }
     for (const [name, unit] of Object.entries(kUnits)) {
@@ -101,7 +117,7 @@ export function optionsOf({ liquid }, scene) {
             options[name] = `${liquid[name]}${unit}`;
         }
     }
-    if (scene.gravity !== 9.81) {
+    if (scene.gravity !== usual('gravity')) {
         options.gravity = `${scene.gravity}m/s2`;
     }
     if (scene.tilt > 0) {
