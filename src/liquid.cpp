@@ -9,10 +9,9 @@
 //   to 60 mN/m.
 #include "droplet/liquid.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "droplet/error.h"
+#include "entry_named.h"
 #include "require.h"
 
 namespace droplet {
@@ -34,16 +33,7 @@ const std::vector<Liquid>& liquids()
 
 const Liquid& liquidNamed(std::string_view name)
 {
-    const auto& known = liquids();
-    const auto found = std::find_if(known.begin(), known.end(), [&](const Liquid& l) { return l.name == name; });
-    if (found != known.end()) {
-        return *found;
-    }
-    std::string names;
-    for (const Liquid& liquid : known) {
-        names += (names.empty() ? "" : ", ") + liquid.name;
-    }
-    throw Error(ErrorCode::InvalidArgument, "'" + std::string(name) + "' is not a known liquid; known: " + names);
+    return entryNamed(liquids(), name, "liquid");
 }
 
 std::optional<double> capillaryLength(const Liquid& liquid, double gravity)

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "droplet/error.h"
 #include "droplet/units.h"
+#include "entry_named.h"
 
 namespace droplet {
 namespace {
@@ -186,15 +186,7 @@ const std::vector<FlowPreset>& flowPresets()
 
 const FlowPreset& flowPresetNamed(std::string_view name)
 {
-    std::string known;
-    for (const FlowPreset& preset : flowPresets()) {
-        if (preset.name == name) {
-            return preset;
-        }
-        known += (known.empty() ? "" : ", ") + preset.name;
-    }
-    throw Error(ErrorCode::InvalidArgument,
-                "preset is '" + std::string(name.substr(0, 40)) + "', must be one of " + known);
+    return entryNamed(flowPresets(), name, "preset");
 }
 
 }  // namespace droplet

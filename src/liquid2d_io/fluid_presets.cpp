@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/liquid2d_io/fluid_presets.h"
 
-#include <fmt/core.h>
-
-#include "droplet/error.h"
+#include "entry_named.h"
 
 namespace droplet {
 namespace {
@@ -103,14 +101,7 @@ const std::vector<FluidPreset>& fluidPresets()
 
 const FluidPreset& fluidPresetNamed(std::string_view name)
 {
-    std::string names;
-    for (const FluidPreset& preset : fluidPresets()) {
-        if (preset.name == name) {
-            return preset;
-        }
-        names += (names.empty() ? "" : ", ") + preset.name;
-    }
-    throw Error(ErrorCode::InvalidArgument, fmt::format("there is no scene '{}'; there are {}", name, names));
+    return entryNamed(fluidPresets(), name, "scene");
 }
 
 }  // namespace droplet

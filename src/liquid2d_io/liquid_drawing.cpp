@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "droplet/error.h"
+#include "entry_named.h"
 #include "liquid_paths.h"
 #include "pixel_coverage.h"
 
@@ -133,14 +134,7 @@ const std::vector<LiquidLook>& liquidLooks()
 
 const LiquidLook& liquidLookNamed(std::string_view name)
 {
-    std::string names;
-    for (const LiquidLook& look : liquidLooks()) {
-        if (look.name == name) {
-            return look;
-        }
-        names += (names.empty() ? "" : ", ") + look.name;
-    }
-    throw Error(ErrorCode::InvalidArgument, fmt::format("there is no look '{}'; there are {}", name, names));
+    return entryNamed(liquidLooks(), name, "look");
 }
 
 void writeLiquidSvg(const DrawnLiquid& scene, const LiquidView& view, const LiquidLook& look, std::ostream& out)

@@ -7,12 +7,11 @@
 // In (3.4) the printed σ and δ are the same symbol. In (3.5) R is the radius of the droplet's sphere.
 #include "droplet/wind/forces.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
-#include "droplet/error.h"
+#include "entry_named.h"
 #include "require.h"
 
 namespace droplet {
@@ -231,14 +230,7 @@ const std::vector<ForcePreset>& forcePresets()
 
 const ForcePreset& forcePresetNamed(std::string_view name)
 {
-    std::string names;
-    for (const ForcePreset& preset : forcePresets()) {
-        if (preset.name == name) {
-            return preset;
-        }
-        names += (names.empty() ? "" : ", ") + preset.name;
-    }
-    throw Error(ErrorCode::InvalidArgument, "preset is '" + std::string(name) + "', must be one of " + names);
+    return entryNamed(forcePresets(), name, "preset");
 }
 
 }  // namespace droplet

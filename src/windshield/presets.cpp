@@ -9,7 +9,7 @@
 //     15 m/s     the wind exceeds gravity by g sin 45° · 1.2: hysteresis 0.5 holds droplets below 4 mm
 #include "droplet/windshield/presets.h"
 
-#include "droplet/error.h"
+#include "entry_named.h"
 
 namespace droplet {
 namespace {
@@ -41,15 +41,7 @@ const std::vector<WindshieldPreset>& windshieldPresets()
 
 const WindshieldPreset& windshieldPresetNamed(std::string_view name)
 {
-    std::string known;
-    for (const WindshieldPreset& preset : windshieldPresets()) {
-        if (preset.name == name) {
-            return preset;
-        }
-        known += (known.empty() ? "" : ", ") + preset.name;
-    }
-    throw Error(ErrorCode::InvalidArgument,
-                "preset is '" + std::string(name.substr(0, 40)) + "', must be one of " + known);
+    return entryNamed(windshieldPresets(), name, "preset");
 }
 
 }  // namespace droplet

@@ -208,7 +208,7 @@ TEST_F(Liquid2dCommand, TellsOfShortStepsAndOfLostLiquid)
 TEST_F(Liquid2dCommand, RefusesWhatCannotBeDrawn)
 {
     const std::string out = path("x%d.svg");
-    expectRefused({"liquid2d", out, "--scene", "splosh"}, 2, "there is no scene 'splosh'; there are splash, wave");
+    expectRefused({"liquid2d", out, "--scene", "splosh"}, 2, "scene is 'splosh', must be one of splash, wave");
     expectRefused({"liquid2d"}, 2, "OUTPUT");
     expectRefused({"liquid2d", path("x.gif")}, 2, "a file for every frame such as out/%04d.svg");
     expectRefused({"liquid2d", out, "--spacing", "1mm"}, 2, "--spacing needs --particles");
