@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "cli/refusal.h"
 #include "support/command.h"
 #include "support/paths.h"
-#include "cli/refusal.h"
 
 namespace droplet {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "support/command.h"
 #include "cli/refusal.h"
+#include "support/command.h"
 
 namespace droplet {
 namespace {
