@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "droplet/io/page.h"
+#include "support/base64.h"
 #include "support/command.h"
 
 namespace droplet {
@@ -39,26 +40,9 @@ std::string script(const std::string& html, const std::string& id)
     return at == std::string::npos ? "" : html.substr(begin, html.find("</script>", begin) - begin);
 }
 
-std::string decoded(const std::string& base64)
-{
-    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string bytes;
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : base64.substr(0, base64.find('='))) {
-        bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
-        count += 6;
-        if (count >= 8) {
-            count -= 8;
-            bytes += static_cast<char>(bits >> count);
-        }
-    }
-    return bytes;
-}
-
 std::string modelOf(const std::string& html)
 {
-    return decoded(script(html, "model"));
+    return testing::decodedBase64(script(html, "model"));
 }
 
 json contentOf(const std::string& html)

@@ -13,6 +13,7 @@
 
 #include "droplet/error.h"
 #include "droplet/io/report.h"
+#include "support/base64.h"
 
 namespace droplet {
 namespace {
@@ -57,23 +58,6 @@ nlohmann::json contentOf(const std::string& html)
     return nlohmann::json::parse(script(html, "content"));
 }
 
-std::string decoded(const std::string& base64)
-{
-    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string bytes;
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : base64.substr(0, base64.find('='))) {
-        bits = bits << 6 | static_cast<std::uint32_t>(digits.find(c));
-        count += 6;
-        if (count >= 8) {
-            count -= 8;
-            bytes += static_cast<char>(bits >> count);
-        }
-    }
-    return bytes;
-}
-
 std::size_t countOf(const std::string& text, const std::string& word)
 {
     std::size_t count = 0;
@@ -114,14 +98,14 @@ TEST(Page, HoldsTheModelByteForByte)
 {
     std::string glb = "glTF";
     for (int length = 0; length < 9; ++length) {
-        EXPECT_EQ(decoded(script(page({"", glb, "{}"}), "model")), glb);
+        EXPECT_EQ(testing::decodedBase64(script(page({"", glb, "{}"}), "model")), glb);
         glb += static_cast<char>(255 - 40 * length);
     }
     std::string long_glb = "glTF";
     for (int i = 0; i < 200'000; ++i) {
         long_glb += static_cast<char>(i * 7 + i / 251);
     }
-    EXPECT_EQ(decoded(script(page({"", long_glb, "{}"}), "model")), long_glb);
+    EXPECT_EQ(testing::decodedBase64(script(page({"", long_glb, "{}"}), "model")), long_glb);
 }
 
 TEST(Page, HoldsTitleAndReport)
