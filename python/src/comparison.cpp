@@ -67,7 +67,7 @@ std::variant<Options, std::string> parse(int argc, const char* const* argv)
     }
     if (const auto threads = line.value("--threads")) {
         constexpr std::size_t kMaxThreads = 1024;
-        options.threads = cli::count(*threads, kMaxThreads, "1024");
+        options.threads = cli::count(*threads, {1, kMaxThreads, "1024"});
     }
     return options;
 }
