@@ -32,8 +32,8 @@ const kNotHere = new Set(['format', 'config', 'help', 'version', 'quiet', 'verbo
 /** Options of the command's --help=json that the solver has, with their names in JavaScript. */
 function optionsOf(help) {
     return JSON.parse(help).options.filter(({ name }) => !kNotHere.has(name.slice(2)))
-        .map(({ name, group, value, kind, unit, words, text, default: usual }) =>
-            ({ name: camelCase(name.slice(2)), group, value, kind, unit, words, text: inScript(text), default: usual }));
+        .map(({ name, group, value, kind, unit, words, min, max, text, default: usual }) =>
+            ({ name: camelCase(name.slice(2)), group, value, kind, unit, words, min, max, text: inScript(text), default: usual }));
 }
 
 function textOf(option, value) {

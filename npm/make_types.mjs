@@ -70,6 +70,9 @@ export interface Option {
     words: string[];
     /** of a number; empty if it has none */
     unit: string;
+    /** least and greatest number, in SI units; null if there is none */
+    min: number | null;
+    max: number | null;
     text: string;
     default: string;
 }

@@ -212,7 +212,7 @@ class Flow(InFolder):
     def test_errors(self):
         with self.assertRaisesRegex(ds.InvalidArgument, "no droplets are asked for"):
             ds.flow(DATA / "can.glb", self.folder / "wet.glb")
-        with self.assertRaisesRegex(ds.InvalidArgument, "^wind: "):
+        with self.assertRaisesRegex(ds.InvalidArgument, "^wind_velocity: "):
             ds.flow(DATA / "can.glb", self.folder / "wet.glb", drops=3, wind_velocity=(1, 2))
         with self.assertRaises(ds.InvalidInput):
             ds.flow(self.folder / "nowhere.glb", self.folder / "wet.glb", drops=3)
