@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/flow_io/face_properties.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "droplet/error.h"
 #include "droplet/flow/scatter.h"
-#include "droplet/flow_io/face_properties.h"
 
 namespace droplet {
 namespace {
