@@ -207,6 +207,11 @@ public:
 
     void exclude(const std::vector<std::string>& names) { exclusive_.push_back(names); }
 
+    void moveWords(const char* from, std::vector<std::string> words, const char* to)
+    {
+        moved_.push_back({app_.get_option(from), std::move(words), app_.get_option(to)});
+    }
+
     void parse(int argc, const char* const* argv)
     {
         refuseEmptyValues(argc, argv);
@@ -219,11 +224,13 @@ public:
             refuse(error.what());
         }
         refuseExtras();
+        takeMovedWords();
         refuseRepetitions();
         if (!asksForText()) {
             if (const auto config = has("--config") ? value("--config") : std::nullopt) {
                 addConfig(config->text);
             }
+            dropStatedWords();
             refuseConflicts();
         }
     }
@@ -419,6 +426,45 @@ private:
         }
     }
 
+    /// Option that takes a value: the given one, or the one that its words belong to.
+    [[nodiscard]] CLI::Option* takerOf(CLI::Option* option, const std::string& text) const
+    {
+        for (const MovedWords& moved : moved_) {
+            if (moved.from == option && std::find(moved.words.begin(), moved.words.end(), text) != moved.words.end()) {
+                return moved.to;
+            }
+        }
+        return option;
+    }
+
+    void takeMovedWords()
+    {
+        for (const MovedWords& moved : moved_) {
+            const std::vector<std::string> texts = moved.from->results();
+            moved.from->clear();
+            for (const std::string& text : texts) {
+                takerOf(moved.from, text)->add_result(text);
+            }
+        }
+    }
+
+    /// Drops values that are the word by which the help states a default, where the value is not a word: `[none]`.
+    void dropStatedWords()
+    {
+        for (CLI::Option* option : app_.get_options()) {
+            if (option->get_positional() || isFlag(option) || option->count() == 0) {
+                continue;
+            }
+            const std::string usual = described(descriptions_.at(option)).usual;
+            const auto kind = valueKind(option->get_type_name());
+            const bool is_word = std::all_of(usual.begin(), usual.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+            const bool takes_words = !kind || kind->kind == "words" || kind->kind == "text" || kind->kind == "path";
+            if (is_word && !takes_words && option->results().back() == usual) {
+                option->clear();
+            }
+        }
+    }
+
     void refuseRepetitions() const
     {
         for (const CLI::Option* option : app_.get_options()) {
@@ -456,8 +502,9 @@ private:
             return app_.get_option(other)->count() > 0 && origins_.find(other) == origins_.end();
         };
         for (const auto& group : exclusive_) {
-            if (std::find(group.begin(), group.end(), name) != group.end()) {
-                return std::any_of(group.begin(), group.end(), given);
+            if (std::find(group.begin(), group.end(), name) != group.end() &&
+                std::any_of(group.begin(), group.end(), given)) {
+                return true;
             }
         }
         return given(name);
@@ -467,7 +514,8 @@ private:
     {
         for (const ConfigEntry& entry : readConfig(path)) {
             const std::string origin = " (" + path + ":" + std::to_string(entry.line) + ")";
-            CLI::Option* const option = entry.key.size() > 1 ? app_.get_option_no_throw("--" + entry.key) : nullptr;
+            CLI::Option* option = entry.key.size() > 1 ? app_.get_option_no_throw("--" + entry.key) : nullptr;
+            option = option == nullptr ? nullptr : takerOf(option, entry.value);
             const std::string name = option == nullptr ? "--" + entry.key : nameOf(option);
             if (option == nullptr || name == "--config" || name == "--help" || name == "--version") {
                 const std::string known = option == nullptr ? nearest(name) : "";
@@ -478,6 +526,10 @@ private:
                 requireBoolean({entry.value, name + origin});
             }
             if (!isOverridden(name)) {
+                if (option->count() > 0) {
+                    refuse("--config: " + path + ":" + std::to_string(entry.line) + ": '" + entry.key + "' gives " +
+                           name + " a second time");
+                }
                 option->add_result(entry.value);
                 origins_[name] = origin;
             }
@@ -499,10 +551,18 @@ private:
         }
     }
 
+    /// Words that are values of another option than the one that they may be given to.
+    struct MovedWords {
+        CLI::Option* from;
+        std::vector<std::string> words;
+        CLI::Option* to;
+    };
+
     CommandText text_;
     CLI::App app_;
     std::string arguments_;  ///< names of the arguments, for messages
     std::vector<std::vector<std::string>> exclusive_;
+    std::vector<MovedWords> moved_;
     std::unordered_set<const CLI::Option*> lists_;
     std::unordered_map<const CLI::Option*, std::string> descriptions_;  ///< as declared
     std::unordered_map<const CLI::Option*, OptionTarget> targets_;
@@ -536,10 +596,7 @@ void CommandLine::add(const char* group, const char* names, const char* type, co
 
 void CommandLine::add(const char* group, const char* names, const std::string& description, OptionTarget target)
 {
-    std::string type;
-    for (const std::string& word : target.words) {
-        type += (type.empty() ? "" : "|") + word;
-    }
+    const std::string type = target.words;
     parser_->add(group, names, type.c_str(), description, std::move(target));
 }
 
@@ -566,6 +623,11 @@ void CommandLine::addArguments(const char* name, const std::string& description)
 void CommandLine::exclude(const std::vector<std::string>& names)
 {
     parser_->exclude(names);
+}
+
+void CommandLine::moveWords(const char* from, const std::vector<std::string>& words, const char* to)
+{
+    parser_->moveWords(from, words, to);
 }
 
 void CommandLine::parse(int argc, const char* const* argv)

@@ -24,6 +24,9 @@ struct CommandText {
 
 /// Options from the command line and the configuration file; the command line takes precedence.
 ///
+/// Precedence and exclusion hold for options by all their names. A word by which the help states the default of a value
+/// that is not a word, such as `[none]`, may be given, and means the default.
+///
 /// A command declares its options, each with the variable that it is read into or without, parses, and then reads.
 /// Every option but a flag takes one value, and may be given once.
 class CommandLine {
@@ -35,8 +38,7 @@ public:
 
     /// Declares an option with a value.
     /// @param group        heading in the help
-    /// @param names        such as `--width` or `-j,--threads`; after a comma also an earlier name, `--new,--old`,
-    /// which
+    /// @param names        such as `--width` or `-j,--threads`; after a comma also an earlier name, `--new,--old`, that
     ///                     stays accepted and is not shown
     /// @param type         name of the value in the help, or the allowed words: `LENGTH`, `linear|exact`, `V|every`
     /// @param description  ends with the default value, in brackets
@@ -58,6 +60,9 @@ public:
     void addArguments(const char* name, const std::string& description);
     /// Declares that at most one of these options may be given.
     void exclude(const std::vector<std::string>& names);
+
+    /// Declares that these words, given to one option, are values of another.
+    void moveWords(const char* from, const std::vector<std::string>& words, const char* to);
 
     /// Parses the command line, and reads the configuration file that --config names.
     /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed

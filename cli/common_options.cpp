@@ -12,7 +12,7 @@ namespace cli {
 
 void declareCommon(CommandLine& line, const char* group, const std::string& example)
 {
-    line.add(group, "-j,--threads", "N", "Maximum number of threads [all cores]");
+    line.add(group, "-j,--threads", "N", "Maximum number of threads [all cores]", within(1, kMaxThreads));
     line.addFlag(group, "-q,--quiet", "Print only errors");
     line.add(group, "--config", "FILE",
              "Read options from a TOML file with lines such as " + example + "; the command line takes precedence");
@@ -62,7 +62,6 @@ std::optional<std::string> requestedText(const CommandLine& line)
 
 std::optional<std::size_t> readThreads(const CommandLine& line)
 {
-    constexpr std::size_t kMaxThreads = 1024;  // more than any machine this runs on
     const auto threads = line.value("--threads");
     return threads ? std::optional(count(*threads, {1, kMaxThreads, "1024"})) : std::nullopt;
 }

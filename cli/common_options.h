@@ -12,6 +12,8 @@
 
 namespace cli {
 
+inline constexpr std::size_t kMaxThreads = 1024;  // more than any machine this runs on
+
 enum class Verbosity { Quiet, Normal, Verbose };
 
 enum class ProgressMode {
@@ -31,6 +33,10 @@ struct RunOptions {
     /// Progress to show: none of a quiet run that does not ask for it.
     [[nodiscard]] ProgressMode shownProgress() const;
 };
+
+inline constexpr NumberRange kFrameRate{1.0, 1000.0, "a number from 1 to 1000"};
+/// Range of the thickness of water that is white in a texture.
+inline constexpr Range kMapThickness{droplet::Dimension::Length, 1e-6, 1.0, "from 1um to 1m"};
 
 /// Declares --threads, --quiet, --config, --help and --version.
 /// @param example  line of a configuration file, for the help

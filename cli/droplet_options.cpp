@@ -27,7 +27,8 @@ constexpr Range kTension{Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m t
 constexpr Range kDensity{Dimension::Density, 0.0, 1e6, "from 0kg/m3 to 1e6kg/m3"};
 constexpr Range kGravity{Dimension::Acceleration, -1e6, 1e6, "from -1e6m/s2 to 1e6m/s2"};
 constexpr Range kHalfTurn{Dimension::Angle, 0.0, std::numbers::pi, "from 0deg to 180deg"};
-constexpr NumberRange kThreshold{std::numeric_limits<double>::min(), 1.0 - std::numeric_limits<double>::epsilon(),
+constexpr NumberRange kThreshold{std::numeric_limits<double>::denorm_min(),
+                                 1.0 - 0.5 * std::numeric_limits<double>::epsilon(),
                                  "a number over 0 and under 1, such as 0.5"};
 constexpr NumberRange kSpeckSize{0.0, std::numeric_limits<double>::max(), "a number of square pixels, at least 0"};
 constexpr Range kDirection{Dimension::Angle, -2 * std::numbers::pi, 2 * std::numbers::pi, "from -360deg to 360deg"};
@@ -137,7 +138,7 @@ void readSegment(const CommandLine& line, FootprintOptions& options)
     }
     options.mask.accept_any = line.value("--threshold").has_value();
     const auto colour = line.value("--colour");
-    if (colour && !isPreviewColour(colour->text)) {
+    if (colour) {
         if (segment) {
             refuse("--segment and --colour exclude each other, give one of them");
         }
@@ -303,7 +304,7 @@ void declareFootprint(CommandLine& line, FootprintOptions& options)
 
 void declareGap(CommandLine& line, const char* group)
 {
-    line.add(group, "--gap", "LENGTH", "Dry width between neighbours for --by-colour [none]");
+    line.add(group, "--gap", "LENGTH", "Dry width between neighbours for --by-colour [none]", within(kLength));
 }
 
 void declareByColour(CommandLine& line)
@@ -314,7 +315,8 @@ void declareByColour(CommandLine& line)
         "Make one droplet for each region of one colour, in that colour; neighbours share their boundary. Dry is "
         "what is transparent, else the border's colour if 95 % of the border has it; --channel alpha: only what "
         "is transparent; --channel luma: the border's most common colour");
-    line.add(kGroup, "--colours", "K|auto", "Number of colours for --by-colour, 1 to 64 [auto]");
+    line.add(kGroup, "--colours", "K|auto", "Number of colours for --by-colour, 1 to 64 [auto]",
+             within(1, droplet::kMaxColours));
     declareGap(line, kGroup);
     for (const char* other :
          {"--segment", "--colour", "--threshold", "--invert", "--smooth", "--fill-holes", "--keep"}) {
@@ -348,7 +350,10 @@ void declareLiquid(CommandLine& line, DropletSettings& settings)
     line.add(kGroup, "--height", "LENGTH",
              "Amount of liquid, by its largest height; if two droplets have it, the one with less liquid",
              within(kLength));
-    line.add(kGroup, "--fill", "each: every droplet gets this amount; total: all droplets share it at one pressure",
+    const bool is_sequence = line.knows("--volume-mode");
+    line.add(kGroup, "--fill",
+             std::string("each: every droplet gets this amount; total: all droplets share it at one pressure") +
+                 (is_sequence ? " [total with --volume-mode total, else each]" : ""),
              into(solve.fill.sharing, {{"each", droplet::FillSharing::Each}, {"total", droplet::FillSharing::Total}}));
     line.add(kGroup, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");
     line.add(kGroup, "--surface-tension", "S", "Surface tension, instead of the liquid's own", within(kTension));
@@ -378,7 +383,8 @@ void declareGround(CommandLine& line, DropletSettings& settings)
              "x, y or an angle; R < 0 is a bowl or a gutter [flat]");
     line.add(
         kGroup, "--surface-depth", "LENGTH",
-        "Height of white above black in the height map; samples that are floating-point numbers are metres without it");
+        "Height of white above black in the height map; samples that are floating-point numbers are metres without it",
+        within(kLength));
     line.addFlag(kGroup, "--no-penetration",
                  "Keep the liquid above the ground; where it would sink in, the ground stays dry",
                  solve.no_penetration);
@@ -399,12 +405,12 @@ void declareSurface(CommandLine& line, DropletSettings& settings)
              into(mesh.triangles, {1, kMaxTriangles, "100M, such as 5000, 5k or 1M"}));
     line.add(kGroup, "--edge", "LENGTH", "Edge length of the triangles, instead of --triangles",
              into(mesh.edge, kLength));
-    line.add(kGroup, "--grading",
-             "Largest edge length far from the rim, as a multiple of the length at the rim; auto: 1, or 64 in puddles "
-             "where gravity flattens all but the rim",
-             into<std::optional<int>>(
-                 mesh.grading,
-                 {{"auto", std::nullopt}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}}));
+    line.add(
+        kGroup, "--grading",
+        "Largest edge length far from the rim, as a multiple of the length at the rim; auto: 1, or 64 in puddles "
+        "where gravity flattens all but the rim",
+        into(mesh.grading,
+             {{"auto", std::nullopt}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}}));
     line.addFlag(kGroup, "--open", "Leave out the base", settings.droplet.open);
     line.add(kGroup, "--material", "water|ink|mercury|honey|plain",
              "Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own]");
@@ -421,7 +427,7 @@ void declareRun(CommandLine& line)
     line.add(kGroup, "--solver", "auto|llt|multigrid",
              "Solver of the linear system: llt is Eigen's factorisation, multigrid iterates; auto takes llt for "
              "linear models of up to 25,000 unknowns and for small or irregular meshes [auto]");
-    line.add(kGroup, "-j,--threads", "N", "Maximum number of threads [all cores]");
+    line.add(kGroup, "-j,--threads", "N", "Maximum number of threads [all cores]", within(1, kMaxThreads));
     line.addFlag(kGroup, "-q,--quiet", "Print only errors, and warnings of results that cannot be right");
     line.addFlag(kGroup, "-v,--verbose", "Print more: every droplet, times, memory");
     line.add(
@@ -433,11 +439,6 @@ void declareRun(CommandLine& line)
     line.addFlag(kGroup, "-h,--help", "Print this help; --help=json prints it for programs");
     line.addFlag(kGroup, "--version", "Print the version");
     line.exclude({"--quiet", "--verbose"});
-}
-
-bool isPreviewColour(const std::string& text)
-{
-    return text == "look" || text == "contours" || text == "contact-angle";
 }
 
 void readFootprint(const CommandLine& line, FootprintOptions& options)

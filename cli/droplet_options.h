@@ -76,9 +76,6 @@ void declareRun(CommandLine& line);
 
 // All read functions throw droplet::Error InvalidArgument, naming option, value and what is allowed.
 
-/// Whether a value of --colour belongs to --preview-colour, which was called --colour before.
-bool isPreviewColour(const std::string& text);
-
 void readFootprint(const CommandLine& line, FootprintOptions& options);
 /// Reads --by-colour and the options that go with it, as far as the command has them; nothing without --by-colour.
 /// @param warnings  receives warnings about options without effect

@@ -30,7 +30,6 @@ constexpr Range kSpacing{Dimension::Length, 1e-4, 1.0, "from 0.1mm to 1m"};
 constexpr Range kTime{Dimension::Duration, 1e-3, 86400.0, "from 1ms to 24h"};
 constexpr Range kPlace{Dimension::Length, -1e3, 1e3, "from -1000m to 1000m"};
 constexpr Range kSpeed{Dimension::Speed, -150.0, 150.0, "from -150m/s to 150m/s"};
-constexpr Range kMapThickness{Dimension::Length, 1e-6, 1.0, "from 1um to 1m"};
 constexpr Range kTurn{Dimension::Angle, -1e4, 1e4, "an angle in a second, such as 30deg/s"};
 
 std::string presetNames()
@@ -96,7 +95,7 @@ void declare(CommandLine& line, FlowOptions& options)
              into(options.drops, {0, 1'000'000, "1M"}));
     line.add(kSources, "--volume", "VOLUME", "Volume of scattered and emitted droplets, the median",
              into(options.volumes.median, kVolume));
-    line.add(kSources, "--radius", "LENGTH", "Contact radius instead of --volume");
+    line.add(kSources, "--radius", "LENGTH", "Contact radius instead of --volume", within(kRadius));
     line.exclude({"--volume", "--radius"});
     line.add(kSources, "--volume-spread", "NUMBER",
              "Spread of the volumes: standard deviation of their logarithm, 0 to 3",
@@ -110,10 +109,11 @@ void declare(CommandLine& line, FlowOptions& options)
              "velocity_x_m_per_s, velocity_y_m_per_s, velocity_z_m_per_s",
              into(options.start));
     line.addList(kSources, "--emitter", "X,Y,Z,RATE", "Release droplets at a place, such as 0,0.1,0,50uL/s");
-    line.add(kSources, "--rain", "RAINFALL", "Rain, with the drop sizes of Marshall and Palmer [0mm/h]");
-    line.add(kSources, "--condensation", "RAINFALL",
-             "Dew: growth of the water's mean thickness, such as 5mm/h [0mm/h]");
-    line.add(kSources, "--dew-spacing", "LENGTH", "Mean distance of new droplets of dew on a dry surface [3mm]");
+    line.add(kSources, "--rain", "RAINFALL", "Rain, with the drop sizes of Marshall and Palmer [0mm/h]", within(kRain));
+    line.add(kSources, "--condensation", "RAINFALL", "Dew: growth of the water's mean thickness, such as 5mm/h [0mm/h]",
+             within(kRain));
+    line.add(kSources, "--dew-spacing", "LENGTH", "Mean distance of new droplets of dew on a dry surface [3mm]",
+             within(kSpacing));
     constexpr const char* kMotion = "Motion";
     line.add(
         kMotion, "--retention,--model",
@@ -122,9 +122,9 @@ void declare(CommandLine& line, FlowOptions& options)
     line.add(kMotion, "--hysteresis", "NUMBER",
              "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle",
              into(parameters.forces.wetting.hysteresis, {0.0, 2.0, "a number from 0 to 2"}));
-    line.add(kMotion, "--friction", "F", "Viscous friction in kg/s instead of --viscosity-factor");
+    line.add(kMotion, "--friction", "F", "Viscous friction in kg/s instead of --viscosity-factor", within(0.0, 1e3));
     line.add(kMotion, "--roughness", "LENGTH",
-             "Height of the surface's bumps; those of a droplet's height hold it [0mm]");
+             "Height of the surface's bumps; those of a droplet's height hold it [0mm]", within(kBump));
     line.add(kMotion, "--roughness-map", "FILE",
              "Picture over the object's texture coordinates: black is smooth, white has bumps of --roughness",
              into(options.roughness_map));
@@ -134,7 +134,8 @@ void declare(CommandLine& line, FlowOptions& options)
     line.addList(kMotion, "--ground", "NAME:VALUES",
                  "Properties of a material of the object: roughness, and factors on friction and hysteresis, such as "
                  "Glass:roughness=0.1mm,friction=2,hysteresis=0.5");
-    line.add(kMotion, "--adhesion", "P", "Pressure in Pa that holds droplets to the surface [by surface tension]");
+    line.add(kMotion, "--adhesion", "P", "Pressure in Pa that holds droplets to the surface [by surface tension]",
+             within(0.0, 1e12));
     line.add(kMotion, "--gravity-direction", "X,Y,Z", "Direction of gravity [0,-1,0]");
     line.add(kMotion, "--wind-velocity,--wind", "X,Y,Z", "Wind, which pushes droplets along the surface [0,0,0]");
     line.addFlag(kMotion, "--no-merge", "Droplets that touch stay apart");
@@ -149,7 +150,7 @@ void declare(CommandLine& line, FlowOptions& options)
     constexpr const char* kTimes = "Time";
     line.add(kTimes, "--time", "DURATION", "Time to show [5s]", into(options.duration, kTime));
     line.add(kTimes, "--fps", "RATE", "Frames per second; they do not change the paths",
-             into(options.frames_per_second, {1.0, 1000.0, "a number from 1 to 1000"}));
+             into(options.frames_per_second, kFrameRate));
     line.add(kTimes, "--seed", "N", "Random seed", seedInto(parameters.seed));
     constexpr const char* kOut = "Output";
     line.add(kOut, "--shape",

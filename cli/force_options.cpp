@@ -83,8 +83,8 @@ void declareForces(CommandLine& line, droplet::ForceModel& model)
     line.add(kAir, "--air-density", "D", "Density of the air", into(model.air.density, kAirDensity));
     constexpr const char* kLiquid = "Liquid";
     line.add(kLiquid, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");
-    line.add(kLiquid, "--surface-tension", "S", "Surface tension, instead of the liquid's own");
-    line.add(kLiquid, "--density", "D", "Density, instead of the liquid's own");
+    line.add(kLiquid, "--surface-tension", "S", "Surface tension, instead of the liquid's own", within(kTension));
+    line.add(kLiquid, "--density", "D", "Density, instead of the liquid's own", within(kDensity));
     line.add(kLiquid, "--gravity", "G", "Gravity, downwards", into(model.gravity, kGravity));
 }
 

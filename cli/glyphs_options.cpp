@@ -13,6 +13,8 @@ namespace {
 
 constexpr const char* kUsage = "usage: droplet-shape glyphs --font FILE --text TEXT -o OUTPUT, more with --help";
 
+const CountRange kIndex{0, 65535, "65535"};  // limit of FreeType
+
 const CommandText& commandText()
 {
     static const CommandText text{
@@ -42,7 +44,7 @@ void declare(CommandLine& line, GlyphsOptions& options)
 {
     constexpr const char* kGroup = "Type";
     line.add(kGroup, "--font", "FILE", "Font: TrueType, OpenType, a collection, WOFF or Type 1");
-    line.add(kGroup, "--face-index", "N", "Index of the font in a collection [0]");
+    line.add(kGroup, "--face-index", "N", "Index of the font in a collection", into(options.face.face_index, kIndex));
     line.addList(kGroup, "--axis", "AXIS", "Axis of a variable font, such as wght=700; may be given several times");
     line.add(kGroup, "--text", "TEXT", "Write this text to one file; \\n begins a new line, \\\\ is a backslash");
     line.add(kGroup, "--charset", "SET",
@@ -67,7 +69,7 @@ void declare(CommandLine& line, GlyphsOptions& options)
     line.addFlag(kGroup, "--by-colour",
                  "Make one droplet for each area of one colour, in that colour, of glyphs with colour layers (COLR); "
                  "neighbours share their boundary");
-    line.add(kGroup, "--palette", "N", "Palette of the font for --by-colour [0]");
+    line.add(kGroup, "--palette", "N", "Palette of the font for --by-colour", into(options.face.palette, kIndex));
     line.add(kGroup, "--text-colour", "COLOUR",
              "Colour for --by-colour of glyphs and layers that have none of their own; white is clear liquid [white]");
     declareGap(line, kGroup);
@@ -81,16 +83,10 @@ void declare(CommandLine& line, GlyphsOptions& options)
     declareRun(line);
 }
 
-constexpr std::size_t kMaxIndex = 65535;  // limit of FreeType
-
-droplet::FontOptions readFace(const CommandLine& line)
+void readFace(const CommandLine& line, droplet::FontOptions& face)
 {
-    droplet::FontOptions face;
-    if (const auto given = line.value("--face-index")) {
-        face.face_index = count(*given, {0, kMaxIndex, "65535"});
-    }
-    if (const auto given = line.value("--palette"); given && line.flag("--by-colour")) {
-        face.palette = count(*given, {0, kMaxIndex, "65535"});
+    if (!line.flag("--by-colour")) {
+        face.palette = 0;
     }
     for (const Given& axis : line.values("--axis")) {
         const auto equals = axis.text.find('=');
@@ -101,7 +97,6 @@ droplet::FontOptions readFace(const CommandLine& line)
         }
         face.axes.push_back({axis.text.substr(0, equals), *value});
     }
-    return face;
 }
 
 /// Replaces `\n` by line feeds and `\\` by backslashes.
@@ -179,7 +174,7 @@ void refuseInapplicable(const CommandLine& line, bool is_text)
     }
     for (const char* option : {"--align", "--line-spacing", "--onto", "--preview", "--view", "--preview-size",
                                "--ground", "--camera", "--environment", "--preview-background", "--preview-colour",
-                               "--colour", "--turntable", "--codec", "--quality", "--html"}) {
+                               "--turntable", "--codec", "--quality", "--html"}) {
         if (line.value(option)) {
             clash(option, "--text alone");
         }
@@ -203,7 +198,7 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
     }
     line.read();
     options.font = font->text;
-    options.face = readFace(line);
+    readFace(line, options.face);
     if (const auto colour = line.value("--text-colour")) {
         options.type.glyph.text_colour =
             forOption(colour->subject, [&] { return droplet::parseCssColour(colour->text); });

@@ -91,8 +91,7 @@ void declare(CommandLine& line, Liquid2dOptions& options)
     line.exclude({"--scene", "--particles"});
     constexpr const char* kTimes = "Time";
     line.add(kTimes, "--time", "DURATION", "Time to show [the scene's]", into(options.duration, kTime));
-    line.add(kTimes, "--fps", "RATE", "Frames per second",
-             into(options.frames_per_second, {1.0, 1000.0, "a number from 1 to 1000"}));
+    line.add(kTimes, "--fps", "RATE", "Frames per second", into(options.frames_per_second, kFrameRate));
     constexpr const char* kSurface = "Surface";
     line.add(kSurface, "--style", "realistic|cartoon|wave",
              "Starting point of these controls: cartoon has tails, wave also hollows crests [the scene's, or cartoon]");
@@ -124,7 +123,8 @@ void declare(CommandLine& line, Liquid2dOptions& options)
     line.add(kOut, "--frame-width,--width", "N", "Width of drawings and masks in pixels, up to 16384",
              into(options.width, {16, 16384, "16384"}));
     line.add(kOut, "--look", lookNames().c_str(), "Colours and lines [comic; flat for realistic]");
-    line.add(kOut, "--line-width", "NUMBER", "Width of outlines, in thousandths of the drawing's width");
+    line.add(kOut, "--line-width", "NUMBER", "Width of outlines, in thousandths of the drawing's width",
+             within(0.0, 50.0));
     line.add(kOut, "--masks", "PATH",
              "Masks of all frames, such as masks/%04d.png; - writes them to standard output, for animate");
     declareVideoEncoding(line, kOut);

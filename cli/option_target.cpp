@@ -85,9 +85,14 @@ OptionTarget into(std::string& text)
     return {[&text](const Given& given) { text = given.text; }, text};
 }
 
+OptionTarget within(double min, double max)
+{
+    return {.read = {}, .usual = {}, .words = {}, .range = std::array{min, max}};
+}
+
 OptionTarget within(const Range& range)
 {
-    return {.read = {}, .usual = {}, .words = {}, .range = std::array{range.min, range.max}};
+    return within(range.min, range.max);
 }
 
 OptionTarget withoutDefault(OptionTarget target)

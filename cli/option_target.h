@@ -25,7 +25,7 @@ struct OptionTarget {
     /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
     std::function<void(const Given&)> read;
     std::string usual = {};                           ///< default value as text; empty if there is none
-    std::vector<std::string> words = {};              ///< all allowed words; empty for other values
+    std::string words = {};                           ///< all allowed words, `linear|exact`; empty for other values
     std::optional<std::array<double, 2>> range = {};  ///< least and greatest value, in SI units
 };
 
@@ -40,6 +40,9 @@ OptionTarget into(double& value, const Range& range);
 OptionTarget into(double& value, const NumberRange& range);
 OptionTarget into(std::string& text);
 /// Target without a variable, for an option that the command reads by itself: its range for --help=json.
+/// @param min  least value, in SI units
+/// @param max  greatest value, in SI units
+OptionTarget within(double min, double max);
 OptionTarget within(const Range& range);
 /// The same target for an option whose default the help does not show, as it only switches something off.
 OptionTarget withoutDefault(OptionTarget target);
@@ -73,28 +76,16 @@ OptionTarget into(std::optional<Value>& value, const Allowed&... allowed)
     return target;
 }
 
-/// Target of a value that has a name.
+/// Target of a value that has a name; of an optional one, the default has a name only if it is among these.
 template <typename Value>
 OptionTarget into(Value& value, std::initializer_list<std::pair<const char*, std::type_identity_t<Value>>> known)
 {
     OptionTarget target;
     for (const auto& [name, one] : known) {
-        target.words.emplace_back(name);
+        target.words += (target.words.empty() ? "" : "|") + std::string(name);
         if (one == value) {
             target.usual = name;
         }
-    }
-    target.read = [&value, known = std::vector(known)](const Given& given) { value = choiceOf(given, known); };
-    return target;
-}
-
-template <typename Value>
-OptionTarget into(std::optional<Value>& value,
-                  std::initializer_list<std::pair<const char*, std::type_identity_t<Value>>> known)
-{
-    OptionTarget target;
-    for (const auto& [name, one] : known) {
-        target.words.emplace_back(name);
     }
     target.read = [&value, known = std::vector(known)](const Given& given) { value = choiceOf(given, known); };
     return target;

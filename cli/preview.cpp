@@ -137,11 +137,12 @@ void declarePreview(CommandLine& line, PreviewOf subject)
         "Equirectangular picture that lights the scene instead of lamps; EXR and HDR hold linear light, others sRGB");
     line.add("Picture", "--preview-background,--background", "ground|none",
              "none makes the preview transparent except for the droplet and its shadow [ground]");
-    line.add("Picture", "--preview-colour", "look|contours|contact-angle",
+    const bool is_taken = line.knows("--colour");
+    line.add("Picture", is_taken ? "--preview-colour" : "--preview-colour,--colour", "look|contours|contact-angle",
              "Colours of the preview: look of the material; contours of the height, or contact-angle along the rim, "
              "with a legend [look]");
-    if (!line.knows("--colour")) {
-        line.add("Picture", "--colour", "look|contours|contact-angle", "Old name of --preview-colour");
+    if (is_taken) {
+        line.moveWords("--colour", {"look", "contours", "contact-angle"}, "--preview-colour");
     }
     declareTurntable(line);
 }
@@ -150,7 +151,8 @@ void declareTurntable(CommandLine& line)
 {
     line.add("Picture", "--turntable", "N|FILE",
              "Write N previews of a full turn, FILE-001.png and so on, or one video if --preview names a .mp4, .mkv, "
-             ".mov or .webm; up to 360. A video's FILE, without --preview, gets 120");
+             ".mov or .webm; up to 360. A video's FILE, without --preview, gets 120",
+             within(1, kMaxTurns));
     declareVideoEncoding(line, "Picture");
 }
 
@@ -251,14 +253,7 @@ std::optional<PreviewOptions> readPreview(const CommandLine& line, std::vector<s
     if (ground) {
         options.ground = ground->text;
     }
-    auto colour = line.value("--preview-colour");
-    if (const auto older = line.value("--colour");
-        older && (isPreviewColour(older->text) || !line.knows("--segment"))) {
-        if (colour) {
-            refuse("--preview-colour and --colour " + older->text + " exclude each other, give one of them");
-        }
-        colour = older;
-    }
+    const auto colour = line.value("--preview-colour");
     if (colour) {
         options.colouring = choice<Colouring>(
             *colour,

@@ -11,7 +11,7 @@ namespace cli {
 void declareVideoEncoding(CommandLine& line, const char* group)
 {
     line.add(group, "--codec", "NAME", "Encoder of ffmpeg [libx264, libvpx-vp9 for .webm]");
-    line.add(group, "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]");
+    line.add(group, "--quality", "NUMBER", "Quality of the video, 1 to 100 [65]", within(1.0, 100.0));
 }
 
 VideoEncoding readVideoEncoding(const CommandLine& line, bool has_video, const std::string& needed)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 #include <utility>
 
 #include "command_line.h"
@@ -63,7 +64,7 @@ void declare(CommandLine& line, WindTunnelOptions& options, droplet::ForceModel&
     line.add(kSweep, "--hysteresis", "NUMBERS",
              "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]");
     line.add(kSweep, "--sliding-angle,--falling-angle", "ANGLE",
-             "Hysteresis, by the slope at which a droplet begins to run");
+             "Hysteresis, by the slope at which a droplet begins to run", within(kSlope));
     line.add(kSweep, "--sliding-volume,--falling-volume", "V|every",
              "Volume of the droplet that runs at --sliding-angle; every: all of them do [30uL]");
     declareForces(line, model);
@@ -152,34 +153,27 @@ void checkTrace(const CommandLine& line, const WindTunnelOptions& options)
     }
 }
 
-/// Whether no option changes the measured plane, so that results can be compared with the measurement.
-bool isAsMeasured(const CommandLine& line)
+/// Whether a sweep is of the measured plane, so that results can be compared with the measurement.
+bool isAsMeasured(const droplet::TunnelSweep& swept, const droplet::ForcePreset& preset)
 {
-    for (const char* option :
-         {"--slope", "--hysteresis", "--sliding-angle", "--contact-angle", "--drag-coefficient", "--boundary-layer",
-          "--profile-exponent", "--air-density", "--liquid", "--surface-tension", "--density", "--gravity"}) {
-        if (line.value(option)) {
-            return false;
-        }
-    }
-    return true;
+    const auto of = [](const droplet::ForceModel& model) {
+        return std::tie(model.liquid, model.air, model.wetting.contact_angle, model.gravity);
+    };
+    return of(swept.model) == of(preset.model) && swept.slopes == std::vector{preset.slope} && swept.hystereses.empty();
 }
 
-std::optional<droplet::WindBand> measuredBand(const CommandLine& line)
+/// Band of --measured.
+droplet::WindBand measuredBand(const Given& given)
 {
-    const auto given = line.value("--measured");
-    if (!given) {
-        return isAsMeasured(line) ? std::optional(droplet::kMeasuredStillBand) : std::nullopt;
-    }
     const std::string allowed = "two wind speeds, such as 7..11m/s, the first over 0m/s, the second larger";
-    const auto dots = given->text.find("..");
-    if (dots == std::string::npos || given->text.find(',') != std::string::npos) {
-        refuse(*given, allowed);
+    const auto dots = given.text.find("..");
+    if (dots == std::string::npos || given.text.find(',') != std::string::npos) {
+        refuse(given, allowed);
     }
-    const std::string list = given->text.substr(0, dots) + "," + given->text.substr(dots + 2);
-    const std::vector<double> winds = quantities({list, given->subject}, kWind);
+    const std::string list = given.text.substr(0, dots) + "," + given.text.substr(dots + 2);
+    const std::vector<double> winds = quantities({list, given.subject}, kWind);
     if (winds.size() != 2 || !(winds[0] > 0.0) || !(winds[1] > winds[0])) {
-        refuse(*given, allowed);
+        refuse(given, allowed);
     }
     return droplet::WindBand{winds[0], winds[1]};
 }
@@ -236,12 +230,17 @@ droplet::TunnelRun runOf(const CommandLine& line, const droplet::ForcePreset& pr
     if (const auto hystereses = line.value("--hysteresis")) {
         swept.hystereses = numbers(*hystereses, kHysteresis);
     }
-    if (preset.sliding_angle && isAsMeasured(line)) {
+    const bool is_as_measured = isAsMeasured(swept, preset) && !line.value("--sliding-angle");
+    if (preset.sliding_angle && is_as_measured) {
         run.sliding_angle = preset.sliding_angle;
         run.sliding_volume = preset.reference_volume;
     }
     readFallingAngle(line, run);
-    run.measured = measuredBand(line);
+    if (const auto measured = line.value("--measured")) {
+        run.measured = measuredBand(*measured);
+    } else if (is_as_measured) {
+        run.measured = droplet::kMeasuredStillBand;
+    }
     return run;
 }
 

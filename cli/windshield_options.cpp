@@ -33,12 +33,10 @@ constexpr Range kNoise{Dimension::Acceleration, 0.0, 1e3, "from 0m/s2 to 1000m/s
 constexpr Range kFilm{Dimension::Length, 0.0, 1e-3, "from 0mm to 1mm"};
 constexpr Range kTime{Dimension::Duration, 1e-3, 86400.0, "from 1ms to 24h"};
 constexpr Range kWarmUp{Dimension::Duration, 0.0, 86400.0, "from 0s to 24h"};
-constexpr NumberRange kFrameRate{1.0, 1000.0, "a number from 1 to 1000"};
 constexpr Range kPeriod{Dimension::Duration, 1.2, 60.0, "from 1.2s to 60s"};
 constexpr Range kView{Dimension::Angle, kDegree, 150.0 * kDegree, "from 1deg to 150deg"};
 constexpr Range kBlur{Dimension::Angle, 0.0, 20.0 * kDegree, "from 0deg to 20deg"};
 constexpr Range kPlace{Dimension::Length, -100.0, 100.0, "from -100m to 100m each"};
-constexpr Range kMapThickness{Dimension::Length, 1e-6, 1.0, "from 1um to 1m"};
 constexpr Range kEye{Dimension::Length, 0.01, 100.0, "from 10mm to 100m"};
 
 const CommandText& commandText()
@@ -67,11 +65,14 @@ void declare(CommandLine& line, WindshieldOptions& options)
                      "Frames, such as out/%05d.png; a video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; or a .png "
                      "of the last frame");
     constexpr const char* kCar = "Car and rain";
-    line.add(kCar, "--preset", "figure-3.10|figure-3.11|figure-3.12", "Named set of default values, of the thesis",
-             into(options.preset));
+    line.add(
+        kCar, "--preset", "figure-3.10|figure-3.11|figure-3.12",
+        "Named set of values, of the thesis, with its capsules for droplets; without it those of figure-3.12, with "
+        "capillary droplets",
+        withoutDefault(into(options.preset)));
     line.add(kCar, "--rain", "RAINFALL", "Rainfall, with the drop sizes of Marshall and Palmer",
              into(options.parameters.rainfall, kRain));
-    line.add(kCar, "--speed", "SPEED", "Speed of the car in still air [by preset]");
+    line.add(kCar, "--speed", "SPEED", "Speed of the car in still air [by preset]", within(kSpeed));
     line.add(kCar, "--drive-cycle", "FILE",
              "Speed over time: CSV with the columns time_s and speed_m_per_s or speed_km_per_h",
              into(options.drive_cycle));
@@ -99,7 +100,8 @@ void declare(CommandLine& line, WindshieldOptions& options)
              into(options.surface));
     constexpr const char* kDroplets = "Droplets";
     line.add(kDroplets, "--hysteresis", "NUMBER",
-             "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]");
+             "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]",
+             within(0.0, 2.0));
     line.add(kDroplets, "--still-diameter", "LENGTH", "Raindrops smaller than this never move",
              into(options.parameters.still_diameter, kStill));
     line.add(kDroplets, "--film", "LENGTH", "Thickness of the film that running droplets leave behind",

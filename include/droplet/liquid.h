@@ -16,6 +16,8 @@ struct Liquid {
     double surface_tension = 0.0728;  ///< σ [N/m], > 0
     double density = 998.2;           ///< ρ [kg/m³], ≥ 0
 
+    friend bool operator==(const Liquid&, const Liquid&) = default;  ///< Compares all members.
+
     /// Checks that every field is in its documented range.
     /// @throws Error InvalidArgument
     void validate() const;

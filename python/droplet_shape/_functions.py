@@ -491,7 +491,7 @@ def animate(
       volume [m³]: Amount of liquid, by its volume
       height [m]: Amount of liquid, by its largest height; if two droplets have it, the one with less liquid
       fill: each, total: each: every droplet gets this amount; total: all droplets share it at one pressure (default:
-        each)
+        total with volume_mode total, else each)
       liquid: water, ethanol, glycerol, mercury, honey: Liquid, at 20 C (default: water)
       surface_tension [N/m]: Surface tension, instead of the liquid's own
       density [kg/m³]: Density, instead of the liquid's own
@@ -802,7 +802,8 @@ def windshield(
     (3, ())
 
     Car and rain:
-      preset: figure-3.10, figure-3.11, figure-3.12: Named set of default values, of the thesis (default: figure-3.12)
+      preset: figure-3.10, figure-3.11, figure-3.12: Named set of values, of the thesis, with its capsules for
+        droplets; without it those of figure-3.12, with capillary droplets
       rain [m/s]: Rainfall, with the drop sizes of Marshall and Palmer (default: 5mm/h)
       speed [m/s]: Speed of the car in still air (default: by preset)
       drive_cycle: Speed over time: CSV with the columns time_s and speed_m_per_s or speed_km_per_h

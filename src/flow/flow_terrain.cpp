@@ -29,20 +29,6 @@ std::vector<double> areasUntil(const FlowSurface& surface)
     return areas;
 }
 
-std::pair<Vec3, Vec3> boxOf(const FlowSurface& surface)
-{
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Vec3 low{kInfinity, kInfinity, kInfinity};
-    Vec3 high{-kInfinity, -kInfinity, -kInfinity};
-    for (const FlowSurface::Face& face : surface.faces) {
-        for (const Vec3 p : face.corners) {
-            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-        }
-    }
-    return {low, high};
-}
-
 double halfSizeOf(Vec3 low, Vec3 high)
 {
     return 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z});

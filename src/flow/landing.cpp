@@ -139,7 +139,7 @@ struct Landing::Scene {
     }
 };
 
-Landing::Landing(const FlowSurface& surface) : scene_(std::make_unique<Scene>())
+std::pair<Vec3, Vec3> boxOf(const FlowSurface& surface)
 {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Vec3 low{kInfinity, kInfinity, kInfinity};
@@ -150,6 +150,12 @@ Landing::Landing(const FlowSurface& surface) : scene_(std::make_unique<Scene>())
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
         }
     }
+    return {low, high};
+}
+
+Landing::Landing(const FlowSurface& surface) : scene_(std::make_unique<Scene>())
+{
+    const auto [low, high] = boxOf(surface);
     Scene& s = *scene_;
     s.faces = &surface.faces;
     s.middle = 0.5 * (low + high);

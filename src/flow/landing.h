@@ -4,11 +4,15 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "droplet/flow/flow_surface.h"
 #include "droplet/flow/leg.h"
 
 namespace droplet {
+
+/// Smallest box around all faces: its lowest and its highest corner [m].
+std::pair<Vec3, Vec3> boxOf(const FlowSurface& surface);
 
 /// Where droplets in free flight meet a surface; for any number of threads.
 class Landing {

@@ -126,7 +126,7 @@ TEST_F(PreviewTest, WarnsAboutOptionsWithoutEffect)
 {
     for (const std::vector<std::string>& option : {std::vector<std::string>{"--view", "top"},
                                                    {"--ground", "disc.pgm"},
-                                                   {"--colour", "contours"},
+                                                   {"--preview-colour", "contours"},
                                                    {"--camera", "0deg,9deg"},
                                                    {"--preview-background", "none"},
                                                    {"--environment", "disc.pgm"},
@@ -134,7 +134,7 @@ TEST_F(PreviewTest, WarnsAboutOptionsWithoutEffect)
         EXPECT_THAT(made(option).error, HasSubstr("warning: " + option[0] + " has no effect without --preview"));
     }
     EXPECT_THAT(made({"--preview", "a.png", "--colour", "contours", "--ground", "disc.pgm"}).error,
-                HasSubstr("--ground has no effect with --colour contours"));
+                HasSubstr("--ground has no effect with --preview-colour contours"));
     // With a preview, the material has an effect even if the mesh has none.
     const CommandResult stl = run({"disc.pgm", "out.stl", "--triangles", "500", "--material", "ink", "--preview",
                                    "ink.png", "--preview-size", "32x32"});

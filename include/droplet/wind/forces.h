@@ -26,6 +26,8 @@ struct Air {
     double boundary_layer = 6.8e-3;  ///< δ, thickness of the boundary layer [m], ≥ 0; 0: the full wind everywhere
     double profile_exponent = 0.5;   ///< n, from 0 to 2: ½ in the thesis, 1/7 in a turbulent layer
 
+    friend bool operator==(const Air&, const Air&) = default;  ///< Compares all members.
+
     /// Checks all fields.
     /// @throws Error InvalidArgument if a field is out of its range
     void validate() const;
