@@ -176,20 +176,20 @@ ShapeFigures measure(const CapillarySurface& surface, const SolveOptions& option
     }
     const Vec3 weight = weightOf(options);
     const SheetBase base = baseOf(surface, options.ground, weight);
-    const SheetIntegrals liquid = integrate(surface, weight);
+    const SheetIntegrals liquid = base.liquidUnder(surface, weight);
     const Reach reach = reachOf(surface, base);
     const double sigma = options.liquid.surface_tension;
     ShapeFigures figures;
     figures.footprint_area = total.footprint;
     figures.dry_area = total.dry;
-    figures.volume = liquid.volume - base.integrals.volume;
+    figures.volume = liquid.volume;
     figures.height_max = reach.above;
     figures.depth_max = reach.below;
     figures.overhang = surface.isHeightField() ? 0.0 : overhangOf(surface);
     figures.liquid_area = total.area;
     figures.linear_area = total.linear;
     figures.surface_energy = sigma * total.area;
-    figures.gravity_energy = sigma * (liquid.gravity - base.integrals.gravity);
+    figures.gravity_energy = sigma * liquid.gravity;
     figures.slope_max = std::max(total.leaning, std::atan(std::sqrt(total.slope)));
     figures.steep_area = total.steep;
     addRimFigures(surface, options, figures);

@@ -54,6 +54,9 @@ constexpr double kSteepCorner = 50.0 * kDegree;
 /// Share of the wanted contact angle below which a sheet is no droplet, and the linear model is taken.
 constexpr double kLeastShare = 0.5;
 
+/// Depth below the ground, over the height above it, beyond which a linear model is no stand-in, as on a steep ball.
+constexpr double kSunk = 0.1;
+
 /// Mean contact angle that is tried where the search for one beyond 90° ends below it: that of a fill by default [rad].
 constexpr double kModestAngle = Fill{}.amount;
 
@@ -96,12 +99,11 @@ bool mustHang(const SolveOptions& options)
 }
 
 /// Whether the linear model may stand in where no exact shape is found: for an amount that nobody asked for, on
-/// footprints as ragged as noise, where one droplet of many would refuse all that share its liquid, and on curved
-/// ground.
+/// footprints as ragged as noise, where one droplet of many would refuse all that share its liquid.
 bool hasLinear(const SolveOptions& options, bool allow_less)
 {
     const bool is_shared = options.fill.sharing == FillSharing::Total;
-    return allow_less && options.model == Model::Auto && (is_shared || !options.ground.flat()) && !mustHang(options);
+    return allow_less && options.model == Model::Auto && is_shared && !mustHang(options);
 }
 
 /// Droplets that are solved together: all at one pressure, or each for itself.
@@ -271,7 +273,12 @@ std::optional<LiquidShapes> linearStandIn(const std::vector<PlanarMesh>& meshes,
     }
     options.model = Model::Linear;
     LiquidShapes shapes{.solution = findFields(meshes, options, {}), .is_stand_in = true};
-    const bool exist = shapes.solution.report.usable() && haveLiquid(shapes.solution.droplets, options);
+    const std::vector<CapillarySurface>& fields = shapes.solution.droplets;
+    const bool exist = shapes.solution.report.usable() && haveLiquid(fields, options) &&
+                       std::all_of(fields.begin(), fields.end(), [&](const CapillarySurface& field) {
+                           const ShapeFigures figures = measure(field, options);
+                           return figures.depth_max <= kSunk * figures.height_max;
+                       });
     return exist ? std::optional(std::move(shapes)) : std::nullopt;
 }
 

@@ -12,20 +12,32 @@ namespace {
 /// Part of gravity across a wall that is none: the cosine of 90° is not exactly 0.
 constexpr double kAcross = 1e-9;
 
-/// Difference between the highest and the lowest ground under a footprint [m].
-double reliefUnder(const PlanarMesh& footprint, const BaseSurface& ground)
+/// Greatest depth of the ground below a film without weight and pressure that is spread over the rim [m]: liquid that
+/// is level with the rim is as thick. 0 over a ball, the depth of a bowl. The film of the linear model is harmonic, and
+/// affine in the pressure.
+double depthBelowRim(const PlanarMesh& footprint, const BaseSurface& ground)
 {
     if (ground.flat()) {
         return 0.0;
     }
-    double lowest = std::numeric_limits<double>::infinity();
-    double highest = -lowest;
-    for (const Vec2& place : footprint.vertices) {
-        const double height = ground.at(place).height;
-        lowest = std::min(lowest, height);
-        highest = std::max(highest, height);
+    SolveOptions options;
+    options.liquid.density = 0.0;
+    options.ground = ground;
+    options.model = Model::Linear;
+    const double volume = std::pow(area(footprint), 1.5);
+    const auto filmOf = [&](double amount) {
+        options.fill = {FillBy::Volume, amount, FillSharing::Each};
+        return solve({footprint}, options).droplets.at(0);
+    };
+    const CapillarySurface one = filmOf(volume);
+    const CapillarySurface two = filmOf(2.0 * volume);
+    const double share = one.pressure / (two.pressure - one.pressure);
+    double depth = 0.0;
+    for (std::size_t v = 0; v < one.vertices.size(); ++v) {
+        const double film = one.vertices[v].z - share * (two.vertices[v].z - one.vertices[v].z);
+        depth = std::max(depth, film - ground.at(footprint.vertices[v]).height);
     }
-    return highest - lowest;
+    return depth;
 }
 
 }  // namespace
@@ -57,7 +69,7 @@ std::optional<double> maxHeight(const std::vector<const PlanarMesh*>& footprints
     double height = 0.0;
     for (const PlanarMesh* footprint : footprints) {
         height = std::max(height, puddleHeight(options, options.fill.amount, area(*footprint)) +
-                                      reliefUnder(*footprint, options.ground));
+                                      depthBelowRim(*footprint, options.ground));
     }
     return std::isfinite(height) ? std::optional(height) : std::nullopt;
 }

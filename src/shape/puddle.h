@@ -9,8 +9,8 @@
 
 namespace droplet {
 
-/// Thickness at which the amount of a fill that stays below a puddle is reached, if it is one [m]. Relief of the ground
-/// under a footprint adds to the puddle, for liquid fills it up.
+/// Thickness at which the amount of a fill that stays below a puddle is reached, if it is one [m]. What the ground is
+/// deeper than the rim adds to the puddle, for liquid fills it up.
 /// @param footprints  of droplets at one pressure, at least one; the highest of their puddles counts
 std::optional<double> maxHeight(const std::vector<const PlanarMesh*>& footprints, const SolveOptions& options);
 

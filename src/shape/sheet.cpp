@@ -55,9 +55,6 @@ constexpr double kModestWork = 0.3;
 /// 45 % more liquid.
 constexpr double kTrialWork = 5e8;
 
-/// Clearance of ground that a sheet leaves dry, over the root of the footprint's area: round-off.
-constexpr double kTouching = 1e-12;
-
 void requireFlat(const SolveOptions& options)
 {
     if (!options.ground.flat()) {
@@ -74,10 +71,9 @@ CapillarySurface bare(const CapillarySurface& surface)
 /// Marks vertices that lie on the ground.
 std::vector<std::uint8_t> dryOf(const CapillarySurface& sheet, const SheetBase& base)
 {
-    const double touching = kTouching * std::sqrt(area(*sheet.footprint));
     std::vector<std::uint8_t> dry(sheet.vertices.size(), 0);
     for (std::uint32_t v = sheet.rimVertexCount(); v < dry.size(); ++v) {
-        dry[v] = base.clearance(sheet.vertices[v]) <= touching ? 1 : 0;
+        dry[v] = base.clearance(sheet.vertices[v]) <= 0.0 ? 1 : 0;
     }
     return std::find(dry.begin(), dry.end(), 1) == dry.end() ? std::vector<std::uint8_t>{} : dry;
 }

@@ -2,9 +2,68 @@
 #include "shape/sheet_base.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
 
 namespace droplet {
+
+namespace {
+
+/// Clearance over the extent of the rim that is rounding.
+constexpr double kTouching = 1e-12;
+
+/// Quadrature over a triangle with six points: D. A. Dunavant, Int. J. Numer. Meth. Eng. 21 (1985), degree 4. They are
+/// at no places that triangles of another mesh have in common with this one, such as the middles of edges.
+struct QuadraturePoint {
+    double weight;
+    double near;  ///< share of one corner; the others have half of the rest each
+};
+constexpr std::array<QuadraturePoint, 2> kQuadrature{
+    {{0.223381589678011, 1.0 - 2.0 * 0.445948490915965}, {0.109951743655322, 1.0 - 2.0 * 0.091576213509771}}};
+
+/// Integrals between triangles of a sheet and the base below them.
+/// @param are_on_ground  whether a vertex is, of those whose triangles count
+SheetIntegrals filmOver(const FacetedGround& facets, const CapillarySurface& sheet,
+                        const std::vector<std::uint8_t>& are_on_ground, Vec3 weight)
+{
+    SheetIntegrals sum;
+    for (const Triangle& t : sheet.triangles) {
+        if (std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return are_on_ground[v] == 0; })) {
+            continue;
+        }
+        const double size = areaVector(sheet.vertices, t).z;
+        const Vec3 whole = sheet.vertices[t[0]] + sheet.vertices[t[1]] + sheet.vertices[t[2]];
+        for (const QuadraturePoint& point : kQuadrature) {
+            for (const std::uint32_t v : t) {
+                const double rest = 0.5 * (1.0 - point.near);
+                const Vec3 place = rest * whole + (point.near - rest) * sheet.vertices[v];
+                // Liquid that lies on the ground beside its base has no other one.
+                const double height = facets.heightAt({place.x, place.y}).value_or(place.z);
+                const double part = point.weight * size * (place.z - height);
+                sum.volume += part;
+                sum.gravity += part * dot(weight, {place.x, place.y, 0.5 * (place.z + height)});
+            }
+        }
+    }
+    return sum;
+}
+
+}  // namespace
+
+SheetIntegrals SheetBase::baseOf(const CapillarySurface& sheet, Vec3 weight) const
+{
+    if (!facets) {
+        return integrals;
+    }
+    std::vector<std::uint8_t> are_on_ground(sheet.vertices.size(), 1);
+    bool any = false;
+    for (std::size_t v = sheet.rimVertexCount(); v < sheet.vertices.size(); ++v) {
+        are_on_ground[v] = clearance(sheet.vertices[v]) <= 0.0 ? 1 : 0;
+        any = any || are_on_ground[v] != 0;
+    }
+    return any ? integrals + filmOver(*facets, sheet, are_on_ground, weight) : integrals;
+}
 
 GroundPoint SheetBase::under(Vec3 place) const
 {
@@ -14,8 +73,16 @@ GroundPoint SheetBase::under(Vec3 place) const
 
 void SheetBase::lift(std::vector<Vec3>& vertices, std::size_t first) const
 {
+    double extent = 0.0;
+    for (std::size_t v = 0; v < first; ++v) {
+        extent = std::max(extent, length(vertices[v] - vertices.front()));
+    }
+    const double rounding = kTouching * extent;
     for (std::size_t v = first; v < vertices.size(); ++v) {
-        vertices[v].z = std::max(vertices[v].z, under(vertices[v]).height);
+        const double height = under(vertices[v]).height;
+        if (vertices[v].z <= height + rounding) {
+            vertices[v].z = height;
+        }
     }
 }
 
@@ -55,17 +122,27 @@ CapillarySurface drySheet(const PlanarMesh& footprint, const BaseSurface& ground
 
 SheetBase baseOf(const PlanarMesh& footprint, const BaseSurface& ground, Vec3 weight)
 {
-    return {ground, ground.flat() ? SheetIntegrals{} : integrate(drySheet(footprint, ground), weight)};
+    if (ground.flat()) {
+        return {};
+    }
+    const CapillarySurface dry = drySheet(footprint, ground);
+    return {ground, integrate(dry, weight), std::make_shared<FacetedGround>(dry)};
 }
 
 SheetBase baseOf(const CapillarySurface& surface, const BaseSurface& ground, Vec3 weight)
 {
-    return ground.flat() ? SheetBase{} : baseOf(footprintOf(surface), ground, weight);
+    if (ground.flat()) {
+        return {};
+    }
+    if (surface.isHeightField()) {
+        return {ground, integrate(drySheet(footprintOf(surface), ground), weight), {}};
+    }
+    return baseOf(footprintOf(surface), ground, weight);
 }
 
 double liquidVolume(const CapillarySurface& surface, const BaseSurface& ground)
 {
-    return integrate(surface, {}).volume - baseOf(surface, ground, {}).integrals.volume;
+    return baseOf(surface, ground, {}).liquidUnder(surface, {}).volume;
 }
 
 }  // namespace droplet

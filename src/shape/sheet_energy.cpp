@@ -109,9 +109,7 @@ SheetIntegrals integrate(const CapillarySurface& sheet, Vec3 weight)
                  return sum;
              },
              MeshPattern::kTriangles)) {
-        total.area += part.area;
-        total.gravity += part.gravity;
-        total.volume += part.volume;
+        total = total + part;
     }
     return total;
 }

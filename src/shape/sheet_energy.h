@@ -16,6 +16,15 @@ struct SheetIntegrals {
     double gravity = 0.0;  ///< ∫ w·x over the liquid [m²]
     double volume = 0.0;   ///< of the liquid [m³]
 
+    friend SheetIntegrals operator+(const SheetIntegrals& a, const SheetIntegrals& b)
+    {
+        return {a.area + b.area, a.gravity + b.gravity, a.volume + b.volume};
+    }
+    friend SheetIntegrals operator-(const SheetIntegrals& a, const SheetIntegrals& b)
+    {
+        return {a.area - b.area, a.gravity - b.gravity, a.volume - b.volume};
+    }
+
     /// Energy over the surface tension [m²].
     [[nodiscard]] double energy() const { return area + gravity; }
 };

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "blocks.h"
 #include "shape/sheet_remesh.h"
@@ -24,6 +25,9 @@ constexpr int kGroundRounds = 12;
 constexpr int kReleaseRounds = 6;
 /// Vertical part of a direction from which on a step is bounded by the ground.
 constexpr double kLevel = 0.1;
+
+/// Rounds in which the base follows the vertices that lie on the ground, which Newton's method holds or releases.
+constexpr int kBaseRounds = 6;
 
 /// Refinements of the bordered system.
 constexpr int kRefinements = 2;
@@ -287,8 +291,7 @@ double SheetSolver::residual(double pressure) const
 
 SheetIntegrals SheetSolver::liquidUnder(const CapillarySurface& sheet) const
 {
-    const SheetIntegrals sums = integrate(sheet, weight_);
-    return {sums.area, sums.gravity - base_.integrals.gravity, sums.volume - base_.integrals.volume};
+    return integrate(sheet, weight_) - under_;
 }
 
 double SheetSolver::volumeScale(double volume) const
@@ -360,6 +363,27 @@ void SheetSolver::describe(NewtonResult& result) const
 }
 
 NewtonResult SheetSolver::solve(CapillarySurface& sheet, double volume, double& pressure, const NewtonLimits& limits)
+{
+    NewtonResult result;
+    under_ = base_.baseOf(sheet, weight_);
+    for (int round = 0; round < kBaseRounds; ++round) {
+        NewtonLimits left = limits;
+        left.max_work -= result.work;
+        NewtonResult next = solveOnBase(sheet, volume, pressure, left);
+        next.steps += result.steps;
+        next.factorisations += result.factorisations;
+        next.work += result.work;
+        result = std::move(next);
+        const SheetIntegrals last = std::exchange(under_, base_.baseOf(sheet, weight_));
+        if (!result.converged || std::abs(under_.volume - last.volume) <= limits.tolerance * volumeScale(volume)) {
+            break;
+        }
+    }
+    return result;
+}
+
+NewtonResult SheetSolver::solveOnBase(CapillarySurface& sheet, double volume, double& pressure,
+                                      const NewtonLimits& limits)
 {
     NewtonResult result;
     passes_ = 0;

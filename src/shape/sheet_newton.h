@@ -69,6 +69,8 @@ private:
         double pressure = 0.0;  ///< change
     };
 
+    /// Newton's method over a base that stays.
+    NewtonResult solveOnBase(CapillarySurface& sheet, double volume, double& pressure, const NewtonLimits& limits);
     void linearise(const CapillarySurface& sheet);
     void assemble(const CapillarySurface& sheet, double pressure);
     bool factor(double shift);
@@ -86,7 +88,7 @@ private:
     [[nodiscard]] int negatives() const;
     [[nodiscard]] Step solveBordered(const Eigen::VectorXd& forces, double volume_change) const;
     [[nodiscard]] double residual(double pressure) const;
-    /// Integrals over the liquid between a sheet and its base.
+    /// Integrals over the liquid between a sheet and the base of the current solve().
     [[nodiscard]] SheetIntegrals liquidUnder(const CapillarySurface& sheet) const;
     /// What errors of the volume are relative to [m³].
     [[nodiscard]] double volumeScale(double volume) const;
@@ -99,6 +101,7 @@ private:
     std::uint32_t rim_;
     Vec3 weight_;
     SheetBase base_;
+    SheetIntegrals under_ = {};  ///< of the base in the current solve()
     MeshPattern pattern_;
     std::unique_ptr<SymmetricFactor> factor_;
     Linear linear_;

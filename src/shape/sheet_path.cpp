@@ -55,11 +55,12 @@ constexpr double kConfirmWork = 1.5;
 /// silhouettes were made at 90°, with 40 231.
 constexpr int kRenewals = 40;
 constexpr double kRolling = 1.0;
-/// Doublings of the first volume, until it wets the ground: on a ball, little liquid leaves the top dry.
-constexpr int kWetter = 8;
+/// Most reductions of the first volume, to a quarter each: less liquid is nearer to the dry ground, where it is known.
+constexpr int kReductions = 6;
 /// Growth of edges when a sheet fails with small ones.
 constexpr double kCoarser = 1.6;
-/// Change of the pressure by new triangles above which they are not the same liquid.
+/// Change of the pressure by new triangles above which they are not the same liquid, over the pressure or, where that
+/// is 0 somewhere on a slope, twice the curvature of a cap as wide as the sheet.
 constexpr double kSamePressure = 0.1;
 /// Mean angle from which on the rim does not hold the liquid: above by the error of angles on coarse triangles [rad].
 constexpr double kNotHeld = 179.8 * std::numbers::pi / 180.0;
@@ -132,13 +133,13 @@ public:
         const double most = target_.by == FillBy::Volume ? target_.amount : std::numeric_limits<double>::infinity();
         const double first = kFirstPart * std::pow(meshed_area_ / std::numbers::pi, 1.5);
         double volume = is_level ? 0.0 : std::min(first, most);
-        for (int k = 0; k <= kWetter && hasWork(); ++k, volume = std::min(2.0 * volume, most)) {
+        for (int k = 0; k <= kReductions && hasWork(); ++k, volume *= 0.25) {
             now_.sheet = dry;
             now_.volume = volume;
             now_.pressure = is_level ? 0.0 : liftingPressure(dry);
             now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, within(kSettling));
             count(now_, k == 0 ? kRemeshWork : 0.0);
-            if (now_.newton.converged || is_level || volume == most) {
+            if (now_.newton.converged || is_level) {
                 break;
             }
         }
@@ -150,7 +151,7 @@ public:
         : target_(target),
           options_{weight},
           base_(base),
-          now_{sheet, pressure, integrate(sheet, weight).volume - base.integrals.volume, {}},
+          now_{sheet, pressure, base.liquidUnder(sheet, weight).volume, {}},
           is_final_(true),
           keeps_triangles_(true)
     {
@@ -203,6 +204,9 @@ public:
         if (is_limit && options_.is_end_confirmed && refineFirm()) {
             end = follow();
         }
+        if (end == SheetEnd::NoAngle || end == SheetEnd::NoHeight) {
+            goBackToLargest();
+        }
         const std::optional<SheetContact> contact = contact_;
         if (end != SheetEnd::Reached && now_.newton.converged) {
             options_.max_work *= kConfirmWork;
@@ -240,12 +244,9 @@ private:
     /// Follows the path up to the target, or to its end.
     SheetEnd follow()
     {
-        if (!now_.newton.converged && !hasWork()) {
-            now_.volume = 0.0;
-            return SheetEnd::OutOfWork;
-        }
         if (!now_.newton.converged) {
-            return SheetEnd::Unstable;
+            now_.volume = 0.0;
+            return hasWork() ? SheetEnd::Unstable : SheetEnd::OutOfWork;
         }
         const double base = meshed_area_;
         const double length_scale = std::sqrt(base / std::numbers::pi);
@@ -475,6 +476,19 @@ private:
         use(solverOf(now_.sheet), now_.sheet);
     }
 
+    /// Takes up the sheet with the largest share of the target, of those that stood on new triangles.
+    void goBackToLargest()
+    {
+        const auto share = [&](const State& state) { return shareOf(state.sheet, state.pressure); };
+        const double last = share(now_);
+        while (firm_.size() > 1 && share(firm_[firm_.size() - 2]) > share(firm_.back())) {
+            firm_.pop_back();
+        }
+        if (share(firm_.back()) > last) {
+            goBack();
+        }
+    }
+
     /// Whether the last sheet stands on new triangles. If not, the path goes back, and confirms every step.
     /// @param least  change of the volume that needs no new triangles [m³]
     bool isFirm(double least)
@@ -595,7 +609,8 @@ private:
             solver = solverOf(next.sheet);
             next.newton = solver->solve(next.sheet, next.volume, next.pressure, within(renewal.limits));
             count(next, triangles.rounds > 0 ? kRemeshWork : kMendWork);
-            if (std::abs(next.pressure - state.pressure) > kSamePressure * std::abs(state.pressure)) {
+            const double scale = std::max(std::abs(state.pressure), 2.0 / std::sqrt(meshed_area_));
+            if (std::abs(next.pressure - state.pressure) > kSamePressure * scale) {
                 return false;
             }
             if (next.newton.converged) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "droplet/shape/sheet.h"
 #include "droplet/shape/solve.h"
 #include "droplet/units.h"
+#include "shape/sheet_base.h"
 #include "shape/work.h"
 #include "support/domains.h"
 #include "support/equilibrium.h"
@@ -172,6 +174,65 @@ BaseSurface steepGround()
                                Vec2{std::cos(kWaves * p.x) * std::cos(kWaves * p.y),
                                     -std::sin(kWaves * p.x) * std::sin(kWaves * p.y)}};
     });
+}
+
+// Dry triangles are chords of the ground, and so are those of the base: there is no liquid between both, though seen
+// from above coarse chords of a ball are far below fine ones.
+TEST(SheetGround, DryTrianglesHoldNoLiquid)
+{
+    const BaseSurface ball = BaseSurface::sphere(1.5);
+    const PlanarMesh footprint = testing::discMeshes(0.05).front();
+    const SheetBase base = baseOf(footprint, ball, {0.0, 0.3, 1.0});
+    for (const double edge : {0.4, 0.2, 0.1}) {
+        SCOPED_TRACE(edge);
+        const CapillarySurface dry = drySheet(cover(footprint, edge), ball);
+        const double chords = integrate(dry, {}).volume - base.integrals.volume;
+        EXPECT_LT(chords, -0.01 * edge * edge);
+        EXPECT_LT(std::abs(base.liquidUnder(dry, {0.0, 0.3, 1.0}).volume), 0.04 * std::abs(chords));
+        EXPECT_LT(std::abs(base.liquidUnder(dry, {0.0, 0.3, 1.0}).gravity), 0.04 * std::abs(chords));
+    }
+    CapillarySurface wet = drySheet(footprint, ball);
+    for (std::size_t v = wet.rimVertexCount(); v < wet.vertices.size(); ++v) {
+        wet.vertices[v].z += 0.1;
+    }
+    EXPECT_EQ(base.liquidUnder(wet, {}).volume, integrate(wet, {}).volume - base.integrals.volume);
+}
+
+TEST(SheetGround, FacetsAreFoundEverywhere)
+{
+    const PlanarMesh footprint = testing::discMeshes(0.1).front();
+    CapillarySurface plane = drySheet(footprint, BaseSurface());
+    for (Vec3& p : plane.vertices) {
+        p.z = 0.5 * p.x - 2.0 * p.y + 1.0;
+    }
+    const FacetedGround facets(plane);
+    std::size_t outside = 0;
+    for (int k = 0; k < 4000; ++k) {
+        const Vec2 place{std::fmod(0.7548776662 * k, 2.2) - 1.1, std::fmod(0.5698402910 * k, 2.2) - 1.1};
+        const std::optional<double> height = facets.heightAt(place);
+        EXPECT_TRUE(height || length(place) > 0.99) << place.x << ' ' << place.y;
+        outside += height ? 0 : 1;
+        EXPECT_NEAR(height.value_or(0.5 * place.x - 2.0 * place.y + 1.0), 0.5 * place.x - 2.0 * place.y + 1.0, 1e-12);
+    }
+    EXPECT_NEAR(static_cast<double>(outside) / 4000.0, 1.0 - kPi / (2.2 * 2.2), 0.02);
+    for (const Vec3& p : plane.vertices) {
+        EXPECT_NEAR(facets.heightAt({p.x, p.y}).value_or(9.0), p.z, 1e-12) << "vertices are inside";
+    }
+}
+
+// Newton's method lays vertices down along normals, and so misses curved ground by rounding.
+TEST(SheetGround, LiftLaysDownWhatIsAboveByRoundingAlone)
+{
+    const SheetBase base{BaseSurface::sphere(2.0)};
+    std::vector<Vec3> vertices{{-1.0, 0.0, std::sqrt(3.0)}, {1.0, 0.0, std::sqrt(3.0)}, {0.1, 0.2, 0.0}, {}, {}};
+    vertices[2].z = base.under(vertices[2]).height + 1e-15;
+    vertices[3] = {0.3, 0.1, base.under({0.3, 0.1, 0.0}).height + 1e-6};
+    vertices[4] = {0.3, 0.2, -1.0};
+    const double above = vertices[3].z;
+    base.lift(vertices, 2);
+    EXPECT_EQ(base.clearance(vertices[2]), 0.0);
+    EXPECT_EQ(vertices[3].z, above);
+    EXPECT_EQ(base.clearance(vertices[4]), 0.0);
 }
 
 TEST(SheetGround, WorkIsLimitedWhereTheGroundIsTooSteep)
