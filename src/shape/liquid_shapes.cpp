@@ -54,7 +54,8 @@ constexpr double kSteepCorner = 50.0 * kDegree;
 /// Share of the wanted contact angle below which a sheet is no droplet, and the linear model is taken.
 constexpr double kLeastShare = 0.5;
 
-/// Depth below the ground, over the height above it, beyond which a linear model is no stand-in, as on a steep ball.
+/// Depth below the ground, over the height above it, beyond which the linear model would be no stand-in, as on a steep
+/// ball.
 constexpr double kSunk = 0.1;
 
 /// Mean contact angle that is tried where the search for one beyond 90° ends below it: that of a fill by default [rad].
@@ -265,21 +266,28 @@ struct Before {
     std::optional<SolveReport> failed = {};     ///< of height fields that do not exist
 };
 
-/// Shapes of the linear model in place of exact ones, if there are any.
-std::optional<LiquidShapes> linearStandIn(const std::vector<PlanarMesh>& meshes, SolveOptions options)
+/// Shapes of the linear model in place of exact ones, if there are any above the ground.
+/// @param may_dry  leave ground dry into which they would sink
+std::optional<LiquidShapes> linearStandIn(const std::vector<PlanarMesh>& meshes, SolveOptions options, bool may_dry)
 {
     if (mustHang(options)) {
         return std::nullopt;
     }
     options.model = Model::Linear;
+    const auto stands = [&](const LiquidShapes& shapes) {
+        const std::vector<CapillarySurface>& fields = shapes.solution.droplets;
+        return shapes.solution.report.usable() && haveLiquid(fields, options) &&
+               std::all_of(fields.begin(), fields.end(), [&](const CapillarySurface& field) {
+                   const ShapeFigures figures = measure(field, options);
+                   return figures.depth_max <= kSunk * figures.height_max;
+               });
+    };
     LiquidShapes shapes{.solution = findFields(meshes, options, {}), .is_stand_in = true};
-    const std::vector<CapillarySurface>& fields = shapes.solution.droplets;
-    const bool exist = shapes.solution.report.usable() && haveLiquid(fields, options) &&
-                       std::all_of(fields.begin(), fields.end(), [&](const CapillarySurface& field) {
-                           const ShapeFigures figures = measure(field, options);
-                           return figures.depth_max <= kSunk * figures.height_max;
-                       });
-    return exist ? std::optional(std::move(shapes)) : std::nullopt;
+    if (!stands(shapes) && may_dry) {
+        options.no_penetration = true;
+        shapes.solution = findFields(meshes, options, {});
+    }
+    return stands(shapes) ? std::optional(std::move(shapes)) : std::nullopt;
 }
 
 /// Why there is no sheet, and what to change.
@@ -288,6 +296,15 @@ std::string refusal(const SheetResult& result, const Refused& refused)
     const std::string& which = refused.which;
     const std::string at = numberText(result.volume / kMicrolitre, 4) + " uL";
     const std::string angle = numberText(result.contact_angle / kDegree, 3) + " degrees";
+    if (result.volume == 0.0) {
+        const char* const why =
+            "fill this footprint: its ground is too steep or rough, or its rim too ragged; smooth "
+            "them, or reduce the number of triangles";
+        return which +
+               (result.end == SheetEnd::OutOfWork ? "the work that a run may take does not begin to "
+                                                  : "no stable droplet begins to ") +
+               why;
+    }
     switch (result.end) {
         case SheetEnd::NoAngle:
             return which + "no such droplet exists on this footprint: the mean contact angle is at most " + angle +
@@ -305,11 +322,6 @@ std::string refusal(const SheetResult& result, const Refused& refused)
                                          : which + "the rim does not hold such a droplet: at " + at) +
                    " it has a contact angle of 180 degrees all along; ask for less";
         case SheetEnd::OutOfWork:
-            if (result.volume == 0.0) {
-                return which +
-                       "the work that a run may take does not begin to fill this footprint: its ground is too steep or "
-                       "rough, or its rim too ragged; smooth them, or reduce the number of triangles";
-            }
             return which + std::to_string(result.newton_steps) + " steps of Newton's method reached only " + at +
                    " (mean contact angle " + angle + "); ask for less, or reduce the number of triangles";
         case SheetEnd::Unstable:
@@ -839,15 +851,15 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
                     limit(groups[g], *shape.lesser, shapes);
                 }
             } else {
-                const bool is_too_little = allow_less && options.model == Model::Auto &&
-                                           options.fill.by == FillBy::ContactAngle &&
-                                           shape.sheet->contact_angle < kLeastShare * options.fill.amount;
+                const bool is_too_little =
+                    allow_less && options.model == Model::Auto && options.fill.by == FillBy::ContactAngle &&
+                    (shape.sheet->volume == 0.0 || shape.sheet->contact_angle < kLeastShare * options.fill.amount);
                 if (is_too_little || has_linear) {
-                    if (auto stand_in = linearStandIn(meshes, options)) {
+                    if (auto stand_in = linearStandIn(meshes, options, shape.sheet->volume == 0.0)) {
                         return *std::move(stand_in);
                     }
                 }
-                if (!allow_less) {
+                if (!allow_less || shape.sheet->volume == 0.0) {
                     throw Error(ErrorCode::NoSuchDroplet, reachesFurther(shape) ? refusal(shape.report, refused)
                                                                                 : refusal(*shape.sheet, refused));
                 }
@@ -884,9 +896,14 @@ bool areApart(const std::vector<PlanarMesh>& meshes, const SolveOptions& options
 /// Why neighbours are refused, with the largest amount at which no droplets touch, or one that was found with the work.
 std::string refusal(const std::vector<PlanarMesh>& meshes, const SolveOptions& options, SheetContact contact, Work work)
 {
-    const std::string where =
-        fmt::format("droplets {} and {} would touch at x {} mm, y {} mm; ", contact.first + 1, contact.second + 1,
-                    numberText(contact.place.x / kMillimetre, 3), numberText(contact.place.y / kMillimetre, 3));
+    const std::string who = contact.first == contact.second
+                                ? fmt::format("droplet {} would touch itself", contact.first + 1)
+                                : fmt::format("droplets {} and {} would touch", contact.first + 1, contact.second + 1);
+    const std::string where = fmt::format("{} at x {} mm, y {} mm; ", who, numberText(contact.place.x / kMillimetre, 3),
+                                          numberText(contact.place.y / kMillimetre, 3));
+    if (contact.first == contact.second) {
+        return where + "ask for less";
+    }
     double share = 1.0;
     for (int round = 0; round < kMaxPairs; ++round) {
         const std::array<std::size_t, 2> pair{contact.first, contact.second};
@@ -996,10 +1013,15 @@ LiquidShapes solveShapes(const std::vector<PlanarMesh>& meshes, const SolveOptio
     Work work{std::max(most - shapes.work, kContactShare * most)};
     const std::optional<SheetContact> contact =
         allow_less ? lowerUntilApart(meshes, options, work, shapes) : neighbourContact(meshes, shapes);
-    if (contact) {
-        throw Error(ErrorCode::NoSuchDroplet, refusal(meshes, options, *contact, work));
+    if (!contact) {
+        return shapes;
     }
-    return shapes;
+    if (allow_less && options.model == Model::Auto) {
+        if (auto stand_in = linearStandIn(meshes, options, true)) {
+            return *std::move(stand_in);
+        }
+    }
+    throw Error(ErrorCode::NoSuchDroplet, refusal(meshes, options, *contact, work));
 }
 
 }  // namespace droplet

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -21,6 +22,10 @@ namespace {
 
 /// Unknowns that are not dissected further.
 constexpr std::int32_t kLeaf = 12;
+/// Unknowns on the edge of a half, over the root of their number, from which on other directions are tried. Discs,
+/// letters and beads have up to 3.5; noise 4 mm deep under a splash of 1 mm had 40, and a factorisation took thirty
+/// times as long.
+constexpr double kLongEdge = 4.0;
 /// Columns that are eliminated before the others are updated.
 constexpr std::size_t kColumns = 32;
 /// Unknowns from which on the parts of a front are worth a thread.
@@ -192,8 +197,6 @@ std::int32_t MultifrontalFactor::dissect(std::int32_t begin, std::int32_t end, c
                 return a != b ? a < b : one.unknown < other.unknown;
             });
         };
-        halve(size.x >= size.y && size.x >= size.z ? &Vec3::x : size.y >= size.z ? &Vec3::y : &Vec3::z);
-        renumber();
         // Neighbours of a node are in the range, or are eliminated after it, and do not move any more.
         const auto touches = [&](const Node& node, std::int32_t from, std::int32_t to) {
             const auto i = static_cast<std::size_t>(node.unknown);
@@ -203,11 +206,31 @@ std::int32_t MultifrontalFactor::dissect(std::int32_t begin, std::int32_t end, c
                 return there >= from && there < to;
             });
         };
+        auto left_edge = middle;
+        auto right_edge = last;
         // What separates the halves is the edge of one of them, the shorter one.
-        const auto left_edge =
-            std::partition(first, middle, [&](const Node& node) { return !touches(node, half, end); });
-        const auto right_edge =
-            std::partition(middle, last, [&](const Node& node) { return !touches(node, begin, half); });
+        const auto separate = [&](double Vec3::*axis) {
+            halve(axis);
+            renumber();
+            left_edge = std::partition(first, middle, [&](const Node& node) { return !touches(node, half, end); });
+            right_edge = std::partition(middle, last, [&](const Node& node) { return !touches(node, begin, half); });
+            return std::min(middle - left_edge, last - right_edge);
+        };
+        // Across its longest side, unless the surface goes to and fro there, as over rough ground.
+        std::array<double Vec3::*, 3> axes{&Vec3::x, &Vec3::y, &Vec3::z};
+        std::stable_sort(axes.begin(), axes.end(), [&](auto one, auto other) { return size.*one > size.*other; });
+        auto shortest = separate(axes.front());
+        if (static_cast<double>(shortest) > kLongEdge * std::sqrt(static_cast<double>(end - begin))) {
+            std::size_t best = 0;
+            for (std::size_t k = 1; k < axes.size(); ++k) {
+                const auto other = separate(axes[k]);
+                best = other < shortest ? k : best;
+                shortest = std::min(shortest, other);
+            }
+            if (best + 1 != axes.size()) {
+                separate(axes[best]);
+            }
+        }
         std::int32_t split = half;
         if (middle - left_edge <= last - right_edge) {
             split = static_cast<std::int32_t>(left_edge - nodes.begin());

@@ -211,12 +211,16 @@ public:
         if (end != SheetEnd::Reached && now_.newton.converged) {
             options_.max_work *= kConfirmWork;
             // New triangles may bring a sheet that is nearly there beyond the target; then an earlier one is taken.
-            for (bool stands = refine(false); wayTo() < 0.0 && firm_.size() > 1; stands = refine(false)) {
+            bool stands = refine(false);
+            for (; wayTo() < 0.0 && firm_.size() > 1; stands = refine(false)) {
                 if (stands && settle() && isFree()) {
                     return filled(SheetEnd::Reached);
                 }
                 firm_.pop_back();
                 goBack();
+            }
+            if (stands && target_.by == FillBy::Volume && now_.volume == target_.amount) {
+                return filled(SheetEnd::Reached);
             }
         }
         contact_ = contact;

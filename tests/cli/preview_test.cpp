@@ -160,8 +160,8 @@ TEST_F(PreviewTest, RefusesWrongOptions)
     refused({"--preview", "a.png", "--camera", "20deg"}, 2, {"--camera", "-60deg,30deg"});
     refused({"--preview", "a.png", "--camera", "0deg,91deg"}, 2, {"--camera: elevation", "from 0deg to 90deg"});
     refused({"--preview", "a.png", "--preview-background", "white"}, 2, {"--preview-background", "ground, none"});
-    refused({"--preview", "a.png", "--preview-background", "none", "--colour", "contours"}, 2,
-            {"--preview-background none", "--colour"});
+    refused({"--preview", "a.png", "--preview-background", "none", "--preview-colour", "contours"}, 2,
+            {"--preview-background none", "--preview-colour"});
     refused({"--preview", "a.png", "--preview-background", "none", "--ground", "old.json"}, 2,
             {"--preview-background none", "--ground"});
     refused({"--preview", "a.png", "--turntable", "0"}, 2, {"--turntable"});
@@ -173,7 +173,8 @@ TEST_F(PreviewTest, RefusesWrongOptions)
     refused({"--preview", "a.mp4", "--turntable", "2", "--preview-size", "33x32"}, 2, {"--preview-size", "even"});
     refused({"--preview", "a.mp4", "--turntable", "2", "--codec", "none"}, 2, {"--codec", "'none'", "ffmpeg"});
     refused({"--preview", "a.png", "--codec", "libx264"}, 2, {"--codec needs a video as --preview"});
-    refused({"--preview", "a.png", "--colour", "contours", "--onto", "o.glb"}, 2, {"--colour contours", "--onto"});
+    refused({"--preview", "a.png", "--preview-colour", "contours", "--onto", "o.glb"}, 2,
+            {"--preview-colour contours", "--onto"});
     refused({"--preview", "a.png", "--ground", "missing.png"}, 3, {"missing.png"});
     refused({"--preview", "a.png", "--ground", "old.json"}, 3, {"old.json"});
     refused({"--preview", "a.png", "--environment", "old.json"}, 3, {"old.json"});

@@ -82,6 +82,22 @@ TEST(MultifrontalFactor, EqualsSimplicialFactorisation)
     EXPECT_GT(problem.matrix.cols(), 2000);
 }
 
+/// Places of noise, the longest way through which separates nothing.
+TEST(MultifrontalFactor, EqualsSimplicialFactorisationOverRoughGround)
+{
+    Problem problem = capProblem(0.08, 2.5);
+    for (std::size_t i = 0; i < problem.places.size(); ++i) {
+        problem.places[i].z = 20.0 * std::fmod(0.6180339887 * static_cast<double>(i), 1.0);
+    }
+    const Eigen::SimplicialLDLT<Matrix> simplicial(problem.matrix);
+    const auto factor = multifrontalFactor(problem.matrix, problem.places);
+    ASSERT_TRUE(factor->factorize(problem.matrix));
+    EXPECT_EQ(factor->negatives(), static_cast<std::size_t>((simplicial.vectorD().array() < 0.0).count()));
+    const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(problem.matrix.cols(), -1.0, 2.0).array().cos();
+    const Eigen::VectorXd expected = simplicial.solve(right);
+    EXPECT_LT((factor->solve(right) - expected).norm(), 1e-8 * expected.norm());
+}
+
 TEST(MultifrontalFactor, GivesTheSameBytesAtAnyNumberOfThreads)
 {
     const Problem problem = capProblem(0.08, 1.0);
