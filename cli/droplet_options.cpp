@@ -13,6 +13,7 @@
 #include "droplet/liquid.h"
 #include "droplet/units.h"
 #include "droplet/wetting.h"
+#include "liquid_options.h"
 
 namespace cli {
 namespace {
@@ -23,7 +24,6 @@ constexpr Range kArea{Dimension::Area, 0.0, 1e6, "from 0mm2 to 1e6m2"};
 constexpr Range kVolume{Dimension::Volume, 1e-27, 1e9, "from 1e-18uL to 1e9m3"};
 // At 180° liquid touches the ground all around, and does not stay in place.
 constexpr Range kAngle{Dimension::Angle, 1e-3 * droplet::kDegree, 179.0 * droplet::kDegree, "from 0.001deg to 179deg"};
-constexpr Range kTension{Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m to 1000N/m"};
 constexpr Range kDensity{Dimension::Density, 0.0, 1e6, "from 0kg/m3 to 1e6kg/m3"};
 constexpr Range kGravity{Dimension::Acceleration, -1e6, 1e6, "from -1e6m/s2 to 1e6m/s2"};
 constexpr Range kHalfTurn{Dimension::Angle, 0.0, std::numbers::pi, "from 0deg to 180deg"};
@@ -53,7 +53,7 @@ double naturalAngle(const CommandLine& line, const Given& given, const droplet::
     return *angle;
 }
 
-void readLiquid(const CommandLine& line, DropletSettings& settings)
+void readAmount(const CommandLine& line, DropletSettings& settings)
 {
     auto& solve = settings.droplet.solve;
     if (const auto volume = line.value("--volume")) {
@@ -64,21 +64,7 @@ void readLiquid(const CommandLine& line, DropletSettings& settings)
         solve.fill.by = droplet::FillBy::Height;
         solve.fill.amount = quantity(*height, kLength);
     }
-    const auto liquid = line.value("--liquid");
-    if (liquid) {
-        solve.liquid = forOption(liquid->subject, [&] { return droplet::liquidNamed(liquid->text); });
-    }
-    const auto tension = line.value("--surface-tension");
-    if (tension) {
-        solve.liquid.surface_tension = quantity(*tension, kTension);
-    }
-    const auto density = line.value("--density");
-    if (density) {
-        solve.liquid.density = quantity(*density, kDensity);
-    }
-    if (!liquid && (tension || density)) {
-        solve.liquid.name = "custom";
-    }
+    readLiquidProperties(line, kDensity, solve.liquid);
     const auto angle = line.value("--contact-angle");
     const bool is_natural = angle && angle->text == "natural";
     if (angle) {
@@ -355,9 +341,7 @@ void declareLiquid(CommandLine& line, DropletSettings& settings)
              std::string("each: every droplet gets this amount; total: all droplets share it at one pressure") +
                  (is_sequence ? " [total with --volume-mode total, else each]" : ""),
              into(solve.fill.sharing, {{"each", droplet::FillSharing::Each}, {"total", droplet::FillSharing::Total}}));
-    line.add(kGroup, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");
-    line.add(kGroup, "--surface-tension", "S", "Surface tension, instead of the liquid's own", within(kTension));
-    line.add(kGroup, "--density", "D", "Density, instead of the liquid's own", within(kDensity));
+    declareLiquidProperties(line, kGroup, kDensity);
     line.add(
         kGroup, "--model",
         "Model of the surface's area: linear is within 1 % up to 5 to 8deg, exact for all slopes, also where liquid "
@@ -470,7 +454,7 @@ std::optional<ByColourOptions> readByColour(const CommandLine& line, std::vector
 
 void readDroplet(const CommandLine& line, DropletSettings& settings)
 {
-    readLiquid(line, settings);
+    readAmount(line, settings);
     readGravity(line, settings);
     readHysteresis(line, settings);
     readGround(line, settings);

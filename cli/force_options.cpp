@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "droplet/liquid.h"
+#include "liquid_options.h"
 #include "option_values.h"
 #include "value_list.h"
 
@@ -17,31 +18,11 @@ constexpr Range kViscosity{Dimension::Viscosity, 0.0, 1e3,
                            "from 0Pa.s to 1000Pa.s, or artistic, or wedge for water by wedge theory"};
 constexpr Range kBoundaryLayer{Dimension::Length, 0.0, 1.0, "from 0mm to 1m"};
 constexpr Range kAirDensity{Dimension::Density, 0.0, 1e3, "from 0kg/m3 to 1000kg/m3"};
-constexpr Range kTension{Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m to 1000N/m"};
 constexpr Range kDensity{Dimension::Density, 1e-3, 1e6, "from 0.001kg/m3 to 1e6kg/m3"};
 constexpr Range kGravity{Dimension::Acceleration, 0.0, 1e4, "from 0m/s2 to 1e4m/s2"};
 constexpr NumberRange kDragCoefficient{0.0, 100.0, "a number from 0 to 100"};
 constexpr NumberRange kExponent{0.0, 2.0, "a number from 0 to 2"};
 constexpr NumberRange kFraction{0.0, 1.0, "a number from 0 to 1"};
-
-void readLiquid(const CommandLine& line, droplet::ForceModel& model)
-{
-    const auto liquid = line.value("--liquid");
-    if (liquid) {
-        model.liquid = forOption(liquid->subject, [&] { return droplet::liquidNamed(liquid->text); });
-    }
-    const auto tension = line.value("--surface-tension");
-    if (tension) {
-        model.liquid.surface_tension = quantity(*tension, kTension);
-    }
-    const auto density = line.value("--density");
-    if (density) {
-        model.liquid.density = quantity(*density, kDensity);
-    }
-    if (!liquid && (tension || density)) {
-        model.liquid.name = "custom";
-    }
-}
 
 double viscosityFactor(const Given& given, double contact_angle)
 {
@@ -82,15 +63,13 @@ void declareForces(CommandLine& line, droplet::ForceModel& model)
              into(model.air.profile_exponent, kExponent));
     line.add(kAir, "--air-density", "D", "Density of the air", into(model.air.density, kAirDensity));
     constexpr const char* kLiquid = "Liquid";
-    line.add(kLiquid, "--liquid", "water|ethanol|glycerol|mercury|honey", "Liquid, at 20 C [water]");
-    line.add(kLiquid, "--surface-tension", "S", "Surface tension, instead of the liquid's own", within(kTension));
-    line.add(kLiquid, "--density", "D", "Density, instead of the liquid's own", within(kDensity));
+    declareLiquidProperties(line, kLiquid, kDensity);
     line.add(kLiquid, "--gravity", "G", "Gravity, downwards", into(model.gravity, kGravity));
 }
 
 void readForces(const CommandLine& line, droplet::ForceModel& model)
 {
-    readLiquid(line, model);
+    readLiquidProperties(line, kDensity, model.liquid);
     if (const auto factor = line.value("--viscosity-factor")) {
         model.wetting.viscosity_factor = viscosityFactor(*factor, model.wetting.contact_angle);
     }

@@ -11,10 +11,12 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drawing/tone.h"
 #include "droplet/error.h"
+#include "entry_named.h"
 #include "number_text.h"
 #include "render/base_light.h"
 #include "render/camera.h"
@@ -537,17 +539,9 @@ Picture trace(const Tracer& tracer, const RenderOptions& options, Part part)
 
 View viewNamed(std::string_view name)
 {
-    if (name == "three-quarter") {
-        return View::ThreeQuarter;
-    }
-    if (name == "top") {
-        return View::Top;
-    }
-    if (name == "side") {
-        return View::Side;
-    }
-    throw Error(ErrorCode::InvalidArgument,
-                "view \"" + std::string(name) + "\" is unknown; known are three-quarter top side");
+    constexpr std::array<std::pair<View, const char*>, 3> kNames{
+        {{View::ThreeQuarter, "three-quarter"}, {View::Top, "top"}, {View::Side, "side"}}};
+    return valueNamed(kNames, name, "view");
 }
 
 void RenderOptions::validate() const

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "droplet/error.h"
+#include "entry_named.h"
 
 namespace droplet {
 namespace {
@@ -28,24 +28,12 @@ Format formatNamed(std::string_view name)
     std::string wanted(name.substr(!name.empty() && name.front() == '.' ? 1 : 0));
     std::transform(wanted.begin(), wanted.end(), wanted.begin(),
                    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    std::string known;
-    for (const auto& [format, known_name] : kFormats) {
-        if (wanted == known_name) {
-            return format;
-        }
-        known += std::string(" ") + known_name;
-    }
-    throw Error(ErrorCode::InvalidArgument, "format \"" + std::string(name) + "\" is unknown; known are" + known);
+    return valueNamed(kFormats, wanted, "format");
 }
 
 const char* name(Format format)
 {
-    for (const auto& [known, known_name] : kFormats) {
-        if (known == format) {
-            return known_name;
-        }
-    }
-    throw Error(ErrorCode::InvalidArgument, "format = " + std::to_string(static_cast<int>(format)) + " is unknown");
+    return nameOf(kFormats, format, "format");
 }
 
 bool isAnimated(Format format)

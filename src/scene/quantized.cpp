@@ -13,7 +13,7 @@
 
 #include "axes.h"
 #include "byte_stream.h"
-#include "droplet/error.h"
+#include "entry_named.h"
 
 namespace droplet {
 namespace {
@@ -129,24 +129,12 @@ QuantizedNormals quantizeNormals(std::span<const Vec3> normals, Compression comp
 
 Compression compressionNamed(std::string_view wanted)
 {
-    for (const auto& [compression, known] : kNames) {
-        if (wanted == known) {
-            return compression;
-        }
-    }
-    throw Error(ErrorCode::InvalidArgument,
-                "compression \"" + std::string(wanted) + "\" is unknown; known are none quantize meshopt");
+    return valueNamed(kNames, wanted, "compression");
 }
 
 const char* name(Compression compression)
 {
-    for (const auto& [known, known_name] : kNames) {
-        if (known == compression) {
-            return known_name;
-        }
-    }
-    throw Error(ErrorCode::InvalidArgument,
-                "compression = " + std::to_string(static_cast<int>(compression)) + " is unknown");
+    return nameOf(kNames, compression, "compression");
 }
 
 CompressionError compressionError(const Surface& surface, Compression compression)

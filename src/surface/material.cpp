@@ -6,6 +6,7 @@
 #include <string>
 
 #include "droplet/error.h"
+#include "entry_named.h"
 
 namespace droplet {
 namespace {
@@ -62,14 +63,14 @@ Material materialOf(const Liquid& liquid)
 
 Material materialNamed(std::string_view name)
 {
-    std::string known;
+    std::string names;
     for (const Entry& entry : entries()) {
         if (name == entry.look.name) {
             return entry.material;
         }
-        known += " " + entry.look.name;
+        names += (names.empty() ? "" : ", ") + entry.look.name;
     }
-    throw Error(ErrorCode::InvalidArgument, "material \"" + std::string(name) + "\" is unknown; known are" + known);
+    refuseName("material", name, names);
 }
 
 }  // namespace droplet
