@@ -160,7 +160,7 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
                       "INPUT... is the frames: a pattern such as frames/%04d.png, several pictures, a folder, a "
                       "video, which needs ffmpeg, or -, PNG, PGM or PPM pictures on standard input. OUTPUT is a .glb, "
                       ".gltf, .usda or .usdz that plays, or a pattern for one file per frame "
-                      "such as out/%04d.glb, .gltf, .obj, .ply, .stl, .usda or .usdz");
+                      "such as out/%04d.glb, .gltf, .obj, .ply, .stl, .usda, .usdz or .3mf");
     AnimateOptions options;
     declareAnimation(line, options);
     line.parse(argc, argv);

@@ -473,7 +473,7 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
         warn(*material, "have no material");
     }
     if (const auto unit = line.value("--unit"); unit && !has_unit) {
-        warn(*unit, "are in metres");
+        warn(*unit, format == droplet::Format::ThreeMf ? "are in millimetres" : "are in metres");
     }
     if (settings.materials && !has_material && !is_shown) {
         warn({settings.materials->path, "--materials"}, "have no material");
@@ -484,7 +484,7 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
         settings.warnings.push_back(std::string("--colour-map has no effect: ") + droplet::name(format) +
                                     " files have no texture" + (is_usd ? "; usdz files have one" : ""));
     }
-    if (settings.nodes == droplet::Nodes::Each && !is_gltf && !is_usd) {
+    if (settings.nodes == droplet::Nodes::Each && !is_gltf && !is_usd && format != droplet::Format::ThreeMf) {
         warn({"each", "--nodes"}, "have no nodes");
     }
 }

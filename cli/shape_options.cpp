@@ -62,7 +62,7 @@ void declareShape(CommandLine& line, ShapeOptions& options)
         "OpenEXR or HDR; - is standard input");
     line.addArgument(
         "OUTPUT",
-        "The droplet: .glb, .gltf, .obj, .ply, .stl, .usda or .usdz; - is standard output and needs --format");
+        "The droplet: .glb, .gltf, .obj, .ply, .stl, .usda, .usdz or .3mf; - is standard output and needs --format");
     declareShapes(line, options);
     declareMaskOut(line);
     declarePreview(line);
@@ -101,7 +101,7 @@ bool inGltf(const ShapeOptions& options)
 /// @param subject  name of the output in messages
 void readFormat(const CommandLine& line, const std::string& subject, ShapeOptions& options)
 {
-    const std::string known = "glb, gltf, obj, ply, stl, usda, usdz";
+    const std::string known = "glb, gltf, obj, ply, stl, usda, usdz, 3mf";
     const std::string extension = std::filesystem::path(options.output).extension().string();
     if (const auto format = line.value("--format")) {
         options.format = choice<droplet::Format>(*format, {{"glb", droplet::Format::Glb},
@@ -110,7 +110,8 @@ void readFormat(const CommandLine& line, const std::string& subject, ShapeOption
                                                            {"ply", droplet::Format::Ply},
                                                            {"stl", droplet::Format::Stl},
                                                            {"usda", droplet::Format::Usda},
-                                                           {"usdz", droplet::Format::Usdz}});
+                                                           {"usdz", droplet::Format::Usdz},
+                                                           {"3mf", droplet::Format::ThreeMf}});
     } else if (options.output == kStandardStream) {
         refuse("--format is missing: it is needed if OUTPUT is -; allowed are " + known);
     } else if (extension.empty()) {
@@ -171,10 +172,10 @@ void declareDroplets(CommandLine& line, ShapeOptions& options)
     declareLiquid(line, settings);
     declareGround(line, settings);
     declareSurface(line, settings);
-    line.add("Surface", "--format", "glb|gltf|obj|ply|stl|usda|usdz",
+    line.add("Surface", "--format", "glb|gltf|obj|ply|stl|usda|usdz|3mf",
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
     line.add("Surface", "--nodes",
-             "Nodes in glTF and USD: one for all droplets, or one each, named droplet_1, droplet_2 and so on, with its "
+             "Nodes in glTF and USD, parts in 3MF: one for all droplets, or one each, named droplet_1, droplet_2 and so on, with its "
              "figures",
              into(settings.nodes, {{"one", droplet::Nodes::One}, {"each", droplet::Nodes::Each}}));
     line.add("Surface", "--materials", "FILE",

@@ -54,7 +54,7 @@ export interface Droplet {
     /** The command's report, droplet-shape.report/1. */
     readonly report: Record<string, any>;
     /** Bytes of a file. */
-    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl' | 'usda' | 'usdz'): Uint8Array;
+    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl' | 'usda' | 'usdz' | '3mf'): Uint8Array;
     /** Gives the solver's memory back before the garbage collector does. */
     free(): void;
 }

@@ -63,7 +63,7 @@ _droplet_shape()
         flow:--material) return ;;
         *:--material) choices='water ink mercury honey plain' ;;
         *:--unit) choices='m cm mm' ;;
-        *:--format) choices='glb gltf obj ply stl usda usdz' ;;
+        *:--format) choices='glb gltf obj ply stl usda usdz 3mf' ;;
         *:--nodes) choices='one each' ;;
         *:--materials) files=1 ;;
         *:--fill-range) return ;;

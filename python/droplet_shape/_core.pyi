@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ._reports import Report, SequenceReport
 
 _Path = Union[str, os.PathLike[str]]
-_Format = Literal["glb", "gltf", "obj", "ply", "stl", "usda", "usdz"]
+_Format = Literal["glb", "gltf", "obj", "ply", "stl", "usda", "usdz", "3mf"]
 _FilmFormat = Literal["glb", "gltf", "usda", "usdz"]
 _Material = Literal["water", "ink", "mercury", "honey", "plain"]
 _Unit = Literal["m", "cm", "mm"]

@@ -266,7 +266,7 @@ after the surface is deleted.)")
 
 path        ends in .glb, .gltf, .obj (with its .mtl), .ply, .stl, .usda or
             .usdz; or an object that is open for bytes, such as io.BytesIO()
-format      glb, gltf, obj, ply, stl, usda or usdz; a file object needs it [by
+format      glb, gltf, obj, ply, stl, usda, usdz or 3mf; a file object needs it [by
             the path]
 material    water, ink, mercury, honey or plain: the look in glTF, OBJ and USD
             [the liquid's own]

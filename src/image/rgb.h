@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -32,6 +33,16 @@ inline Vec3 linearLight(Vec3 levels)
         return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
     };
     return {light(levels.x), light(levels.y), light(levels.z)};
+}
+
+/// Nearest levels of sRGB of linear light. What is below 0 or above 1 counts as that.
+inline Rgb levelsOf(Vec3 light)
+{
+    const auto level = [](double one) {
+        const double share = one <= 0.0031308 ? 12.92 * std::max(one, 0.0) : 1.055 * std::pow(one, 1.0 / 2.4) - 0.055;
+        return static_cast<std::uint8_t>(std::lround(255.0 * std::min(share, 1.0)));
+    };
+    return {level(light.x), level(light.y), level(light.z)};
 }
 
 /// CIE L*a*b* of levels of sRGB in x, y and z, with the white of D65.

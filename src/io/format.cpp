@@ -6,6 +6,7 @@
 #include "droplet/io/gltf.h"
 #include "droplet/io/mesh_files.h"
 #include "droplet/io/output.h"
+#include "droplet/io/three_mf.h"
 #include "droplet/io/usd.h"
 #include "io/dry_surface.h"
 
@@ -31,6 +32,8 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
             return writeUsda(surface, out, {options.material, options.nodes, options.droplets});
         case Format::Usdz:
             return writeUsdz(surface, out, {options.material, options.nodes, options.droplets, options.texture});
+        case Format::ThreeMf:
+            return writeThreeMf(surface, out, {options.material, options.nodes, options.droplets});
     }
     throw Error(ErrorCode::InvalidArgument, "format = " + std::to_string(static_cast<int>(format)) + " is unknown");
 }

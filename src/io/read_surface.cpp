@@ -12,8 +12,9 @@ namespace droplet {
 Format readableFormat(const std::filesystem::path& path)
 {
     const Format format = formatNamed(path.extension().string());
-    if (format == Format::Usda || format == Format::Usdz) {
-        throw Error(ErrorCode::InvalidArgument, "USD files are only written; glb, gltf, obj, ply and stl can be read");
+    if (format == Format::Usda || format == Format::Usdz || format == Format::ThreeMf) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "USD and 3MF files are only written; glb, gltf, obj, ply and stl can be read");
     }
     return format;
 }

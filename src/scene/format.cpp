@@ -11,7 +11,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::array<std::pair<Format, const char*>, 7> kFormats = {{
+constexpr std::array<std::pair<Format, const char*>, 8> kFormats = {{
     {Format::Glb, "glb"},
     {Format::Gltf, "gltf"},
     {Format::Obj, "obj"},
@@ -19,6 +19,7 @@ constexpr std::array<std::pair<Format, const char*>, 7> kFormats = {{
     {Format::Stl, "stl"},
     {Format::Usda, "usda"},
     {Format::Usdz, "usdz"},
+    {Format::ThreeMf, "3mf"},
 }};
 
 }  // namespace

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pixar, "OpenUSD": UsdGeomMesh, UsdGeomPrimvar, "UsdPreviewSurface Specification" (2.6), "Usdz File Format
-// Specification" (1.3); PKWARE, ".ZIP File Format Specification" (6.3).
+// Specification" (1.3).
 #include "scene/write_usd.h"
-
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +11,6 @@
 #include <limits>
 #include <optional>
 #include <ostream>
-#include <streambuf>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,12 +22,13 @@
 #include "droplet/version.h"
 #include "scene/preview_opacity.h"
 #include "scene/welded_vertices.h"
+#include "zip.h"
 
 namespace droplet {
 namespace {
 
-constexpr std::string_view kLayer = "droplet.usda";
-constexpr std::string_view kPicture = "picture.png";
+constexpr const char* kLayer = "droplet.usda";
+constexpr const char* kPicture = "picture.png";
 constexpr std::string_view kRoot = "/droplet/";
 
 /// Name of a prim, and the name that it stands for.
@@ -738,113 +736,18 @@ std::uint64_t writeLayer(const Scene& scene, std::ostream& out)
     return bytes.finish();
 }
 
-/// Stream that keeps only the length and the checksum of its bytes.
-class Checksum : public std::streambuf {
-public:
-    [[nodiscard]] std::uint32_t crc() const { return static_cast<std::uint32_t>(crc_); }
-
-protected:
-    std::streamsize xsputn(const char* bytes, std::streamsize count) override
-    {
-        crc_ = crc32_z(crc_, reinterpret_cast<const Bytef*>(bytes), static_cast<std::size_t>(count));
-        return count;
-    }
-
-private:
-    uLong crc_ = crc32_z(0, nullptr, 0);
-};
-
-/// File of a package.
-struct ZipEntry {
-    std::string_view name;
-    std::function<std::uint64_t(std::ostream&)> write;
-    std::uint64_t begin = 0;    ///< of its header
-    std::uint64_t padding = 0;  ///< bytes of the extra field, which aligns the data
-    std::uint64_t length = 0;
-    std::uint32_t crc = 0;
-};
-
-constexpr std::uint64_t kHeader = 30;
-constexpr std::uint64_t kDirectoryEntry = 46;
-constexpr std::uint64_t kDirectoryEnd = 22;
-
-/// Measures the files and places them one after another.
-/// @return  where the directory begins
-std::uint64_t place(std::vector<ZipEntry>& entries)
-{
-    constexpr std::uint64_t kAlignment = 64;
-    constexpr std::uint64_t kSmallestField = 4;
-    std::uint64_t end = 0;
-    for (ZipEntry& entry : entries) {
-        Checksum checksum;
-        std::ostream counted(&checksum);
-        entry.length = entry.write(counted);
-        entry.crc = checksum.crc();
-        entry.begin = end;
-        const std::uint64_t names_end = end + kHeader + entry.name.size() + kSmallestField;
-        entry.padding = kSmallestField + (kAlignment - names_end % kAlignment) % kAlignment;
-        end += kHeader + entry.name.size() + entry.padding + entry.length;
-    }
-    return end;
-}
-
-/// Fields that both headers of a zip's file share: version 1.0, no flags, stored, 1980-01-01, checksum and length
-/// twice.
-void writeZipFields(ByteStream& zip, const ZipEntry& entry)
-{
-    zip.u16(10, 0, 0, 0, 0x21);
-    zip.u32(entry.crc, entry.length, entry.length);
-    zip.u16(entry.name.size());
-}
-
-/// Writes a package. The text is written twice, so that it is never in memory as a whole: its length and checksum stand
-/// before it.
+/// Writes a package.
 std::uint64_t writePackage(const Scene& scene, std::ostream& out)
 {
-    std::vector<ZipEntry> entries{{kLayer, [&](std::ostream& layer) { return writeLayer(scene, layer); }}};
+    std::vector<ZipEntry> files{{kLayer, [&](std::ostream& layer) { return writeLayer(scene, layer); }}};
     if (scene.picture) {
-        entries.push_back({kPicture, [&](std::ostream& picture) {
-                               ByteStream bytes(picture);
-                               bytes.text(scene.picture->png);
-                               return bytes.finish();
-                           }});
+        files.push_back({kPicture, [&](std::ostream& picture) {
+                             ByteStream bytes(picture);
+                             bytes.text(scene.picture->png);
+                             return bytes.finish();
+                         }});
     }
-    const std::uint64_t directory_begin = place(entries);
-    std::uint64_t directory_bytes = 0;
-    for (const ZipEntry& entry : entries) {
-        directory_bytes += kDirectoryEntry + entry.name.size();
-    }
-    const std::uint64_t size = directory_begin + directory_bytes + kDirectoryEnd;
-    if (size > std::numeric_limits<std::uint32_t>::max()) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "the scene would make a USDZ file of " + std::to_string(size) + " bytes; it must stay below 4 GiB");
-    }
-    for (const ZipEntry& entry : entries) {
-        ByteStream header(out);
-        header.text("PK\x03\x04");
-        writeZipFields(header, entry);
-        header.u16(entry.padding);
-        header.text(entry.name);
-        header.u16(0x1986, entry.padding - 4);  // the field's name in OpenUSD's own packages
-        header.text(std::string(entry.padding - 4, '\0'));
-        header.finish();
-        entry.write(out);
-    }
-    ByteStream directory(out);
-    for (const ZipEntry& entry : entries) {
-        directory.text("PK\x01\x02");
-        directory.u16(10);
-        writeZipFields(directory, entry);
-        directory.u16(0, 0, 0, 0);  // no extra field, no comment, first disk, no attributes
-        directory.u32(0, entry.begin);
-        directory.text(entry.name);
-    }
-    directory.text("PK\x05\x06");
-    directory.u16(0, 0, entries.size(), entries.size());
-    directory.u32(directory_bytes, directory_begin);
-    directory.u16(0);
-    directory.finish();
-    return size;
+    return writeZip(files, out, {.alignment = 64, .kind = "USDZ"});
 }
 
 }  // namespace

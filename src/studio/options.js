@@ -33,7 +33,7 @@ export const kOptions = {
   "grading": {"words": ["auto", "1", "2", "4", "8", "16", "32", "64"], "default": "auto"},
   "material": {"words": ["water", "ink", "mercury", "honey", "plain"], "default": "the liquid's own"},
   "unit": {"words": ["m", "cm", "mm"], "default": "mm"},
-  "format": {"words": ["glb", "gltf", "obj", "ply", "stl", "usda", "usdz"], "default": "by OUTPUT's extension"},
+  "format": {"words": ["glb", "gltf", "obj", "ply", "stl", "usda", "usdz", "3mf"], "default": "by OUTPUT's extension"},
   "nodes": {"words": ["one", "each"], "default": "one"},
   "sink": {"min": 1e-09, "max": 1000.0},
   "compress": {"words": ["none", "quantize", "meshopt"], "default": "none"},

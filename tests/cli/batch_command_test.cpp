@@ -561,7 +561,7 @@ TEST_F(BatchTest, RefusesWrongContactSheets)
     }
     const CommandResult usd = run({"batch", "masks", "-o", "{stem}.usdz", "--contact-sheet", "sheet.png"});
     EXPECT_EQ(usd.exit_code, 2);
-    EXPECT_THAT(usd.error, HasSubstr("--contact-sheet: USD files are only written"));
+    EXPECT_THAT(usd.error, HasSubstr("--contact-sheet: USD and 3MF files are only written"));
 }
 
 }  // namespace

@@ -704,7 +704,7 @@ TEST_F(ShapeCommandTest, ObjIsWrittenWithItsMaterialOrNotAtAll)
 
 TEST_F(ShapeCommandTest, GivesTheSameBytesWithAnyNumberOfThreads)
 {
-    for (const char* format : {"glb", "gltf", "obj", "ply", "stl", "usda", "usdz"}) {
+    for (const char* format : {"glb", "gltf", "obj", "ply", "stl", "usda", "usdz", "3mf"}) {
         make({"two.pgm", "one", "--format", format, "-j", "1"});
         make({"two.pgm", "other", "--format", format, "-j", "2"});
         make({"two.pgm", "again", "--format", format});

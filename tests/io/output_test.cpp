@@ -634,7 +634,7 @@ TEST_F(Output, OfTwoConcurrentWritesOneIsComplete)
 TEST(FormatNamed, KnowsNamesAndExtensions)
 {
     for (const Format format :
-         {Format::Glb, Format::Gltf, Format::Obj, Format::Ply, Format::Stl, Format::Usda, Format::Usdz}) {
+         {Format::Glb, Format::Gltf, Format::Obj, Format::Ply, Format::Stl, Format::Usda, Format::Usdz, Format::ThreeMf}) {
         EXPECT_EQ(formatNamed(name(format)), format);
         EXPECT_EQ(formatNamed(std::string(".") + name(format)), format);
     }
@@ -651,14 +651,14 @@ TEST(FormatNamed, KnowsNamesAndExtensions)
 
 TEST(FormatNamed, RefusesOtherNames)
 {
-    for (const char* wrong : {"", ".", "..glb", "glb ", "3mf", "gl", "glbx"}) {
+    for (const char* wrong : {"", ".", "..glb", "glb ", "3ds", "gl", "glbx"}) {
         try {
             formatNamed(wrong);
             ADD_FAILURE() << wrong;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
             const std::string shown = wrong[0] == '.' ? wrong + 1 : wrong;
-            EXPECT_EQ(error.what(), "format is '" + shown + "', must be one of glb, gltf, obj, ply, stl, usda, usdz");
+            EXPECT_EQ(error.what(), "format is '" + shown + "', must be one of glb, gltf, obj, ply, stl, usda, usdz, 3mf");
         }
     }
 }

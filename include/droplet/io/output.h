@@ -20,12 +20,12 @@ namespace droplet {
 
 /// Options of all formats; a format ignores those that it cannot express.
 struct WriteOptions {
-    Material material = Material::Water;            ///< glTF, USD, and OBJ with material_file; without `droplets`
+    Material material = Material::Water;            ///< glTF, USD, 3MF, OBJ with material_file; without `droplets`
     std::optional<bool> closed = {};                ///< glTF: isClosed(surface), if already known
     LengthUnit unit = LengthUnit::Millimetre;       ///< OBJ and STL
     std::optional<std::string> material_file = {};  ///< OBJ: name of the file from writeMtl beside it
-    Nodes nodes = Nodes::One;                       ///< glTF and USD
-    std::vector<FileDroplet> droplets = {};         ///< glTF and USD as in their options; OBJ takes their looks
+    Nodes nodes = Nodes::One;                       ///< glTF, USD and 3MF
+    std::vector<FileDroplet> droplets = {};         ///< glTF, USD and 3MF as in their options; OBJ takes their looks
     std::string texture = {};                       ///< glTF and USDZ
     Compression compression = Compression::None;    ///< GLB
 };

@@ -8,7 +8,7 @@
 namespace droplet {
 
 /// File formats of meshes.
-enum class Format { Glb, Gltf, Obj, Ply, Stl, Usda, Usdz };
+enum class Format { Glb, Gltf, Obj, Ply, Stl, Usda, Usdz, ThreeMf };
 
 /// Format with a name (`glb`) or a file extension (`.GLB`).
 /// @throws Error InvalidArgument, listing the known names
