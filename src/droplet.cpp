@@ -184,9 +184,9 @@ std::string dryWarning(const Droplet& droplet)
 {
     constexpr double kVisible = 0.01;  // of the footprint
     const double share = droplet.total.dry_area / droplet.total.footprint_area;
-    return share < kVisible ? ""
-                            : "the liquid leaves " + percent(share) +
-                                  " of the footprint dry; ask for more liquid, or for a smaller width";
+    return share < kVisible
+               ? ""
+               : "the liquid leaves " + percent(share) + " of the footprint dry; a smaller width leaves less";
 }
 
 /// Warning about one droplet of several that has gathered most of what they share; empty if there is none.

@@ -1070,6 +1070,56 @@ TEST(Droplet, IsNoHigherThanAPuddleOnTiltedBalls)
     }
 }
 
+// The slope of a ball adds to the contact angle: a height field over the plane is too low by 26 % with 1000 triangles.
+// The volume is that of the axisymmetric Young-Laplace equation, integrated with another program.
+TEST(Droplet, LiquidOnASteepBallHasItsVolumeOnCoarseTriangles)
+{
+    const Mask mask = smoothMask(200, 200, disc({100.0, 100.0}, 90.0));
+    for (const std::size_t triangles : {1'000U, 8'000U}) {
+        SCOPED_TRACE(triangles);
+        DropletOptions options;
+        options.trace.pixel_size = 0.1 * kMillimetre;
+        options.mesh.triangles = triangles;
+        options.solve.model = Model::Auto;
+        options.solve.ground = BaseSurface::sphere(15.0 * kMillimetre);
+        const Droplet droplet = makeDroplet(mask, options);
+        EXPECT_NEAR(droplet.total.contact_angle.mean, 40.0 * kDegree, 1e-6);
+        EXPECT_NEAR(droplet.total.volume / (202.5 * kMicrolitre), 1.0, 0.004);
+    }
+}
+
+// Under a ceiling the linear model has droplets of any angle, and of any height. The largest angle of real ones is the
+// one that a refusal names.
+TEST(Droplet, HangsUnderACeilingWithTheLargestAngleThatExists)
+{
+    const Mask mask = smoothMask(200, 200, disc({100.0, 100.0}, 90.0));
+    DropletOptions options;
+    options.trace.pixel_size = 0.1 * kMillimetre;
+    options.mesh.triangles = 4'000;
+    options.solve.model = Model::Auto;
+    options.solve.tilt = 180.0 * kDegree;
+    options.solve.fill.below_puddle = true;
+    options.allow_less = true;
+    const Droplet most = makeDroplet(mask, options);
+    EXPECT_EQ(most.limits.front(), FillLimit::Existence);
+    EXPECT_GT(most.total.contact_angle.mean, 6.5 * kDegree);
+    EXPECT_LT(most.total.height_max, 4.0 * kMillimetre);
+    options.allow_less = false;
+    options.solve.fill = {FillBy::ContactAngle, 8.0 * kDegree, FillSharing::Each};
+    try {
+        makeDroplet(mask, options);
+        ADD_FAILURE() << "8 degrees exist";
+    } catch (const Error& error) {
+        const std::string message = error.what();
+        const std::size_t at = message.find("at most ");
+        ASSERT_NE(at, std::string::npos) << message;
+        EXPECT_NEAR(std::stod(message.substr(at + 8)), most.total.contact_angle.mean / kDegree, 0.3)
+            << message;  // the path has steps
+    }
+    options.solve.fill = {FillBy::Volume, most.total.volume, FillSharing::Each};
+    EXPECT_NEAR(makeDroplet(mask, options).total.contact_angle.mean, most.total.contact_angle.mean, 0.05 * kDegree);
+}
+
 TEST(Droplet, WarnsOfATriangleCountOutOfReach)
 {
     DropletOptions options = plain();

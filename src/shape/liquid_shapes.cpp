@@ -22,6 +22,7 @@
 #include "mesh/round_inward.h"
 #include "number_text.h"
 #include "shape/own_options.h"
+#include "shape/recovered_normals.h"
 #include "shape/sheet_base.h"
 #include "shape/sheet_contact.h"
 #include "shape/work.h"
@@ -128,10 +129,18 @@ bool areUpright(const std::vector<CapillarySurface>& fields)
     return std::any_of(fields.begin(), fields.end(), isUpright);
 }
 
-/// Whether sheets are more exact: rims are upright, or steep at corners that point inward.
-bool areSteep(const std::vector<CapillarySurface>& fields)
+/// Whether sheets are more exact: rims are upright, or steep at corners that point inward; or, on ground that is not
+/// flat, steep to the plane.
+bool areSteep(const std::vector<CapillarySurface>& fields, const BaseSurface& ground)
 {
-    const auto is_steep = [](const CapillarySurface& field) {
+    const auto is_steep = [&](const CapillarySurface& field) {
+        if (!ground.flat()) {
+            const std::vector<double> slopes = rimSlopes(field, ground);
+            if (std::any_of(slopes.begin(), slopes.end(),
+                            [](double slope) { return std::abs(slope) >= std::tan(kSteepCorner); })) {
+                return true;
+            }
+        }
         const PlanarMesh mesh = rimOf(field);
         for (std::size_t loop = 0; loop < mesh.loopCount(); ++loop) {
             std::uint32_t last = mesh.loop_starts[loop + 1] - 1;
@@ -255,7 +264,8 @@ std::optional<Probe> probe(const std::vector<PlanarMesh>& meshes, const SolveOpt
     }
     const Solution solution = findFields(coarse, quickly(options), {});
     const bool exists = solution.report.usable() && haveLiquid(solution.droplets, options);
-    const bool is_steep = exists ? areSteep(solution.droplets) : solution.report.termination != Termination::Unstable;
+    const bool is_steep =
+        exists ? areSteep(solution.droplets, options.ground) : solution.report.termination != Termination::Unstable;
     return Probe{exists, is_steep};
 }
 
@@ -288,6 +298,19 @@ std::optional<LiquidShapes> linearStandIn(const std::vector<PlanarMesh>& meshes,
         shapes.solution = findFields(meshes, options, {});
     }
     return stands(shapes) ? std::optional(std::move(shapes)) : std::nullopt;
+}
+
+/// Whether a sheet that missed its angle is so small that the linear model is nearer to what was wanted. Ground that it
+/// leaves dry takes from the mean angle, and not from the height. Under a ceiling the linear model has no limit.
+bool isTooLittle(const SheetResult& sheet, const SolveOptions& options)
+{
+    if (sheet.volume == 0.0) {
+        return true;
+    }
+    const ShapeFigures figures = measure(sheet.surface, options);
+    const double height = puddleHeight(options, std::min(options.fill.amount, kModestAngle), figures.footprint_area);
+    return planeGravity(options).normal >= 0.0 && sheet.contact_angle < kLeastShare * options.fill.amount &&
+           figures.height_max < kLeastShare * height;
 }
 
 /// Why there is no sheet, and what to change.
@@ -443,8 +466,8 @@ Shape solveShape(const std::vector<PlanarMesh>& meshes, const SolveOptions& opti
         quick.max_work = std::min(field_work, most);
         shape = solveFields(meshes, quick);
     }
-    if (!is_steep &&
-        (shape.fields.empty() ? shape.report.termination == Termination::Unstable : !areSteep(shape.fields))) {
+    if (!is_steep && (shape.fields.empty() ? shape.report.termination == Termination::Unstable
+                                           : !areSteep(shape.fields, options.ground))) {
         return shape;
     }
     // A height field that is upright in a few places may stand, unless the exact shape was asked for.
@@ -760,7 +783,7 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
         solution = findFields(meshes, quickly(options), progress);
         shapes.work = solution.report.work;
         has_fields = solution.report.usable() && haveLiquid(solution.droplets, options);
-        if (has_fields && !areSteep(solution.droplets)) {
+        if (has_fields && !areSteep(solution.droplets, options.ground)) {
             return shapes;
         }
     } else if (progress) {
@@ -851,9 +874,9 @@ LiquidShapes solveAll(const std::vector<PlanarMesh>& meshes, const SolveOptions&
                     limit(groups[g], *shape.lesser, shapes);
                 }
             } else {
-                const bool is_too_little =
-                    allow_less && options.model == Model::Auto && options.fill.by == FillBy::ContactAngle &&
-                    (shape.sheet->volume == 0.0 || shape.sheet->contact_angle < kLeastShare * options.fill.amount);
+                const bool is_too_little = allow_less && options.model == Model::Auto &&
+                                           options.fill.by == FillBy::ContactAngle &&
+                                           isTooLittle(*shape.sheet, options);
                 if (is_too_little || has_linear) {
                     if (auto stand_in = linearStandIn(meshes, options, shape.sheet->volume == 0.0)) {
                         return *std::move(stand_in);

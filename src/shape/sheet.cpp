@@ -227,7 +227,8 @@ SheetResult solveSheet(const std::vector<PlanarMesh>& footprints, const SolveOpt
     do {
         levels.insert(levels.begin(), levelOf(footprints, options, scale, may_round));
         SheetOptions& own = levels.front().options;
-        own.is_end_confirmed = effort == SheetEffort::Full;
+        own.is_end_confirmed = effort == SheetEffort::Full || (effort == SheetEffort::Modest && !options.ground.flat());
+        own.is_largest_wanted = effort != SheetEffort::Full;
         own.is_end_wanted = effort != SheetEffort::Trial;
         own.max_work = may_round ? most - rounding : 0.0;
         own.reached = reached;

@@ -56,6 +56,7 @@ constexpr double kConfirmWork = 1.5;
 constexpr int kRenewals = 40;
 constexpr double kRolling = 1.0;
 /// Most reductions of the first volume, to a quarter each: less liquid is nearer to the dry ground, where it is known.
+/// Then, as many times, it is doubled, for over rough ground little liquid lies in many puddles.
 constexpr int kReductions = 6;
 /// Growth of edges when a sheet fails with small ones.
 constexpr double kCoarser = 1.6;
@@ -132,10 +133,13 @@ public:
         const bool is_level = base_.ground.flat() && options_.weight.x == 0.0 && options_.weight.y == 0.0;
         const double most = target_.by == FillBy::Volume ? target_.amount : std::numeric_limits<double>::infinity();
         const double first = kFirstPart * std::pow(meshed_area_ / std::numbers::pi, 1.5);
-        double volume = is_level ? 0.0 : std::min(first, most);
-        for (int k = 0; k <= kReductions && hasWork(); ++k, volume *= 0.25) {
+        const double volume = is_level ? 0.0 : std::min(first, most);
+        for (int k = 0; k <= 2 * kReductions && hasWork(); ++k) {
             now_.sheet = dry;
-            now_.volume = volume;
+            now_.volume = volume * (k <= kReductions ? std::pow(0.25, k) : std::pow(2.0, k - kReductions));
+            if (now_.volume > most) {
+                break;
+            }
             now_.pressure = is_level ? 0.0 : liftingPressure(dry);
             now_.newton = solver_->solve(now_.sheet, now_.volume, now_.pressure, within(kSettling));
             count(now_, k == 0 ? kRemeshWork : 0.0);
@@ -204,7 +208,8 @@ public:
         if (is_limit && options_.is_end_confirmed && refineFirm()) {
             end = follow();
         }
-        if (end == SheetEnd::NoAngle || end == SheetEnd::NoHeight) {
+        if (end == SheetEnd::NoAngle || end == SheetEnd::NoHeight ||
+            (options_.is_largest_wanted && end != SheetEnd::Reached)) {
             goBackToLargest();
         }
         const std::optional<SheetContact> contact = contact_;
@@ -315,6 +320,10 @@ private:
             }
             const double share = shareOf(now_.sheet, now_.pressure);
             report(share);
+            if (share > highest_share_) {
+                highest_ = now_;
+                highest_share_ = share;
+            }
             largest = std::max(largest, share);
             const bool is_angle = target_.by == FillBy::ContactAngle;
             if (share < (is_angle ? largest - kFallen / target_.amount : kLower * largest)) {
@@ -480,15 +489,11 @@ private:
         use(solverOf(now_.sheet), now_.sheet);
     }
 
-    /// Takes up the sheet with the largest share of the target, of those that stood on new triangles.
+    /// Takes up the sheet with the largest share of the target.
     void goBackToLargest()
     {
-        const auto share = [&](const State& state) { return shareOf(state.sheet, state.pressure); };
-        const double last = share(now_);
-        while (firm_.size() > 1 && share(firm_[firm_.size() - 2]) > share(firm_.back())) {
-            firm_.pop_back();
-        }
-        if (share(firm_.back()) > last) {
+        if (highest_ && highest_share_ > shareOf(now_.sheet, now_.pressure)) {
+            firm_ = {*highest_};
             goBack();
         }
     }
@@ -715,6 +720,8 @@ private:
     std::vector<double> meshed_angles_;                     ///< of every triangle then [rad]
     std::vector<std::uint32_t> droplet_;                    ///< of every rim vertex: the first vertex of the same one
     std::deque<State> firm_;                                ///< last equilibria that were confirmed on new triangles
+    std::optional<State> highest_;                          ///< equilibrium with the largest share of the target
+    double highest_share_ = 0.0;                            ///< that share
     double gap_ = std::numeric_limits<double>::infinity();  ///< change of the volume, over it, until the next one
     double chord_ = 0.0;                                    ///< as of NewtonLimits
     bool is_final_ = false;                                 ///< the triangles stay until the target

@@ -21,19 +21,21 @@ struct SheetTarget {
 
 /// Liquid and accuracy of a sheet.
 struct SheetOptions {
-    Vec3 weight;                   ///< w = ρ(g⊥e_z − g∥)/σ [1/m²]
-    double edge = 0.0;             ///< largest edge of a triangle where an end is confirmed [m], > 0
-    double path_edge = 0.0;        ///< the same on the way; at least edge
-    std::size_t triangles = 0;     ///< number at the end, > 0; fewer where small ones fail at a fold
-    double min_step = 1e-3;        ///< smallest step of the volume, over the volume
-    double tolerance = 1e-9;       ///< relative residual of an equilibrium, and error of the target
-    bool is_end_confirmed = true;  ///< on triangles of the final size
-    bool mends = false;            ///< the final triangles, as of RemeshOptions
-    bool is_end_wanted = true;     ///< otherwise a path that misses its target ends with any sheet
-    double max_work = 5e9;         ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds.
-                                   ///< Line searches and new triangles count as well;
-                                   ///< the final triangles have an allowance of their own
-    BaseSurface ground = {};       ///< under the footprint, and around it
+    Vec3 weight;                     ///< w = ρ(g⊥e_z − g∥)/σ [1/m²]
+    double edge = 0.0;               ///< largest edge of a triangle where an end is confirmed [m], > 0
+    double path_edge = 0.0;          ///< the same on the way; at least edge
+    std::size_t triangles = 0;       ///< number at the end, > 0; fewer where small ones fail at a fold
+    double min_step = 1e-3;          ///< smallest step of the volume, over the volume
+    double tolerance = 1e-9;         ///< relative residual of an equilibrium, and error of the target
+    bool is_end_confirmed = true;    ///< on triangles of the final size
+    bool mends = false;              ///< the final triangles, as of RemeshOptions
+    bool is_largest_wanted = false;  ///< where the target is missed, the sheet with the largest share of it, not the
+                                     ///< last one
+    bool is_end_wanted = true;       ///< otherwise a path that misses its target ends with any sheet
+    double max_work = 5e9;    ///< sum over factorisations of the power 3/2 of the triangles; 1e9 take two seconds.
+                              ///< Line searches and new triangles count as well;
+                              ///< the final triangles have an allowance of their own
+    BaseSurface ground = {};  ///< under the footprint, and around it
     std::function<void(double)> reached = {};  ///< called with the share of the target after steps of the volume
 };
 
