@@ -896,7 +896,7 @@ TEST_F(ShapeCommandTest, VerboseAddsDropletsTimesAndMemory)
     }
     EXPECT_THAT(result.error, Not(HasSubstr("more, all in")));
     EXPECT_THAT(run({"disc.pgm", "a.glb", "--triangles", "2k", "-v", "--model", "exact", "--tilt", "20deg", "--surface",
-                     "cylinder:R=33mm,axis=y", "--no-penetration"})
+                     "cylinder:R=33mm,axis=y", "--no-penetration", "--width", "8mm"})
                     .error,
                 AllOf(HasSubstr("exact model"), HasSubstr("Newton step"), HasSubstr("tilt 20.0° downhill to -90.0°"),
                       HasSubstr("cylinder of radius 33 mm, axis at 90.0°, no penetration, 0 mm² left dry")));
