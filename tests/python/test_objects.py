@@ -168,7 +168,7 @@ class FileObjects(unittest.TestCase):
         drop = flag()
         for words, call in (
             ("^format: a file object has no extension", lambda: drop.save(io.BytesIO())),
-            ("^format: .*glb gltf obj", lambda: drop.to_bytes("dwg")),
+            ("^format: .*glb, gltf, obj", lambda: drop.to_bytes("dwg")),
             ("^unit: ", lambda: drop.to_bytes(unit="inch")),
             ("^material: ", lambda: film().to_bytes(material="gold")),
             ("^format: obj holds single frames", lambda: film().to_bytes("obj")),
