@@ -527,8 +527,8 @@ private:
             }
             if (!isOverridden(name)) {
                 if (option->count() > 0) {
-                    refuse("--config: " + path + ":" + std::to_string(entry.line) + ": '" + entry.key + "' gives " +
-                           name + " a second time");
+                    refuse(
+                        fmt::format("--config: {}:{}: '{}' gives {} a second time", path, entry.line, entry.key, name));
                 }
                 option->add_result(entry.value);
                 origins_[name] = origin;

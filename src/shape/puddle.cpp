@@ -25,12 +25,12 @@ double depthBelowRim(const PlanarMesh& footprint, const BaseSurface& ground)
     options.ground = ground;
     options.model = Model::Linear;
     const double volume = std::pow(area(footprint), 1.5);
-    const auto filmOf = [&](double amount) {
+    const auto film_of = [&](double amount) {
         options.fill = {FillBy::Volume, amount, FillSharing::Each};
         return solve({footprint}, options).droplets.at(0);
     };
-    const CapillarySurface one = filmOf(volume);
-    const CapillarySurface two = filmOf(2.0 * volume);
+    const CapillarySurface one = film_of(volume);
+    const CapillarySurface two = film_of(2.0 * volume);
     const double share = one.pressure / (two.pressure - one.pressure);
     double depth = 0.0;
     for (std::size_t v = 0; v < one.vertices.size(); ++v) {
