@@ -35,11 +35,12 @@ const CommandText& commandText()
 
 void declare(CommandLine& line, MorphCommandOptions& options)
 {
-    line.addArguments("FILES",
-                      "INPUT... is the footprints: pictures of one size, or SVG files, which are fitted into them. "
-                      "OUTPUT is a .glb that plays, or droplets of all frames such as out/%04d.glb, .obj, .ply, "
-                      ".stl, .usdz or .3mf; masks such as out/%04d.png; - for masks on standard output; drawings such as "
-                      "out/%04d.svg; or a video of drawings, .mp4, .mkv, .mov or .webm, which needs ffmpeg");
+    line.addArguments(
+        "FILES",
+        "INPUT... is the footprints: pictures of one size, or SVG files, which are fitted into them. "
+        "OUTPUT is a .glb that plays, or droplets of all frames such as out/%04d.glb, .obj, .ply, "
+        ".stl, .usdz or .3mf; masks such as out/%04d.png; - for masks on standard output; drawings such as "
+        "out/%04d.svg; or a video of drawings, .mp4, .mkv, .mov or .webm, which needs ffmpeg");
     constexpr const char* kMorph = "Flow";
     line.add(kMorph, "--text", "TEXT", "First footprint, before those of the pictures", into(options.text));
     line.add(kMorph, "--font-family,--font", "FAMILY", "Font of the text, by the name that the system knows",

@@ -175,7 +175,8 @@ void declareDroplets(CommandLine& line, ShapeOptions& options)
     line.add("Surface", "--format", "glb|gltf|obj|ply|stl|usda|usdz|3mf",
              "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
     line.add("Surface", "--nodes",
-             "Nodes in glTF and USD, parts in 3MF: one for all droplets, or one each, named droplet_1, droplet_2 and so on, with its "
+             "Nodes in glTF and USD, parts in 3MF: one for all droplets, or one each, named droplet_1, droplet_2 and "
+             "so on, with its "
              "figures",
              into(settings.nodes, {{"one", droplet::Nodes::One}, {"each", droplet::Nodes::Each}}));
     line.add("Surface", "--materials", "FILE",

@@ -116,7 +116,8 @@ TEST_F(CompareCommand, RefusesFormatsThatAreOnlyWritten)
     for (const char* const name : {"droplet.usda", "droplet.usdz"}) {
         const CommandResult result = compare({glb, file(name, roundDroplet())});
         EXPECT_EQ(result.exit_code, 2);
-        EXPECT_THAT(result.error, HasSubstr("USD and 3MF files are only written; glb, gltf, obj, ply and stl can be read"));
+        EXPECT_THAT(result.error,
+                    HasSubstr("USD and 3MF files are only written; glb, gltf, obj, ply and stl can be read"));
     }
 }
 

@@ -633,8 +633,8 @@ TEST_F(Output, OfTwoConcurrentWritesOneIsComplete)
 
 TEST(FormatNamed, KnowsNamesAndExtensions)
 {
-    for (const Format format :
-         {Format::Glb, Format::Gltf, Format::Obj, Format::Ply, Format::Stl, Format::Usda, Format::Usdz, Format::ThreeMf}) {
+    for (const Format format : {Format::Glb, Format::Gltf, Format::Obj, Format::Ply, Format::Stl, Format::Usda,
+                                Format::Usdz, Format::ThreeMf}) {
         EXPECT_EQ(formatNamed(name(format)), format);
         EXPECT_EQ(formatNamed(std::string(".") + name(format)), format);
     }
@@ -658,7 +658,8 @@ TEST(FormatNamed, RefusesOtherNames)
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
             const std::string shown = wrong[0] == '.' ? wrong + 1 : wrong;
-            EXPECT_EQ(error.what(), "format is '" + shown + "', must be one of glb, gltf, obj, ply, stl, usda, usdz, 3mf");
+            EXPECT_EQ(error.what(),
+                      "format is '" + shown + "', must be one of glb, gltf, obj, ply, stl, usda, usdz, 3mf");
         }
     }
 }

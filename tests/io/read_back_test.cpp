@@ -75,14 +75,12 @@ protected:
     const aiMesh* mesh = nullptr;
 };
 
-INSTANTIATE_TEST_SUITE_P(EveryFormat, ReadBack,
-                         ::testing::Values(Convention{Format::Glb, 1.0, true, true},
-                                           Convention{Format::Gltf, 1.0, true, true},
-                                           Convention{Format::Obj, 1e-3, true, true},
-                                           Convention{Format::Ply, 1.0, false, true},
-                                           Convention{Format::Stl, 1e-3, false, false},
-                                           Convention{Format::ThreeMf, 1e-3, false, false}),
-                         [](const auto& run) { return std::string(name(run.param.format)); });
+INSTANTIATE_TEST_SUITE_P(
+    EveryFormat, ReadBack,
+    ::testing::Values(Convention{Format::Glb, 1.0, true, true}, Convention{Format::Gltf, 1.0, true, true},
+                      Convention{Format::Obj, 1e-3, true, true}, Convention{Format::Ply, 1.0, false, true},
+                      Convention{Format::Stl, 1e-3, false, false}, Convention{Format::ThreeMf, 1e-3, false, false}),
+    [](const auto& run) { return std::string(name(run.param.format)); });
 
 TEST_P(ReadBack, TheVolumeIsThatOfThePyramid)
 {
