@@ -98,31 +98,20 @@ bool inGltf(const ShapeOptions& options)
     return options.html || options.format == droplet::Format::Glb || options.format == droplet::Format::Gltf;
 }
 
+/// Format by the extension of the output.
 /// @param subject  name of the output in messages
-void readFormat(const CommandLine& line, const std::string& subject, ShapeOptions& options)
+droplet::Format formatOf(const std::string& output, const std::string& subject)
 {
     const std::string known = "glb, gltf, obj, ply, stl, usda, usdz, 3mf";
-    const std::string extension = std::filesystem::path(options.output).extension().string();
-    if (const auto format = line.value("--format")) {
-        options.format = choice<droplet::Format>(*format, {{"glb", droplet::Format::Glb},
-                                                           {"gltf", droplet::Format::Gltf},
-                                                           {"obj", droplet::Format::Obj},
-                                                           {"ply", droplet::Format::Ply},
-                                                           {"stl", droplet::Format::Stl},
-                                                           {"usda", droplet::Format::Usda},
-                                                           {"usdz", droplet::Format::Usdz},
-                                                           {"3mf", droplet::Format::ThreeMf}});
-    } else if (options.output == kStandardStream) {
+    const std::string extension = std::filesystem::path(output).extension().string();
+    if (output == kStandardStream) {
         refuse("--format is missing: it is needed if OUTPUT is -; allowed are " + known);
-    } else if (extension.empty()) {
-        refuse(subject + " '" + options.output + "' has no extension that gives the format; allowed are " + known +
-               ", or give --format");
-    } else {
-        options.format =
-            forOption(subject + " '" + options.output + "'", [&] { return droplet::formatNamed(extension); });
     }
-
-    warnOfFormat(line, options.format, options.html || options.preview, options.settings);
+    if (extension.empty()) {
+        refuse(subject + " '" + output + "' has no extension that gives the format; allowed are " + known +
+               ", or give --format");
+    }
+    return forOption(subject + " '" + output + "'", [&] { return droplet::formatNamed(extension); });
 }
 
 /// Reads --fill-range. A slider needs a file format that can hold it.
@@ -172,8 +161,16 @@ void declareDroplets(CommandLine& line, ShapeOptions& options)
     declareLiquid(line, settings);
     declareGround(line, settings);
     declareSurface(line, settings);
-    line.add("Surface", "--format", "glb|gltf|obj|ply|stl|usda|usdz|3mf",
-             "File format, whatever OUTPUT's extension is [by OUTPUT's extension]");
+    using droplet::Format;
+    line.add("Surface", "--format", "File format, whatever OUTPUT's extension is [by OUTPUT's extension]",
+             into(options.format, {{"glb", Format::Glb},
+                                   {"gltf", Format::Gltf},
+                                   {"obj", Format::Obj},
+                                   {"ply", Format::Ply},
+                                   {"stl", Format::Stl},
+                                   {"usda", Format::Usda},
+                                   {"usdz", Format::Usdz},
+                                   {"3mf", Format::ThreeMf}}));
     line.add("Surface", "--nodes",
              "Nodes in glTF and USD, parts in 3MF: one for all droplets, or one each, named droplet_1, droplet_2 and "
              "so on, with its "
@@ -227,7 +224,10 @@ void readDroplets(const CommandLine& line, ShapeOptions& options, const std::str
     if (const auto materials = line.value("--materials")) {
         options.settings.materials = readMaterials(materials->text);
     }
-    readFormat(line, subject, options);
+    if (!line.value("--format")) {
+        options.format = formatOf(options.output, subject);
+    }
+    warnOfFormat(line, options.format, options.html || options.preview, options.settings);
     readFillRange(line, options);
     options.compression = readCompression(line, options.format);
 }

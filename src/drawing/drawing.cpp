@@ -10,6 +10,7 @@
 #include "drawing/lettering.h"
 #include "droplet/error.h"
 #include "number_text.h"
+#include "xml_text.h"
 
 namespace droplet {
 namespace {
@@ -39,15 +40,6 @@ std::string places(const std::vector<Vec2>& points)
     return text;
 }
 
-std::string escaped(const std::string& text)
-{
-    std::string safe;
-    for (const char c : text) {
-        safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    }
-    return safe;
-}
-
 std::string svgOf(const Area& area)
 {
     return "<polygon points=\"" + places(area.points) + "\" fill=\"" + hex(area.colour) + "\"" +
@@ -72,7 +64,7 @@ std::string svgOf(const Text& text)
            (text.bold ? " font-weight=\"bold\"" : "") +
            (text.halo ? " paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"4\" stroke-linejoin=\"round\""
                       : "") +
-           ">" + escaped(text.text) + "</text>\n";
+           ">" + xmlText(text.text, "&<>") + "</text>\n";
 }
 
 // --------------------------------------------------------------------------------------------------------- pixels

@@ -3,6 +3,7 @@
 // elements that hold data); RFC 4648, section 4 (base64).
 #include "droplet/io/page.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "byte_stream.h"
 #include "droplet/error.h"
 #include "io/page_parts.h"
+#include "xml_text.h"
 
 namespace droplet {
 namespace {
@@ -83,16 +85,9 @@ std::string forScript(const std::string& json)
 /// Escapes text for a title element; control characters, which have no meaning there, are dropped.
 std::string forTitle(const std::string& text)
 {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '<') {
-            safe += "&lt;";
-        } else if (c == '&') {
-            safe += "&amp;";
-        } else {
-            safe += static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? ' ' : c;
-        }
-    }
+    std::string safe = xmlText(text, "&<");
+    std::replace_if(
+        safe.begin(), safe.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
     return safe;
 }
 

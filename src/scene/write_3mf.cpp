@@ -22,6 +22,7 @@
 #include "droplet/version.h"
 #include "image/rgb.h"
 #include "scene/welded_vertices.h"
+#include "xml_text.h"
 #include "zip.h"
 
 namespace droplet {
@@ -29,26 +30,10 @@ namespace {
 
 constexpr int kSignificantDigits = 9;  // enough to distinguish any two floats
 
-/// Text as an attribute's value. XML has no other control characters than these three.
-std::string escaped(const std::string& text)
+/// Text as an attribute's value. XML has no control characters but three.
+std::string attribute(const std::string& text)
 {
-    std::string result;
-    for (const char c : printable(text)) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    }
-    return result;
+    return xmlText(printable(text), "&<\"");
 }
 
 /// `#RRGGBB` of a linear colour.
@@ -120,7 +105,7 @@ std::uint64_t writeModel(const Scene& scene, std::ostream& out)
     if (!scene.materials.empty()) {
         bytes.text(fmt::format("<basematerials id=\"{}\">\n", kColours));
         for (const SceneMaterial& material : scene.materials) {
-            bytes.text("<base name=\"" + escaped(material.look.name) + "\" displaycolor=\"" +
+            bytes.text("<base name=\"" + attribute(material.look.name) + "\" displaycolor=\"" +
                        colourText(material.look.colour) + "\"/>\n");
         }
         bytes.text("</basematerials>\n");
@@ -128,7 +113,7 @@ std::uint64_t writeModel(const Scene& scene, std::ostream& out)
     std::size_t id = kColours;
     for (const Component& component : components) {
         bytes.text(fmt::format("<object id=\"{}\" name=\"{}\" type=\"model\" pid=\"{}\" pindex=\"{}\">", ++id,
-                               escaped(component.name), kColours, component.geometry.parts.front().material));
+                               attribute(component.name), kColours, component.geometry.parts.front().material));
         writeMesh(component.geometry, bytes);
         bytes.text("</object>\n");
     }

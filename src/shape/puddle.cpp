@@ -25,12 +25,10 @@ double depthBelowRim(const PlanarMesh& footprint, const BaseSurface& ground)
     options.ground = ground;
     options.model = Model::Linear;
     const double volume = std::pow(area(footprint), 1.5);
-    const auto film_of = [&](double amount) {
-        options.fill = {FillBy::Volume, amount, FillSharing::Each};
-        return solve({footprint}, options).droplets.at(0);
-    };
-    const CapillarySurface one = film_of(volume);
-    const CapillarySurface two = film_of(2.0 * volume);
+    options.volumes = {volume, 2.0 * volume};
+    const std::vector<CapillarySurface> films = solve({footprint, footprint}, options).droplets;
+    const CapillarySurface& one = films.at(0);
+    const CapillarySurface& two = films.at(1);
     const double share = one.pressure / (two.pressure - one.pressure);
     double depth = 0.0;
     for (std::size_t v = 0; v < one.vertices.size(); ++v) {

@@ -68,16 +68,6 @@ CapillarySurface bare(const CapillarySurface& surface)
     return {.vertices = surface.vertices, .triangles = surface.triangles, .loop_starts = surface.loop_starts};
 }
 
-/// Marks vertices that lie on the ground.
-std::vector<std::uint8_t> dryOf(const CapillarySurface& sheet, const SheetBase& base)
-{
-    std::vector<std::uint8_t> dry(sheet.vertices.size(), 0);
-    for (std::uint32_t v = sheet.rimVertexCount(); v < dry.size(); ++v) {
-        dry[v] = base.clearance(sheet.vertices[v]) <= 0.0 ? 1 : 0;
-    }
-    return std::find(dry.begin(), dry.end(), 1) == dry.end() ? std::vector<std::uint8_t>{} : dry;
-}
-
 /// Takes the noise of single triangles out of angles along a rim, between its corners. A mean over a vertex and its
 /// neighbours is what a test function twice as wide measures: it takes the largest error on discs from order 0.7 to 1.
 /// The mean along the rim stays.
@@ -126,7 +116,7 @@ SheetResult resultOf(FilledSheet filled, PlanarMesh footprint, const SolveOption
         smoothed(footprint, rimAngles(surface, weightOf(options), filled.pressure, options.ground).angle);
     surface.pressure = options.liquid.surface_tension * filled.pressure;
     surface.footprint = std::move(footprint);
-    surface.dry = dryOf(surface, {options.ground, {}});
+    surface.dry = SheetBase{options.ground}.dryOf(surface);
     return result;
 }
 

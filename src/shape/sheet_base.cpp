@@ -7,7 +7,6 @@
 #include <limits>
 
 namespace droplet {
-
 namespace {
 
 /// Clearance over the extent of the rim that is rounding.
@@ -23,13 +22,13 @@ constexpr std::array<QuadraturePoint, 2> kQuadrature{
     {{0.223381589678011, 1.0 - 2.0 * 0.445948490915965}, {0.109951743655322, 1.0 - 2.0 * 0.091576213509771}}};
 
 /// Integrals between triangles of a sheet and the base below them.
-/// @param are_on_ground  whether a vertex is, of those whose triangles count
+/// @param dry  marks of vertices; triangles of these and of the rim's count
 SheetIntegrals filmOver(const FacetedGround& facets, const CapillarySurface& sheet,
-                        const std::vector<std::uint8_t>& are_on_ground, Vec3 weight)
+                        const std::vector<std::uint8_t>& dry, Vec3 weight)
 {
     SheetIntegrals sum;
     for (const Triangle& t : sheet.triangles) {
-        if (std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return are_on_ground[v] == 0; })) {
+        if (std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return !sheet.onRim(v) && dry[v] == 0; })) {
             continue;
         }
         const double size = areaVector(sheet.vertices, t).z;
@@ -56,13 +55,17 @@ SheetIntegrals SheetBase::baseOf(const CapillarySurface& sheet, Vec3 weight) con
     if (!facets) {
         return integrals;
     }
-    std::vector<std::uint8_t> are_on_ground(sheet.vertices.size(), 1);
-    bool any = false;
-    for (std::size_t v = sheet.rimVertexCount(); v < sheet.vertices.size(); ++v) {
-        are_on_ground[v] = clearance(sheet.vertices[v]) <= 0.0 ? 1 : 0;
-        any = any || are_on_ground[v] != 0;
+    const std::vector<std::uint8_t> dry = dryOf(sheet);
+    return dry.empty() ? integrals : integrals + filmOver(*facets, sheet, dry, weight);
+}
+
+std::vector<std::uint8_t> SheetBase::dryOf(const CapillarySurface& sheet) const
+{
+    std::vector<std::uint8_t> dry(sheet.vertices.size(), 0);
+    for (std::uint32_t v = sheet.rimVertexCount(); v < dry.size(); ++v) {
+        dry[v] = clearance(sheet.vertices[v]) <= 0.0 ? 1 : 0;
     }
-    return any ? integrals + filmOver(*facets, sheet, are_on_ground, weight) : integrals;
+    return std::find(dry.begin(), dry.end(), 1) == dry.end() ? std::vector<std::uint8_t>{} : dry;
 }
 
 GroundPoint SheetBase::under(Vec3 place) const

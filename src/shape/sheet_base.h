@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct SheetBase {
     std::shared_ptr<const FacetedGround> facets = {};  ///< these triangles; empty on flat ground, or where the sheet
                                                        ///< has the same ones
 
+    /// Marks of the vertices inside that lie on the ground, as of CapillarySurface::dry; empty if none does.
+    [[nodiscard]] std::vector<std::uint8_t> dryOf(const CapillarySurface& sheet) const;
     /// Integrals over the base of a sheet. Where the sheet's triangles lie on the ground there is no liquid, though
     /// they are chords of it and those of the base are others: there, the sheet's own are the base.
     /// @param weight  as in integrate()
