@@ -7,6 +7,7 @@
 
 #include "common_options.h"
 #include "files.h"
+#include "preview.h"
 #include "shape_options.h"
 #include "video_writer.h"
 
@@ -140,6 +141,7 @@ void readAnimation(const CommandLine& line, AnimateOptions& options)
     options.run = readRun(line);
     options.html = readHtml(line);
     if (const auto sheet = line.value("--contact-sheet")) {
+        requireRenderer("--contact-sheet");
         if (sheet->text != kStandardStream && std::filesystem::path(sheet->text).extension() != ".png") {
             refuse(*sheet, "a file that ends in .png, or -");
         }

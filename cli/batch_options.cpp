@@ -8,6 +8,7 @@
 
 #include "droplet/io/read_surface.h"
 #include "option_values.h"
+#include "preview.h"
 
 namespace cli {
 namespace {
@@ -94,6 +95,7 @@ BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std
         refuse("--same-scale needs --contact-sheet");
     }
     if (const auto sheet = line.value("--contact-sheet")) {
+        requireRenderer("--contact-sheet");
         if (fs::path(sheet->text).extension() != ".png") {
             refuse(*sheet, "a file that ends in .png");
         }

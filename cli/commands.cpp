@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <filesystem>
 #include <iterator>
+#include <new>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -15,11 +15,16 @@
 #include "animate_command.h"
 #include "batch_command.h"
 #include "compare_command.h"
+#include "droplet/error.h"
+#include "exit_code.h"
 #include "glyphs_command.h"
+#include "motion_program.h"
 #include "option_values.h"
 #include "shape_command.h"
 #include "shape_options.h"
+#include "shortage.h"
 #include "studio_command.h"
+#include "terminal.h"
 
 namespace cli {
 namespace {
@@ -27,18 +32,6 @@ namespace {
 constexpr std::array kCommands{Command{"animate", runAnimate}, Command{"batch", runBatch},
                                Command{"compare", runCompare}, Command{"glyphs", runGlyphs},
                                Command{"studio", runStudio}};
-
-/// Becomes the program of what moves.
-/// @throws droplet::Error InvalidArgument: it is missing
-[[noreturn]] void becomeMotion(const char* const* argv)
-{
-    std::error_code unknown;
-    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
-    const std::string program = (self.parent_path() / DROPLET_MOTION).lexically_normal().string();
-    execv(program.c_str(), const_cast<char* const*>(argv));
-    refuse(std::string(argv[1]) + " needs the program " + program +
-           ", which is missing; the target droplet_motion builds it");
-}
 
 /// Refuses a word that is almost a command's name, and not an existing file.
 void refuseMisspelt(const std::string& word)
@@ -51,6 +44,12 @@ void refuseMisspelt(const std::string& word)
     if (!name.empty()) {
         refuse("unknown command '" + word + "', did you mean " + name + "?");
     }
+}
+
+int fail(std::string_view message, ExitCode code)
+{
+    printError(message);
+    return static_cast<int>(code);
 }
 
 }  // namespace
@@ -74,6 +73,23 @@ int runCommand(int argc, const char* const* argv, std::span<const Command> comma
     }
     refuseMisspelt(std::string(word));
     return runShape(argc, argv);
+}
+
+int runGuarded(int argc, const char* const* argv, std::span<const Command> commands)
+{
+    try {
+        return runCommand(argc, argv, commands);
+    } catch (const droplet::Error& error) {
+        return fail(error.what(), exitCodeOf(error.code()));
+    } catch (const std::bad_alloc&) {
+        return fail("out of memory; use fewer --triangles or a smaller picture", ExitCode::InternalError);
+    } catch (const std::exception& error) {
+        if (isThreadShortage(error)) {
+            return fail("out of threads or memory: no further thread can be started; use fewer --threads",
+                        ExitCode::InternalError);
+        }
+        return fail(std::string("internal error: ") + error.what(), ExitCode::InternalError);
+    }
 }
 
 }  // namespace cli

@@ -26,4 +26,8 @@ std::span<const Command> motionCommands();
 /// @throws droplet::Error on any failure, with the code that stands for the exit code
 int runCommand(int argc, const char* const* argv, std::span<const Command> commands);
 
+/// Runs a command and returns its exit code. A failure is one line on standard error.
+/// @param commands  of the program
+int runGuarded(int argc, const char* const* argv, std::span<const Command> commands);
+
 }  // namespace cli

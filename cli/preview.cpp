@@ -156,10 +156,21 @@ void declareTurntable(CommandLine& line)
     declareVideoEncoding(line, "Picture");
 }
 
+void requireRenderer(const std::string& option)
+{
+    if (!droplet::canRender()) {
+        refuse(option +
+               " needs the ray tracer, which this program was built without; the droplet-shape for Linux has it");
+    }
+}
+
 bool readPreviewFile(const CommandLine& line, PreviewOptions& options)
 {
     const auto preview = line.value("--preview");
     const auto turntable = line.value("--turntable");
+    if (preview || turntable) {
+        requireRenderer(preview ? "--preview" : "--turntable");
+    }
     if (turntable && isVideo(turntable->text)) {
         if (preview) {
             refuse("--turntable " + turntable->text + " and --preview exclude each other: give the number of pictures");

@@ -69,6 +69,10 @@ void readView(const CommandLine& line, PreviewOptions& options);
 /// Declares --turntable, --codec and --quality.
 void declareTurntable(CommandLine& line);
 
+/// Requires the ray tracer for an option.
+/// @throws droplet::Error InvalidArgument: the program was built without it
+void requireRenderer(const std::string& option);
+
 /// Reads --preview and --turntable.
 /// @return                whether there is a preview
 /// @throws droplet::Error InvalidArgument

@@ -7,26 +7,13 @@
 
 #include <csignal>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
-#include <new>
-#include <string>
-#include <string_view>
 
-#include "droplet/error.h"
-#include "exit_code.h"
 #include "interruption.h"
 #include "shortage.h"
-#include "terminal.h"
 
 namespace cli {
 namespace {
-
-int fail(std::string_view message, ExitCode code)
-{
-    printError(message);
-    return static_cast<int>(code);
-}
 
 /// Opens /dev/null for closed standard streams, so that no other file gets their numbers and their output. Streams for
 /// writing are opened for reading, and the reverse, so that using them still fails.
@@ -51,23 +38,6 @@ void keepFreedMemory()
 }
 
 }  // namespace
-
-int runGuarded(int argc, const char* const* argv, std::span<const Command> commands)
-{
-    try {
-        return runCommand(argc, argv, commands);
-    } catch (const droplet::Error& error) {
-        return fail(error.what(), exitCodeOf(error.code()));
-    } catch (const std::bad_alloc&) {
-        return fail("out of memory; use fewer --triangles or a smaller picture", ExitCode::InternalError);
-    } catch (const std::exception& error) {
-        if (isThreadShortage(error)) {
-            return fail("out of threads or memory: no further thread can be started; use fewer --threads",
-                        ExitCode::InternalError);
-        }
-        return fail(std::string("internal error: ") + error.what(), ExitCode::InternalError);
-    }
-}
 
 void runProgram(int argc, char** argv, std::span<const Command> commands)
 {

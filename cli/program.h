@@ -7,10 +7,6 @@
 
 namespace cli {
 
-/// Runs a command and returns its exit code. A failure is one line on standard error.
-/// @param commands  of the program
-int runGuarded(int argc, const char* const* argv, std::span<const Command> commands);
-
 /// Runs a program: a command, and a failure as one line on standard error. Does not return.
 /// @param commands  of the program
 [[noreturn]] void runProgram(int argc, char** argv, std::span<const Command> commands);

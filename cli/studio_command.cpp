@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "studio_command.h"
 
-#include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <string>
 #include <system_error>
 
+#include "browser.h"
 #include "command_line.h"
-#include "droplet/error.h"
 #include "files.h"
 #include "option_values.h"
-#include "process.h"
 #include "run_files.h"
-#include "terminal.h"
 
 namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-using droplet::Error;
-using droplet::ErrorCode;
 
 const CommandText& commandText()
 {
@@ -53,26 +46,6 @@ fs::path pageOfStudio()
     return page;
 }
 
-void open(const fs::path& page)
-{
-    const std::string advice = "; open " + page.string() + " in a browser";
-    // Without a display xdg-open may start a browser for text, which cannot show the page.
-    if (!hasDisplay()) {
-        throw Error(ErrorCode::OutputFailed, "there is no display" + advice);
-    }
-    const Started browser = start({"xdg-open", page.string()}, Piped::Output);
-    if (browser.failure != 0) {
-        throw Error(ErrorCode::OutputFailed, "xdg-open is missing" + advice);
-    }
-    const int status = waitFor(browser.process.id);
-    const std::string log = firstLine(browser.process.log);
-    std::fclose(browser.process.output);
-    std::fclose(browser.process.log);
-    if (status != 0) {
-        throw Error(ErrorCode::OutputFailed, "xdg-open failed" + (log.empty() ? "" : ": " + log) + advice);
-    }
-}
-
 }  // namespace
 
 int runStudio(int argc, const char* const* argv)
@@ -93,7 +66,7 @@ int runStudio(int argc, const char* const* argv)
     const droplet::OutputOptions options{line.flag("--no-clobber")};
     const fs::path page = pageOfStudio();
     if (paths.empty()) {
-        open(page);
+        openInBrowser(page);
         return 0;
     }
     const std::string& path = paths[0].text;

@@ -1,8 +1,8 @@
 // Made by make_types.mjs.
 
 /**
- * Where the liquid is: the bytes of a PNG, which is read by the rules of the command; or coverage, 0 dry and 255 (or
- * 65535) liquid; or RGBA like ImageData, read as a PNG is. Rows go from the top.
+ * Where the liquid is: the bytes of a PNG, JPEG, WebP, TIFF or another picture of pixels, which is read by the rules of the
+ * command; or coverage, 0 dry and 255 (or 65535) liquid; or RGBA like ImageData, read as a PNG is. Rows go from the top.
  */
 export type Mask =
     | Uint8Array
@@ -101,7 +101,7 @@ export interface Droplet {
     /** The command's report, droplet-shape.report/1. */
     readonly report: Record<string, any>;
     /** Bytes of a file. */
-    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl' | 'usda' | 'usdz'): Uint8Array;
+    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl' | 'usda' | 'usdz' | '3mf'): Uint8Array;
     /** Gives the solver's memory back before the garbage collector does. */
     free(): void;
 }

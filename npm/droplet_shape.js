@@ -85,10 +85,10 @@ function describe(mask) {
         throw new DropletError('InvalidArgument', `mask: ${what}`);
     };
     if (typeof mask === 'string') {
-        refuse(`'${mask}' must be the bytes of a PNG, not its path; in node readFileSync() reads them`);
+        refuse(`'${mask}' must be the bytes of a picture, not its path; in node readFileSync() reads them`);
     }
     if (!Number.isInteger(width) || !Number.isInteger(height) || width < 1 || height < 1) {
-        refuse(`must be the bytes of a PNG, or have a width and a height of at least 1; it has ${width} and ${height}`);
+        refuse(`must be the bytes of a picture, or have a width and a height of at least 1; it has ${width} and ${height}`);
     }
     if (!(data instanceof Uint8Array || data instanceof Uint8ClampedArray || data instanceof Uint16Array)) {
         refuse('data must be a Uint8Array, a Uint8ClampedArray or a Uint16Array');
@@ -104,31 +104,69 @@ function describe(mask) {
     return refuse(`data has ${data.length} items, must have ${pixels} (coverage) or ${4 * pixels} (RGBA)`);
 }
 
-/** What the module needs of a system: a clock, and nothing else. */
-function importsOf(memory) {
+/** Where emscripten puts the upper half of a result of 64 bits. */
+export function highWords() {
+    let high = 0;
+    return {
+        setTempRet0: (value) => {
+            high = value;
+        },
+        getTempRet0: () => high,
+    };
+}
+
+/** What the module needs of a system in a page: a clock, and nothing else. */
+function pageSystem(memory) {
     const success = 0;
-    const badDescriptor = 8;
-    const noSuchCall = 52;
-    const now = (place) => {
-        new DataView(memory().buffer).setBigUint64(place, BigInt(Math.round(performance.now() * 1e6)), true);
-        return success;
-    };
-    const system = {
-        clock_time_get: (clock, precision, place) => now(place),
-        proc_exit: (code) => {
-            throw new Error(`the solver ended with ${code}`);
+    return {
+        wasi_snapshot_preview1: {
+            clock_time_get: (clock, precision, place) => {
+                new DataView(memory().buffer).setBigUint64(place, BigInt(Math.round(performance.now() * 1e6)), true);
+                return success;
+            },
+            proc_exit: (code) => {
+                throw new Error(`the solver ended with ${code}`);
+            },
+            environ_sizes_get: (count, size) => {
+                const view = new DataView(memory().buffer);
+                view.setUint32(count, 0, true);
+                view.setUint32(size, 0, true);
+                return success;
+            },
+            environ_get: () => success,
         },
-        environ_sizes_get: (count, size) => {
-            const view = new DataView(memory().buffer);
-            view.setUint32(count, 0, true);
-            view.setUint32(size, 0, true);
-            return success;
+        env: { emscripten_notify_memory_growth: () => {}, ...highWords() },
+        droplet: {
+            open_svg: (text, size, seconds, page) => {
+                const problem = new TextEncoder().encode('must be drawn first; give its pixels as RGBA');
+                new Uint8Array(memory().buffer, page + 20, problem.length).set(problem);
+            },
         },
-        environ_get: () => success,
     };
-    const other = { emscripten_notify_memory_growth: () => {} };
-    const rest = (known, missing) => new Proxy(known, { get: (target, name) => target[name] ?? (() => missing) });
-    return { wasi_snapshot_preview1: rest(system, badDescriptor), env: rest(other, -noSuchCall) };
+}
+
+const kBadDescriptor = 8;
+const kNoSuchCall = -52;
+/** What the module gets for a call that its system does not have. */
+const kMissing = { wasi_snapshot_preview1: () => kBadDescriptor, env: () => kNoSuchCall, droplet: () => kNoSuchCall };
+
+/**
+ * Starts the module on a system.
+ * @param {BufferSource | WebAssembly.Module} wasm  bytes of droplet_shape.wasm, or the compiled module
+ * @param {(memory: () => WebAssembly.Memory) => object} systemOf  gives calls by module and name, such as nodeSystem()
+ * @returns its exports
+ */
+export async function instantiate(wasm, systemOf) {
+    const module = wasm instanceof WebAssembly.Module ? wasm : await WebAssembly.compile(wasm);
+    let exports;
+    const system = systemOf(() => exports.memory);
+    const imports = {};
+    for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+        (imports[from] ??= {})[name] = system[from][name] ?? kMissing[from];
+    }
+    ({ exports } = await WebAssembly.instantiate(module, imports));
+    exports._initialize?.();
+    return exports;
 }
 
 /**
@@ -136,16 +174,7 @@ function importsOf(memory) {
  * @param {BufferSource | WebAssembly.Module} wasm  bytes of droplet_shape.wasm, or the compiled module
  */
 export async function loadSolver(wasm) {
-    let instance;
-    const module = wasm instanceof WebAssembly.Module ? wasm : await WebAssembly.compile(wasm);
-    const offered = importsOf(() => instance.exports.memory);
-    const imports = {};
-    for (const { module: from, name } of WebAssembly.Module.imports(module)) {
-        (imports[from] ??= {})[name] = offered[from][name];
-    }
-    instance = await WebAssembly.instantiate(module, imports);
-    const solver = instance.exports;
-    solver._initialize?.();
+    const solver = await instantiate(wasm, pageSystem);
 
     const decoder = new TextDecoder();
     const put = (bytes) => {

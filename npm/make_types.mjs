@@ -23,8 +23,8 @@ const lines = options.map((option) => {
 process.stdout.write(`// Made by make_types.mjs.
 
 /**
- * Where the liquid is: the bytes of a PNG, which is read by the rules of the command; or coverage, 0 dry and 255 (or
- * 65535) liquid; or RGBA like ImageData, read as a PNG is. Rows go from the top.
+ * Where the liquid is: the bytes of a PNG, JPEG, WebP, TIFF or another picture of pixels, which is read by the rules of the
+ * command; or coverage, 0 dry and 255 (or 65535) liquid; or RGBA like ImageData, read as a PNG is. Rows go from the top.
  */
 export type Mask =
     | Uint8Array

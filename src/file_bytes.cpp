@@ -21,7 +21,7 @@ std::string shown(const std::filesystem::path& path)
     return printable(path.string());
 }
 
-Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::function<bool(const Bytes&)>& expected)
+Bytes readBytes(const std::filesystem::path& path, std::uint64_t max, const std::function<bool(const Bytes&)>& expected)
 {
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }
@@ -34,7 +34,8 @@ Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::f
     Bytes chunk(std::size_t{1} << 16);
     while (bytes.size() < max) {
         errno = 0;
-        const std::size_t count = std::fread(chunk.data(), 1, std::min(chunk.size(), max - bytes.size()), file.get());
+        const std::size_t count =
+            std::fread(chunk.data(), 1, std::min<std::uint64_t>(chunk.size(), max - bytes.size()), file.get());
         const int error = errno;
         bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + static_cast<std::ptrdiff_t>(count));
         if (std::ferror(file.get()) != 0) {
@@ -51,7 +52,7 @@ Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::f
     return bytes;
 }
 
-Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::function<bool(std::byte)>& expected)
+Bytes readBytes(const std::filesystem::path& path, std::uint64_t max, const std::function<bool(std::byte)>& expected)
 {
     return readBytes(path, max, [&](const Bytes& begun) { return expected(begun.front()); });
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
@@ -24,10 +25,11 @@ std::string shown(const std::filesystem::path& path);
 /// Reads up to `max` bytes of a file, which may be a pipe. Every 64 KiB it asks whether the bytes are as `expected`,
 /// and stops if not, so that it does not read an endless device for ever.
 /// @throws Damage if it cannot be read
-Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::function<bool(const Bytes&)>& expected);
+Bytes readBytes(const std::filesystem::path& path, std::uint64_t max,
+                const std::function<bool(const Bytes&)>& expected);
 
 /// The same with a test of the first byte.
-Bytes readBytes(const std::filesystem::path& path, std::size_t max, const std::function<bool(std::byte)>& expected);
+Bytes readBytes(const std::filesystem::path& path, std::uint64_t max, const std::function<bool(std::byte)>& expected);
 
 /// Runs a reader of a file. Turns its errors into one line that names the file.
 /// @throws Error InvalidInput

@@ -1,45 +1,118 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a page cannot do: start programs, load libraries, decode pictures that its browser decodes.
-#include <dlfcn.h>
+// What needs other programs, fonts or the ray tracer, and says so.
+#include <string>
 
+#include "browser.h"
+#include "contact_sheet.h"
 #include "droplet/error.h"
-#include "droplet/io/page.h"
-#include "image/codecs.h"
-#include "image/exr.h"
+#include "droplet/render/contact_sheet.h"
+#include "droplet/render/render.h"
+#include "glyphs_command.h"
+#include "host.h"
+#include "motion_program.h"
+#include "option_values.h"
+#include "preview.h"
+#include "process.h"
+#include "shortage.h"
 
 namespace droplet {
-namespace {
 
-[[noreturn]] void refusePicture()
-{
-    throw Error(ErrorCode::InvalidInput, "not a PNG image; decode it and give its pixels as RGBA");
-}
-
-}  // namespace
-
-Image decodeJpeg(std::span<const std::byte>, const ImageHeader&)
-{
-    refusePicture();
-}
-
-Image decodeSvg(std::span<const std::byte>, const DecodeOptions&)
-{
-    refusePicture();
-}
-
-Image decodeWithOpenCv(std::span<const std::byte>, ImageFormat, const DecodeOptions&)
-{
-    refusePicture();
-}
-
-std::optional<FloatImage> decodeFloatsWithOpenCv(std::span<const std::byte>, ImageFormat, std::size_t, bool)
-{
-    refusePicture();
-}
-
-bool hasPage() noexcept
+bool canRender() noexcept
 {
     return false;
 }
 
+Picture render(const Surface&, const RenderOptions&)
+{
+    throw Error(ErrorCode::InvalidArgument, "there is no ray tracer");
+}
+
+Layer renderCutOut(const Surface&, const RenderOptions&)
+{
+    throw Error(ErrorCode::InvalidArgument, "there is no ray tracer");
+}
+
+Picture contactSheet(const std::vector<Tile>&, const ContactSheetOptions&)
+{
+    return {};
+}
+
+std::optional<ViewBox> around(const Surface&, const std::optional<ViewBox>&)
+{
+    return std::nullopt;
+}
+
+TexturedMesh groundMesh(const BaseSurface&, Vec2)
+{
+    return {};
+}
+
 }  // namespace droplet
+
+namespace cli {
+
+namespace {
+
+const char* const kElsewhere =
+    ", which the npm package does not have; the droplet-shape for Linux has it, see docs/platforms.md";
+
+}  // namespace
+
+int runGlyphs(int, const char* const*)
+{
+    refuse(std::string("glyphs needs fonts") + kElsewhere);
+}
+
+void becomeMotion(const char* const* argv)
+{
+    refuse(std::string(argv[1]) + " is a command of what moves" + kElsewhere);
+}
+
+void writeContactSheet(const ContactSheet&, const droplet::OutputOptions&, const std::function<void(std::size_t)>&)
+{
+    requireRenderer("--contact-sheet");
+}
+
+bool isThreadShortage(const std::exception&)
+{
+    return false;
+}
+
+Started start(const std::vector<std::string>& command, Piped, std::optional<int>)
+{
+    refuse("this needs the program " + command[0] + kElsewhere);
+}
+
+void limitMemory(pid_t, std::size_t) {}
+
+void limitTime(pid_t, std::size_t) {}
+
+int waitFor(pid_t)
+{
+    return 0;
+}
+
+std::string logText(std::FILE*)
+{
+    return {};
+}
+
+std::string firstLine(std::FILE*)
+{
+    return {};
+}
+
+std::string plainName(const std::string& path)
+{
+    return path;
+}
+
+void openInBrowser(const std::filesystem::path& page)
+{
+    if (!droplet_host_open_page(page.c_str())) {
+        throw droplet::Error(droplet::ErrorCode::OutputFailed,
+                             "no browser opens; write the page into a FILE and open that");
+    }
+}
+
+}  // namespace cli

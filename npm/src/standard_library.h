@@ -2,10 +2,13 @@
 // What the library needs of C++20 and emscripten's standard library lacks. Included before every file.
 #pragma once
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <stdio.h>
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -132,3 +135,7 @@ void selectNth(Iterator first, Iterator nth, Iterator last, Less less = {})
 }  // namespace std
 
 #define nth_element selectNth
+
+#define RENAME_NOREPLACE 1
+
+extern "C" int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags);

@@ -2,7 +2,7 @@
 # Bundles the page that --html writes. npm installs three.js and esbuild by the lock file; esbuild makes one script of
 # three.js and the sources in src/html; the result is compiled into the library. Sets page_parts to that source file.
 set(page_dir ${PROJECT_BINARY_DIR}/page)
-set(page_sources ${PROJECT_SOURCE_DIR}/src/html)
+set(page_sources ${CMAKE_CURRENT_LIST_DIR}/../html)
 foreach(tool npm node)
   string(TOUPPER ${tool} variable)
   find_program(${variable} ${tool})
@@ -29,7 +29,7 @@ file(GLOB page_files CONFIGURE_DEPENDS ${page_sources}/*.js ${page_sources}/*.mj
 set(page_solver)
 if(DROPLET_STUDIO)
   set(page_solver ${DROPLET_STUDIO}/droplet_shape.wasm)
-  file(GLOB studio_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/studio/* ${PROJECT_SOURCE_DIR}/npm/*.js)
+  file(GLOB studio_files CONFIGURE_DEPENDS ${page_sources}/../studio/* ${page_sources}/../../npm/*.js)
   list(APPEND page_files ${studio_files} ${page_solver})
 endif()
 set(page_parts ${page_dir}/page_parts.cpp)

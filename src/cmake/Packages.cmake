@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Packages of the command, by cpack: a .deb for the release of Debian it was built on, and an archive that runs wherever
-# it is unpacked, with all libraries but the C library's.
+# it is unpacked, on any distribution, with all libraries.
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/droplet-shape)
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/package/copyright DESTINATION ${documents} COMPONENT command)
 execute_process(COMMAND date --utc --rfc-email --date=${released} OUTPUT_VARIABLE package_date OUTPUT_STRIP_TRAILING_WHITESPACE
@@ -15,9 +15,19 @@ install(FILES ${PROJECT_BINARY_DIR}/changelog.Debian.gz DESTINATION ${documents}
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/package/lintian-overrides DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
   RENAME droplet-shape COMPONENT command)
 
-# Libraries of the C library must be those of the kernel's system.
-install(RUNTIME_DEPENDENCY_SET droplet_runtime DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT bundle EXCLUDE_FROM_ALL
-  PRE_EXCLUDE_REGEXES [[^(ld-linux.*|lib(c|m|dl|pthread|rt|resolv))\.so]])
+# The archive has the C library and its loader, too, which run on every kernel of Linux since 3.2. A small program without
+# libraries starts each of its programs through them; see src/launch.
+install(RUNTIME_DEPENDENCY_SET droplet_runtime DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT bundle EXCLUDE_FROM_ALL)
+add_executable(droplet_launch ${PROJECT_SOURCE_DIR}/src/launch/launch.cpp)
+target_compile_features(droplet_launch PRIVATE cxx_std_20)
+set(loader_of_x86_64 ld-linux-x86-64.so.2)
+set(loader_of_aarch64 ld-linux-aarch64.so.1)
+target_compile_definitions(droplet_launch PRIVATE DROPLET_LIBRARIES="${CMAKE_INSTALL_LIBDIR}" DROPLET_LOADER="${loader_of_${CMAKE_SYSTEM_PROCESSOR}}")
+target_link_libraries(droplet_launch PRIVATE droplet_flags)
+target_link_options(droplet_launch PRIVATE -static)
+set(CPACK_DROPLET_LAUNCH ${PROJECT_BINARY_DIR}/droplet_launch)
+set(CPACK_DROPLET_LAUNCHED ${CMAKE_INSTALL_BINDIR}/droplet-shape ${CMAKE_INSTALL_LIBDIR}/${private}/droplet-motion
+  ${CMAKE_INSTALL_LIBDIR}/${private}/droplet-svg)
 
 set(CPACK_GENERATOR DEB TGZ)
 set(CPACK_PACKAGE_NAME droplet-shape)

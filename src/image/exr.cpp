@@ -1,51 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "image/exr.h"
 
-#include <dlfcn.h>
-
 #include <new>
 #include <string>
 
 #include "droplet/error.h"
-#include "image/codec_module.h"
-#include "image/installed.h"
+#include "image/open_codecs.h"
 
 namespace droplet {
-namespace {
-
-/// The module, opened at first use. It is never closed, because OpenCV's registrations stay.
-struct Encoder {
-    Encoder()
-    {
-        const auto path = installedFile(DROPLET_CODECS);
-        void* const module = path ? dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL) : nullptr;
-        if (module == nullptr) {
-            problem = path ? dlerror() : DROPLET_CODECS " is missing";
-            return;
-        }
-        encode = reinterpret_cast<DropletEncodeExr*>(dlsym(module, "dropletEncodeExr"));
-        release = reinterpret_cast<DropletRelease*>(dlsym(module, "dropletRelease"));
-    }
-
-    DropletEncodeExr* encode = nullptr;
-    DropletRelease* release = nullptr;
-    std::string problem;
-};
-
-}  // namespace
-
 std::vector<std::byte> encodeExr(const FloatPixels& pixels)
 {
-    static const Encoder encoder;
-    if (encoder.encode == nullptr || encoder.release == nullptr) {
+    const OpenCodecs& codecs = openCodecs();
+    if (codecs.encode_exr == nullptr) {
         throw Error(ErrorCode::OutputFailed,
                     "OpenEXR images are written with OpenCV, which must be installed (Debian's package "
                     "libopencv-imgcodecs406): " +
-                        encoder.problem);
+                        codecs.problem);
     }
     DropletPicture file{};
     const DropletOutcome outcome =
-        encoder.encode(pixels.values.data(), pixels.width, pixels.height, pixels.channels, &file);
+        codecs.encode_exr(pixels.values.data(), pixels.width, pixels.height, pixels.channels, &file);
     if (outcome == DropletOutcome::OutOfMemory) {
         throw std::bad_alloc();
     }
@@ -54,7 +28,7 @@ std::vector<std::byte> encodeExr(const FloatPixels& pixels)
     }
     const auto* const bytes = static_cast<const std::byte*>(file.pixels);
     std::vector<std::byte> result(bytes, bytes + file.width);
-    encoder.release(&file);
+    codecs.release(&file);
     return result;
 }
 

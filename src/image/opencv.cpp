@@ -1,49 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <new>
 #include <string>
 
-#include "image/codec_module.h"
 #include "image/codecs.h"
 #include "image/image_bytes.h"
-#include "image/installed.h"
+#include "image/open_codecs.h"
 
 namespace droplet {
 
 namespace {
-
-/// The module, opened at first use.
-class Codecs {
-public:
-    Codecs()
-    {
-        const auto path = installedFile(DROPLET_CODECS);
-        // It is never closed, because OpenCV's registrations stay.
-        void* const module = path ? dlopen(path->c_str(), RTLD_NOW | RTLD_LOCAL) : nullptr;
-        if (module == nullptr) {
-            problem = path ? dlerror() : DROPLET_CODECS " is missing";
-            return;
-        }
-        decode = reinterpret_cast<DropletDecode*>(dlsym(module, "dropletDecode"));
-        release = reinterpret_cast<DropletRelease*>(dlsym(module, "dropletRelease"));
-    }
-
-    DropletDecode* decode = nullptr;
-    DropletRelease* release = nullptr;
-    std::string problem;  ///< why it cannot be opened; else empty
-};
 
 /// Picture decoded by the module.
 class Decoded {
 public:
     Decoded(std::span<const std::byte> encoded, ImageFormat format, std::size_t max_pixels)
     {
-        static const Codecs codecs;
-        if (codecs.decode == nullptr || codecs.release == nullptr) {
+        const OpenCodecs& codecs = openCodecs();
+        if (codecs.decode == nullptr) {
             throw Error(ErrorCode::InvalidInput, std::string(name(format)) +
                                                      " images are read with OpenCV, which must be installed (Debian's "
                                                      "package libopencv-imgcodecs406): " +

@@ -41,7 +41,7 @@ namespace droplet {
 namespace {
 
 constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;  // same limit as glTF
-constexpr std::size_t kMaxBytes = std::size_t{1} << 34;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 34;
 
 // ------------------------------------------------------------------------------------------------------- text
 

@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Nearest point of a triangle: C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.5. Sides are examined
 // one by one, which also handles triangles without area.
-//
-// Embree's tree of boxes has floats, and triangles have doubles. So boxes are rounded outward, and the radius of every
-// search is enlarged by more than the round-off of floats. A query takes 2 µs for 100k triangles; CGAL's AABB_tree
-// takes 6 µs for the same answers. Embree visits every triangle within the radius, so that ties can be decided.
 #include "rays/nearest.h"
 
 #include <algorithm>
-#include <limits>
+#include <functional>
 #include <utility>
-
-#include "rays/embree_device.h"
 
 namespace droplet {
 namespace {
-
-// Rounding a point within [−1, 1]³ moves it by at most 1.1e-7; distances of boxes have errors of about 1e-6.
-constexpr double kReach = 2e-6;
 
 // Ratio of area to the square of the longest side at which a triangle counts as its sides: round-off of coordinates.
 constexpr double kSliver = 1e-12;
@@ -27,22 +18,6 @@ Vec3 nearestOnSide(Vec3 p, Vec3 a, Vec3 b)
     const Vec3 side = b - a;
     const double squared = dot(side, side);
     return squared > 0.0 ? a + std::clamp(dot(p - a, side) / squared, 0.0, 1.0) * side : a;
-}
-
-float roundedDown(double value)
-{
-    const auto near = static_cast<float>(value);
-    return near > value ? std::nextafter(near, -std::numeric_limits<float>::infinity()) : near;
-}
-
-float roundedUp(double value)
-{
-    return -roundedDown(-value);
-}
-
-float reachOf(double radius)
-{
-    return roundedUp(radius * (1.0 + kReach) + kReach);
 }
 
 }  // namespace
@@ -66,73 +41,13 @@ Vec3 nearestPoint(Vec3 p, const Corners3& triangle)
     return nearest;
 }
 
-struct NearestTriangles::Tree {
-    EmbreeDevice device;
-    EmbreeDevice::Scene scene = device.newScene();
-};
-
 NearestTriangles::NearestTriangles(std::vector<Corners3> triangles)
-    : triangles_(std::move(triangles)), tree_(std::make_unique<Tree>())
+    : triangles_(std::move(triangles)), tree_(triangles_)
 {
     facets_.reserve(triangles_.size());
     for (const auto& [a, b, c] : triangles_) {
         facets_.push_back(cross(b - a, c - a));
     }
-    const RTCGeometry geometry = rtcNewGeometry(tree_->device.get(), RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(triangles_.size()));
-    rtcSetGeometryUserData(geometry, &triangles_);
-    rtcSetGeometryBoundsFunction(
-        geometry,
-        [](const RTCBoundsFunctionArguments* arguments) {
-            const auto& all = *static_cast<const std::vector<Corners3>*>(arguments->geometryUserPtr);
-            const auto& [a, b, c] = all[arguments->primID];
-            RTCBounds& box = *arguments->bounds_o;
-            box.lower_x = roundedDown(std::min({a.x, b.x, c.x}));
-            box.lower_y = roundedDown(std::min({a.y, b.y, c.y}));
-            box.lower_z = roundedDown(std::min({a.z, b.z, c.z}));
-            box.upper_x = roundedUp(std::max({a.x, b.x, c.x}));
-            box.upper_y = roundedUp(std::max({a.y, b.y, c.y}));
-            box.upper_z = roundedUp(std::max({a.z, b.z, c.z}));
-        },
-        nullptr);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(tree_->scene.get(), geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(tree_->scene.get());
-    tree_->device.check();
-}
-
-NearestTriangles::~NearestTriangles() = default;
-
-// Calls visit(triangle) for every triangle that may be within the radius. visit returns the new radius.
-template <typename Visit>
-void NearestTriangles::visit(Vec3 p, double radius, Visit& visit) const
-{
-    struct Search {
-        Visit& visit;
-        double radius;
-    };
-    Search search{visit, radius};
-    RTCPointQuery query{};
-    query.x = static_cast<float>(p.x);
-    query.y = static_cast<float>(p.y);
-    query.z = static_cast<float>(p.z);
-    query.radius = reachOf(radius);
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(
-        tree_->scene.get(), &query, &context,
-        [](RTCPointQueryFunctionArguments* arguments) {
-            auto& here = *static_cast<Search*>(arguments->userPtr);
-            const double next = here.visit(arguments->primID);
-            if (next >= here.radius) {
-                return false;
-            }
-            here.radius = next;
-            arguments->query->radius = reachOf(next);
-            return true;
-        },
-        &search);
 }
 
 NearestTriangles::Found NearestTriangles::nearest(Vec3 p, std::uint32_t guess) const
@@ -150,7 +65,7 @@ NearestTriangles::Found NearestTriangles::nearest(Vec3 p, std::uint32_t guess) c
         }
         return found.distance;
     };
-    visit(p, found.distance, visitor);
+    tree_.visit(p, found.distance, std::ref(visitor));
     return found;
 }
 
@@ -168,7 +83,7 @@ std::optional<NearestTriangles::Found> NearestTriangles::nearestFacing(Vec3 p, V
         }
         return found ? found->distance : max;
     };
-    visit(p, max, visitor);
+    tree_.visit(p, max, std::ref(visitor));
     return found;
 }
 
@@ -181,7 +96,7 @@ std::vector<std::uint32_t> NearestTriangles::within(Vec3 p, double max) const
         }
         return max;
     };
-    visit(p, max, visitor);
+    tree_.visit(p, max, std::ref(visitor));
     std::sort(found.begin(), found.end());
     return found;
 }
@@ -200,7 +115,7 @@ std::optional<std::vector<std::uint32_t>> NearestTriangles::boxesWithin(Vec3 p, 
         }
         return found.size() <= limit ? max : 0.0;
     };
-    visit(p, max, visitor);
+    tree_.visit(p, max, std::ref(visitor));
     if (found.size() > limit) {
         return std::nullopt;
     }

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "droplet/vector.h"
+#include "rays/triangle_tree.h"
 
 namespace droplet {
-
-/// Corners of a triangle in space.
-using Corners3 = std::array<Vec3, 3>;
 
 /// Point of a triangle that is nearest to p. The triangle may be degenerate.
 Vec3 nearestPoint(Vec3 p, const Corners3& triangle);
@@ -36,7 +32,6 @@ public:
     /// Builds the tree.
     /// @param triangles  at least one, all coordinates within [−1, 1]
     explicit NearestTriangles(std::vector<Corners3> triangles);
-    ~NearestTriangles();
     NearestTriangles(const NearestTriangles&) = delete;
     NearestTriangles& operator=(const NearestTriangles&) = delete;
 
@@ -60,13 +55,9 @@ public:
     [[nodiscard]] std::optional<std::vector<std::uint32_t>> boxesWithin(Vec3 p, double max, std::size_t limit) const;
 
 private:
-    struct Tree;
-    template <typename Visit>
-    void visit(Vec3 p, double radius, Visit& visit) const;
-
     std::vector<Corners3> triangles_;
     std::vector<Vec3> facets_;
-    std::unique_ptr<Tree> tree_;
+    TriangleTree tree_;
 };
 
 }  // namespace droplet

@@ -626,6 +626,11 @@ void requireDrawable(const Surface& surface, const RenderOptions& options)
 
 }  // namespace
 
+bool canRender() noexcept
+{
+    return true;
+}
+
 Picture render(const Surface& surface, const RenderOptions& options)
 {
     requireDrawable(surface, options);

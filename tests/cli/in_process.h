@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "cli/commands.h"
-#include "cli/program.h"
 #include "support/command.h"
 
 namespace droplet::testing {

@@ -77,6 +77,9 @@ struct RenderOptions {
     void validate() const;
 };
 
+/// Whether this build has the ray tracer. Builds without Embree and Cairo, such as the npm package, have not.
+[[nodiscard]] bool canRender() noexcept;
+
 /// Renders droplets realistically by ray tracing: refraction and reflection by Snell's and Fresnel's laws with smooth
 /// normals, absorption in the liquid (Beer and Lambert), the ground, and the light that the droplets focus on it. The
 /// base touches the ground without air between: the ground is seen through one surface.

@@ -31,7 +31,7 @@
 #include "droplet/units.h"
 #include "image/svg/rewrite.h"
 #include "image/svg_drawing.h"
-#include "number_text.h"
+#include "image/svg_raster.h"
 
 // NOLINTNEXTLINE(readability-identifier-naming,readability-redundant-declaration): Cairo's name
 extern "C" cairo_scaled_font_t* cairo_scaled_font_create(cairo_font_face_t* face, const cairo_matrix_t* size,
@@ -45,7 +45,6 @@ constexpr std::size_t kStackOfTag = 8 << 10;  // 7 kB were measured (patterns an
 constexpr std::size_t kMinStack = 8 << 20;
 constexpr double kDotsPerInch = 96.0;  // CSS
 constexpr double kInch = 25.4 * kMillimetre;
-constexpr int kMaxSide = 32767;  // limit of Cairo's images
 
 /// Reason reported to the library instead of a drawing.
 class Refusal : public std::runtime_error {
@@ -111,13 +110,6 @@ struct Page {
     std::optional<double> physical_width;  ///< [m]
 };
 
-/// Grid of pixels over a page. It is exactly as wide as the page, and less than a pixel higher.
-struct Raster {
-    int width = 1;
-    int height = 1;
-    double scale = 1.0;  ///< pixels per CSS px
-};
-
 class Document {
 public:
     explicit Document(std::span<const std::byte> text)
@@ -177,7 +169,7 @@ public:
     }
 
     /// Draws into premultiplied colours, row by row. The page is at the top left, enlarged by `scale`.
-    void draw(const Page& page, const Raster& raster, unsigned char* pixels)
+    void draw(const Page& page, const SvgRaster& raster, unsigned char* pixels)
     {
         cairo_surface_t* const surface = cairo_image_surface_create_for_data(pixels, CAIRO_FORMAT_ARGB32, raster.width,
                                                                              raster.height, 4 * raster.width);
@@ -241,29 +233,13 @@ private:
     RsvgHandle* handle_ = nullptr;
 };
 
-Raster rasterOf(const Page& page, const SvgRequest& request)
+SvgRaster rasterOf(const Page& page, const SvgRequest& request)
 {
-    // A very narrow page is drawn larger than requested instead of as a row of pixels.
-    constexpr double kShortSide = 16.0;
-    const double max = static_cast<double>(request.max_pixels);
-    const double long_side = std::clamp(request.long_side, 1, kMaxSide);
-    double scale = std::max(long_side / std::max(page.width, page.height),
-                            std::min(kShortSide, long_side) / std::min(page.width, page.height));
-    scale = std::min({scale, kMaxSide / std::max(page.width, page.height), std::sqrt(max / page.width / page.height)});
-    double width = std::max(1.0, std::round(page.width * scale));
-    const auto height = [&] {
-        constexpr double kRounding = 1e-6;
-        return std::max(1.0, std::ceil(page.height / page.width * width - kRounding));
-    };
-    while (width > 1.0 && (width * height() > max || height() > kMaxSide)) {
-        width -= 1.0;
+    const auto raster = svgRaster(page.width, page.height, request.long_side, request.max_pixels);
+    if (!raster) {
+        throw Refusal(SvgOutcome::Refused, tooNarrow(page.width, page.height, request.max_pixels));
     }
-    if (!(height() <= kMaxSide && width * height() <= max)) {
-        throw Refusal(SvgOutcome::Refused, "has a page of " + numberText(page.width) + " x " + numberText(page.height) +
-                                               ", too narrow to be drawn in " + std::to_string(request.max_pixels) +
-                                               " pixels");
-    }
-    return {static_cast<int>(width), static_cast<int>(height()), width / page.width};
+    return *raster;
 }
 
 /// Draws the text into the file that is the standard output.
@@ -272,7 +248,7 @@ void draw(std::span<const std::byte> text, const SvgRequest& request, SvgDrawing
     const Rewritten rewrite = rewritten(text);
     Document document(rewrite.text.empty() ? text : std::as_bytes(std::span(rewrite.text)));
     const Page page = document.page();
-    const Raster raster = rasterOf(page, request);
+    const SvgRaster raster = rasterOf(page, request);
     const std::size_t size =
         kSvgPixels + std::size_t{4} * static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height);
     void* const file = ftruncate(STDOUT_FILENO, static_cast<off_t>(size)) == 0

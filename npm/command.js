@@ -1,0 +1,52 @@
+#!/usr/bin/env node
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command: it runs in a thread of its own, so that this one hears signals.
+import fs from 'node:fs';
+import { constants } from 'node:os';
+import { Worker } from 'node:worker_threads';
+import { kSignal } from './command_worker.js';
+
+/** As exit codes of the command: an internal error. */
+const kInternalError = 1;
+
+// A signal that the command has not seen yet, and whether it waits for signals; see command_worker.js.
+const signals = new Int32Array(new SharedArrayBuffer(8));
+/** Temporary files that exist. */
+const unfinished = new Set();
+
+function endBy(name) {
+    for (const path of unfinished) {
+        fs.rmSync(path, { force: true });
+    }
+    process.removeAllListeners(name);
+    process.kill(process.pid, name);
+}
+
+for (const name of ['SIGINT', 'SIGTERM', 'SIGHUP']) {
+    process.on(name, () => {
+        const is_first = Atomics.compareExchange(signals, kSignal.received, 0, constants.signals[name]) === 0;
+        if (!is_first || Atomics.load(signals, kSignal.is_awaited) === 0) {
+            endBy(name);
+        }
+    });
+}
+
+const kStack = 64;  // [MB]: deep recursion of the solver has that of the module, of JavaScript little
+const command = new Worker(new URL('./command_worker.js', import.meta.url), {
+    workerData: { words: process.argv.slice(2), signals },
+    resourceLimits: { stackSizeMb: kStack },
+});
+command.on('message', ({ path, exists }) => void (exists ? unfinished.add(path) : unfinished.delete(path)));
+command.on('error', (error) => {
+    fs.writeSync(2, `droplet-shape: internal error: ${error.message}\n`);
+    process.exitCode = kInternalError;
+});
+command.on('exit', (code) => {
+    // A batch ends its items first.
+    const signal = Atomics.load(signals, kSignal.received);
+    const name = Object.keys(constants.signals).find((each) => constants.signals[each] === signal);
+    if (name) {
+        endBy(name);
+    }
+    process.exitCode ??= code;
+});

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// OpenCV's codecs are linked with the module.
+#include "image/open_codecs.h"
+
+extern "C" {
+DropletDecode dropletDecode;
+DropletEncodeExr dropletEncodeExr;
+DropletRelease dropletRelease;
+}
+
+namespace droplet {
+
+const OpenCodecs& openCodecs()
+{
+    static const OpenCodecs codecs{dropletDecode, dropletEncodeExr, dropletRelease, {}};
+    return codecs;
+}
+
+}  // namespace droplet

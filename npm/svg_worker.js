@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The thread that has resvg: it opens an SVG, and draws it in the width that is asked for.
+import fs from 'node:fs';
+import { createRequire } from 'node:module';
+import { workerData } from 'node:worker_threads';
+import { initWasm, Resvg } from '@resvg/resvg-wasm';
+import { fontsFor } from './fonts.js';
+
+const { port, answers } = workerData;
+const wasm = createRequire(import.meta.url).resolve('@resvg/resvg-wasm/index_bg.wasm');
+let text;
+let font;
+
+function opened() {
+    const fonts = fontsFor(text);
+    font = { fontBuffers: fonts.buffers, ...fonts.names };
+    const page = new Resvg(text, { font });
+    const { width, height } = page;
+    page.free();
+    return { width, height, lacking: fonts.lacking };
+}
+
+/** Pixels of rows that are as many as wanted: the last one may be missing, or one too many. */
+function drawn(width, height) {
+    const page = new Resvg(text, { font, fitTo: { mode: 'width', value: width } });
+    const image = page.render();
+    const pixels = new Uint8Array(4 * width * height);
+    pixels.set(image.pixels.subarray(0, pixels.length));
+    image.free();
+    page.free();
+    return { pixels };
+}
+
+const ready = initWasm(fs.readFileSync(wasm));
+port.on('message', async (question) => {
+    let answer;
+    try {
+        await ready;
+        if (question.text) {
+            text = new TextDecoder().decode(question.text);
+            answer = opened();
+        } else {
+            answer = drawn(question.width, question.height);
+        }
+    } catch (error) {
+        answer = { is_damaged: true, problem: String(error?.message ?? error) };
+    }
+    port.postMessage(answer);
+    Atomics.add(answers, 0, 1);
+    Atomics.notify(answers, 0);
+});

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "image/image.h"
+#include "image/svg_drawing.h"
+
+namespace droplet {
+
+/// Drawing of a page, and its pixels: premultiplied ARGB, row by row.
+struct DrawnSvg {
+    SvgDrawing drawing;
+    std::shared_ptr<const std::uint32_t> pixels;
+};
+
+/// Draws a page. Nothing that it refers to is read.
+/// @param tags    tags in the text, as in SvgRequest
+/// @throws Error InvalidInput, as decodeSvg
+DrawnSvg drawSvg(std::span<const std::byte> text, std::size_t tags, const DecodeOptions& options);
+
+/// @throws Error InvalidInput: "SVG image " and the detail
+[[noreturn]] void throwSvgRefused(const std::string& detail);
+
+}  // namespace droplet
