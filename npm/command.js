@@ -34,6 +34,9 @@ for (const name of ['SIGINT', 'SIGTERM', 'SIGHUP']) {
 const kStack = 64;  // [MB]: deep recursion of the solver has that of the module, of JavaScript little
 const command = new Worker(new URL('./command_worker.js', import.meta.url), {
     workerData: { words: process.argv.slice(2), signals },
+    // The thread writes to the process's own streams by itself.
+    stdout: true,
+    stderr: true,
     resourceLimits: { stackSizeMb: kStack },
 });
 command.on('message', ({ path, exists }) => void (exists ? unfinished.add(path) : unfinished.delete(path)));

@@ -17,7 +17,8 @@ install(FILES ${CMAKE_CURRENT_LIST_DIR}/package/lintian-overrides DESTINATION ${
 
 # The archive has the C library and its loader, too, which run on every kernel of Linux since 3.2. A small program without
 # libraries starts each of its programs through them; see src/launch.
-install(RUNTIME_DEPENDENCY_SET droplet_runtime DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT bundle EXCLUDE_FROM_ALL)
+install(RUNTIME_DEPENDENCY_SET droplet_runtime DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT bundle EXCLUDE_FROM_ALL
+  PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 add_executable(droplet_launch ${PROJECT_SOURCE_DIR}/src/launch/launch.cpp)
 target_compile_features(droplet_launch PRIVATE cxx_std_20)
 set(loader_of_x86_64 ld-linux-x86-64.so.2)
@@ -25,9 +26,11 @@ set(loader_of_aarch64 ld-linux-aarch64.so.1)
 target_compile_definitions(droplet_launch PRIVATE DROPLET_LIBRARIES="${CMAKE_INSTALL_LIBDIR}" DROPLET_LOADER="${loader_of_${CMAKE_SYSTEM_PROCESSOR}}")
 target_link_libraries(droplet_launch PRIVATE droplet_flags)
 target_link_options(droplet_launch PRIVATE -static)
-set(CPACK_DROPLET_LAUNCH ${PROJECT_BINARY_DIR}/droplet_launch)
-set(CPACK_DROPLET_LAUNCHED ${CMAKE_INSTALL_BINDIR}/droplet-shape ${CMAKE_INSTALL_LIBDIR}/${private}/droplet-motion
-  ${CMAKE_INSTALL_LIBDIR}/${private}/droplet-svg)
+install(CODE "
+  set(launch \"${PROJECT_BINARY_DIR}/droplet_launch\")
+  set(launched ${CMAKE_INSTALL_BINDIR}/droplet-shape ${CMAKE_INSTALL_LIBDIR}/${private}/droplet-motion
+    ${CMAKE_INSTALL_LIBDIR}/${private}/droplet-svg)" COMPONENT command)
+install(SCRIPT ${CMAKE_CURRENT_LIST_DIR}/package/launch_programs.cmake COMPONENT command)
 
 set(CPACK_GENERATOR DEB TGZ)
 set(CPACK_PACKAGE_NAME droplet-shape)

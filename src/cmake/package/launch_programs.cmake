@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Puts the starting program in the place of each program of the archive, which it starts as NAME.elf.
-foreach(program ${CPACK_DROPLET_LAUNCHED})
-  file(GLOB_RECURSE found ${CPACK_TEMPORARY_DIRECTORY}/*)
-  list(FILTER found INCLUDE REGEX "/${program}$")
-  foreach(path ${found})
+# Puts the starting program in the place of each program, which it starts as NAME.elf, in a package that has a loader.
+if(has_loader)
+  foreach(program ${launched})
+    set(path $ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/${program})
     file(RENAME ${path} ${path}.elf)
-    file(COPY_FILE ${CPACK_DROPLET_LAUNCH} ${path})
+    file(COPY_FILE ${launch} ${path})
     execute_process(COMMAND strip ${path} COMMAND_ERROR_IS_FATAL ANY)
   endforeach()
-endforeach()
+endif()
