@@ -70,7 +70,8 @@ void declare(CommandLine& line)
     constexpr const char* kAllowed = "Allowed";
     line.add(kAllowed, "--tolerance", "LENGTH", "Largest distance of a point of one surface from the other",
              within(kTolerance));
-    line.add(kAllowed, "--volume-tolerance", "SHARE", "Largest difference of the volumes, such as 0.1% of A's");
+    line.add(kAllowed, "--volume-tolerance", "SHARE", "Largest difference of the volumes, such as 0.1% of A's",
+             within(0.0, 1.0));
     line.add(kAllowed, "--normal-tolerance", "ANGLE", "Largest rms angle between normals", within(kAngle));
     constexpr const char* kRun = "Run";
     line.add(kRun, "--json", "FILE", "Write a report; - is standard output");

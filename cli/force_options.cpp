@@ -50,7 +50,8 @@ void declareForces(CommandLine& line, droplet::ForceModel& model)
              into(model.wetting.contact_angle, kContactAngle));
     line.add(
         kCoating, "--viscosity-factor", "V|artistic|wedge",
-        "Viscous drag per radius and speed: artistic is 0.5Pa.s, wedge is that of water by wedge theory [by preset]");
+        "Viscous drag per radius and speed: artistic is 0.5Pa.s, wedge is that of water by wedge theory [by preset]",
+        within(kViscosity));
     line.add(kCoating, "--kinetic-fraction", "F", "Friction of a moving droplet, as a fraction of that at rest",
              into(model.wetting.kinetic_fraction, kFraction));
     constexpr const char* kAir = "Air";

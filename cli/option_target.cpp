@@ -110,7 +110,9 @@ OptionTarget seedInto(std::uint64_t& seed)
                     refuse(given, "a whole number from 0 to 18446744073709551615");
                 }
             },
-            std::to_string(seed)};
+            std::to_string(seed),
+            {},
+            std::array{0.0, static_cast<double>(std::numeric_limits<std::uint64_t>::max())}};
 }
 
 }  // namespace cli

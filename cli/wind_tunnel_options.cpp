@@ -58,15 +58,17 @@ void declare(CommandLine& line, WindTunnelOptions& options, droplet::ForceModel&
     line.add(kSweep, "--preset", "hashimoto|thesis|thesis,hashimoto",
              "Named set of default values: hashimoto, a measured plane; thesis, fitted to it; or both side by side "
              "[hashimoto]");
-    line.add(kSweep, "--volume", "VOLUMES", "Volumes of the droplets [by preset]");
-    line.add(kSweep, "--wind-speed,--wind", "SPEEDS", "Wind speeds, up the slope and along it [0..16m/s:0.25]");
-    line.add(kSweep, "--slope", "ANGLES", "Slopes of the ground, from horizontal [35deg]");
+    line.add(kSweep, "--volume", "VOLUMES", "Volumes of the droplets [by preset]", within(kVolume));
+    line.add(kSweep, "--wind-speed,--wind", "SPEEDS", "Wind speeds, up the slope and along it [0..16m/s:0.25]",
+             within(kWind));
+    line.add(kSweep, "--slope", "ANGLES", "Slopes of the ground, from horizontal [35deg]", within(kSlope));
     line.add(kSweep, "--hysteresis", "NUMBERS",
-             "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]");
+             "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle [by preset]",
+             within(kHysteresis.min, kHysteresis.max));
     line.add(kSweep, "--sliding-angle,--falling-angle", "ANGLE",
              "Hysteresis, by the slope at which a droplet begins to run", within(kSlope));
     line.add(kSweep, "--sliding-volume,--falling-volume", "V|every",
-             "Volume of the droplet that runs at --sliding-angle; every: all of them do [30uL]");
+             "Volume of the droplet that runs at --sliding-angle; every: all of them do [30uL]", within(kVolume));
     declareForces(line, model);
     constexpr const char* kOut = "Charts and series";
     line.add(kOut, "--chart", "FILE",

@@ -148,7 +148,8 @@ void declare(CommandLine& line, WindshieldOptions& options)
              "How much brighter lamps are than the background shows them: up to 1 + this, 0 to 4 [3, by daylight less]",
              into(options.view.highlight_boost, NumberRange{0.0, 4.0, "a number from 0 to 4"}));
     line.add(kLooks, "--shutter", "OPEN",
-             "Motion blur: part of a frame's time that the shutter is open, such as 180deg or 0.5 [0]");
+             "Motion blur: part of a frame's time that the shutter is open, such as 180deg or 0.5 [0]",
+             within(0.0, 1.0));
     line.addFlag(kLooks, "--layer", "Write only the droplets, with alpha: pictures, or a .webm, .mkv or .mov",
                  options.layer);
     declareVideoEncoding(line, kLooks);
