@@ -27,6 +27,7 @@ target_compile_definitions(droplet_launch PRIVATE DROPLET_LIBRARIES="${CMAKE_INS
 target_link_libraries(droplet_launch PRIVATE droplet_flags)
 target_link_options(droplet_launch PRIVATE -static)
 install(CODE "
+  set(strip \"${CMAKE_STRIP}\")
   set(launch \"${PROJECT_BINARY_DIR}/droplet_launch\")
   set(launched ${CMAKE_INSTALL_BINDIR}/droplet-shape ${CMAKE_INSTALL_LIBDIR}/${private}/droplet-motion
     ${CMAKE_INSTALL_LIBDIR}/${private}/droplet-svg)" COMPONENT command)
@@ -54,6 +55,10 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+if(CMAKE_CROSSCOMPILING)
+  set(debian_aarch64 arm64)
+  set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE ${debian_${CMAKE_SYSTEM_PROCESSOR}})
+endif()
 # xdg-open opens Studio.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS xdg-utils)
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/package/components.cmake)

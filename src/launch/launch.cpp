@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Starts a program of the archive with the C library and the loader that the archive brings, on any distribution of Linux.
-// It takes the place of the program NAME, which is beside it as NAME.elf, and needs no library itself. The loader is in the
-// folder of libraries, in a folder above this program.
+// Starts a program of the archive with the C library and the loader that the archive brings, on any distribution of
+// Linux. It takes the place of the program NAME, which is beside it as NAME.elf, and needs no library itself. The
+// loader is in the folder of libraries, in a folder above this program.
 //
 // Linux manual: ld.so(8) on --library-path and --argv0, getauxval(3) on AT_EXECFN.
 #include <sys/auxv.h>
@@ -34,15 +34,17 @@ std::string ownPath()
 int main(int argc, char** argv)
 {
     const std::string self = ownPath();
-    for (std::size_t slash = self.rfind('/'); slash != std::string::npos && slash > 0; slash = self.rfind('/', slash - 1)) {
+    for (std::size_t slash = self.rfind('/'); slash != std::string::npos;
+         slash = slash == 0 ? std::string::npos : self.rfind('/', slash - 1)) {
         const std::string libraries = self.substr(0, slash) + "/" DROPLET_LIBRARIES;
         std::string loader = libraries + "/" DROPLET_LOADER;
         if (::access(loader.c_str(), X_OK) != 0) {
             continue;
         }
         std::string program = self + ".elf";
-        std::vector<const char*> words{loader.c_str(), "--library-path", libraries.c_str(), "--argv0",
-                                       argc > 0 ? argv[0] : self.c_str(), program.c_str()};
+        std::vector<const char*> words{
+            loader.c_str(), "--library-path", libraries.c_str(), "--argv0", argc > 0 ? argv[0] : self.c_str(),
+            program.c_str()};
         words.insert(words.end(), argv + (argc > 0 ? 1 : 0), argv + argc);
         words.push_back(nullptr);
         ::execv(loader.c_str(), const_cast<char* const*>(words.data()));
