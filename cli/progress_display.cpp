@@ -32,7 +32,8 @@ ProgressDisplay::ProgressDisplay(ProgressMode mode) : mode_(mode)
         try {
             drawer_ = std::thread([this] { drawUntilStopped(); });
         } catch (const std::system_error&) {
-            // Without a thread the run continues without a bar.
+            // Without a thread the bar only moves when the run reports its progress.
+            next_bar_ = start_ + kBarDelay;
         }
     }
 }
@@ -50,6 +51,7 @@ void ProgressDisplay::begin(droplet::Stage stage, double share)
         if (mode_ == ProgressMode::Json && item_.empty()) {
             writeLine(*stage_, false);
         }
+        drawIfDue();
         return;
     }
     // Stages may alternate, droplet by droplet; the display only moves forward.
@@ -61,6 +63,7 @@ void ProgressDisplay::begin(droplet::Stage stage, double share)
     if (mode_ == ProgressMode::Json) {
         writeLine(stage, false);
     }
+    drawIfDue();
 }
 
 void ProgressDisplay::restart(std::string item)
@@ -92,12 +95,13 @@ void ProgressDisplay::report(const char* what, std::size_t done, std::size_t cou
         std::cerr << fmt::format(R"({{"{}":{},"of":{},"elapsed_s":{}}})", what, done, count, rounded(elapsed(), 3))
                   << std::endl;
     }
+    drawIfDue();
 }
 
 void ProgressDisplay::warn(const std::string& warning)
 {
     const std::lock_guard lock(mutex_);
-    if (drawer_.joinable()) {
+    if (is_drawn_) {
         std::cerr << kEraseLine;
     }
     printWarning(warning, mode_);
@@ -138,19 +142,28 @@ void ProgressDisplay::writeLine(droplet::Stage stage, bool done) const
               << std::endl;
 }
 
+void ProgressDisplay::draw()
+{
+    if (stage_ || count_ > 0) {
+        std::cerr << kEraseLine << bar() << std::flush;
+        is_drawn_ = true;
+    }
+}
+
+void ProgressDisplay::drawIfDue()
+{
+    if (next_bar_ && Clock::now() >= *next_bar_) {
+        draw();
+        next_bar_ = Clock::now() + kRefresh;
+    }
+}
+
 void ProgressDisplay::drawUntilStopped()
 {
     std::unique_lock lock(mutex_);
-    bool drawn = false;
     for (auto next = start_ + kBarDelay; !stopping_.wait_until(lock, next, [this] { return stopped_; });
          next = Clock::now() + kRefresh) {
-        if (stage_ || count_ > 0) {
-            std::cerr << kEraseLine << bar() << std::flush;
-            drawn = true;
-        }
-    }
-    if (drawn) {
-        std::cerr << kEraseLine << std::flush;
+        draw();
     }
 }
 
@@ -163,6 +176,10 @@ void ProgressDisplay::stop()
     stopping_.notify_all();
     if (drawer_.joinable()) {
         drawer_.join();
+    }
+    next_bar_.reset();
+    if (std::exchange(is_drawn_, false)) {
+        std::cerr << kEraseLine << std::flush;
     }
 }
 

@@ -49,6 +49,8 @@ private:
     [[nodiscard]] std::string bar() const;
     void report(const char* what, std::size_t done, std::size_t count);
     void writeLine(droplet::Stage stage, bool done) const;
+    void draw();
+    void drawIfDue();
     void drawUntilStopped();
     void stop();
 
@@ -63,7 +65,9 @@ private:
     std::size_t done_ = 0;   ///< number of these
     std::size_t count_ = 0;  ///< of all of them; 0 before the first
     bool stopped_ = false;
-    std::thread drawer_;  ///< keeps the bar moving during long stages
+    bool is_drawn_ = false;
+    std::optional<Clock::time_point> next_bar_;  ///< time of the next bar, where no thread draws it
+    std::thread drawer_;                         ///< keeps the bar moving during long stages
 };
 
 }  // namespace cli

@@ -14,10 +14,14 @@ const signals = new Int32Array(new SharedArrayBuffer(8));
 /** Temporary files that exist. */
 const unfinished = new Set();
 
-function endBy(name) {
+function removeUnfinished() {
     for (const path of unfinished) {
         fs.rmSync(path, { force: true });
     }
+}
+
+function endBy(name) {
+    removeUnfinished();
     process.removeAllListeners(name);
     process.kill(process.pid, name);
 }
@@ -42,6 +46,7 @@ const command = new Worker(new URL('./command_worker.js', import.meta.url), {
 command.on('message', ({ path, exists }) => void (exists ? unfinished.add(path) : unfinished.delete(path)));
 command.on('error', (error) => {
     fs.writeSync(2, `droplet-shape: internal error: ${error.message}\n`);
+    removeUnfinished();
     process.exitCode = kInternalError;
 });
 command.on('exit', (code) => {

@@ -17,15 +17,16 @@ const here = (name) => new URL(name, import.meta.url);
 
 /** Shows a page in the browser; whether a program for that was started. */
 function openPage(content) {
-    const page = join(tmpdir(), 'droplet-shape-studio.html');
+    const page = join(fs.mkdtempSync(join(tmpdir(), 'droplet-shape-')), 'studio.html');
     fs.writeFileSync(page, content);
     const [program, ...words] = process.platform === 'win32' ? ['cmd', '/c', 'start', '', page]
         : process.platform === 'darwin' ? ['open', page] : ['xdg-open', page];
     if (process.platform === 'linux' && !process.env.DISPLAY && !process.env.WAYLAND_DISPLAY && !process.env.BROWSER) {
         return false;
     }
-    spawn(program, words, { detached: true, stdio: 'ignore' }).on('error', () => {}).unref();
-    return true;
+    const browser = spawn(program, words, { detached: true, stdio: 'ignore' }).on('error', () => {});
+    browser.unref();
+    return browser.pid !== undefined;
 }
 
 async function run({ words, signals }) {

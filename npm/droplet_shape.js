@@ -139,7 +139,7 @@ function pageSystem(memory) {
         droplet: {
             open_svg: (text, size, seconds, page) => {
                 const problem = new TextEncoder().encode('must be drawn first; give its pixels as RGBA');
-                new Uint8Array(memory().buffer, page + 20, problem.length).set(problem);
+                new Uint8Array(memory().buffer, page + 28, problem.length).set(problem);
             },
         },
     };

@@ -3,6 +3,7 @@
 import fs from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
+import { plainStyles } from './svg_text.js';
 
 const kFolders = {
     win32: [join(process.env.WINDIR ?? 'C:/Windows', 'Fonts'), join(process.env.LOCALAPPDATA ?? '', 'Microsoft/Windows/Fonts')],
@@ -15,7 +16,8 @@ const kGeneric = {
     sansSerifFamily: ['Arial', 'Liberation Sans', 'DejaVu Sans', 'Helvetica'],
     monospaceFamily: ['Courier New', 'Liberation Mono', 'DejaVu Sans Mono', 'Menlo'],
 };
-const kFileNames = { 'Times New Roman': 'times', 'Courier New': 'cour' };
+/** Beginnings of the files of families whose files have other names. */
+const kFileNames = { 'Times New Roman': 'times', 'Courier New': 'cour', 'Comic Sans MS': 'comic', 'Trebuchet MS': 'trebuc', 'Noto Sans CJK JP': 'notosanscjk' };
 const kMostBytes = 64 << 20;
 
 const plain = (name) => name.toLowerCase().replace(/[^\p{L}\p{N}]/gu, '');
@@ -33,20 +35,19 @@ function filesOf(folder) {
     });
 }
 
-/** Families that the text of an SVG names. */
+/** Families that the text of an SVG names, the first of each list. */
 function familiesIn(svg) {
-    const lists = [...svg.matchAll(/font-family\s*[:=]\s*(?:"([^"]*)"|'([^']*)'|([^;"'}>]*))/g), ...svg.matchAll(/font\s*:\s*[^;}]*?\d\S*\s+([^;"}]*)/g)];
-    return [...new Set(lists.flatMap((found) => (found[1] ?? found[2] ?? found[3] ?? '').split(','))
-        .map((name) => name.replace(/&quot;|["']/g, '').trim()).filter((name) => name !== ''))];
+    return [...new Set([...plainStyles(svg).matchAll(/font-family\s*(?::\s*([^;}"<>]*)|=\s*(?:"([^"]*)"|'([^']*)'))/g)]
+        .map((found) => (found[1] ?? found[2] ?? found[3]).split(',').map((name) => name.replace(/["']/g, '').trim())))];
 }
 
 /**
  * Fonts for an SVG.
- * @returns {{buffers: Uint8Array[], names: object, lacking: string}}  files; families for the generic names; what is not drawn
+ * @returns {{buffers: Uint8Array[], names: object, lacking: string[]}}  files; families for the generic names; what is not drawn
  */
 export function fontsFor(svg) {
     if (!/<([\w-]+:)?text[\s>]/.test(svg)) {
-        return { buffers: [], names: {}, lacking: '' };
+        return { buffers: [], names: {}, lacking: [] };
     }
     const files = kFolders.flatMap(filesOf);
     let left = kMostBytes;
@@ -56,16 +57,31 @@ export function fontsFor(svg) {
         const name = kFileNames[family] ?? plain(family);
         const found = name === '' ? [] : files.filter((file) => file.name.startsWith(name));
         for (const { path } of found) {
-            const { size } = fs.statSync(path);
-            if (!taken.has(path) && size <= left) {
-                left -= size;
-                taken.add(path);
-                buffers.push(fs.readFileSync(path));
+            try {
+                const { size } = fs.statSync(path);
+                if (!taken.has(path) && size <= left) {
+                    buffers.push(fs.readFileSync(path));
+                    left -= size;
+                    taken.add(path);
+                }
+            } catch {
+                // A link that leads nowhere is no font.
             }
         }
         return found.length > 0;
     };
-    const missing = familiesIn(svg).filter((family) => !/^(serif|sans-serif|monospace|cursive|fantasy|system-ui|inherit)$/.test(family) && !take(family));
+    const isGeneric = (family) => /^(serif|sans-serif|monospace|cursive|fantasy|system-ui|inherit)$/i.test(family);
+    const missing = familiesIn(svg).map((families) => {
+        let first = '';
+        for (const family of families.filter((name) => name !== '')) {
+            // Generic families after others are what is used instead, as the drawing asks.
+            if (isGeneric(family) ? first === '' : take(family)) {
+                return '';
+            }
+            first ||= isGeneric(family) ? '' : family;
+        }
+        return first;
+    }).filter((first) => first !== '');
     const names = {};
     for (const [generic, families] of Object.entries(kGeneric)) {
         const family = families.find(take);
@@ -74,6 +90,7 @@ export function fontsFor(svg) {
         }
     }
     names.defaultFontFamily = names.sansSerifFamily ?? names.serifFamily;
-    const lacking = buffers.length === 0 ? ['text, as no font was found'] : missing.map((family) => `the font ${family}`);
-    return { buffers, names, lacking: lacking.join(', ') };
+    const lacking = buffers.length === 0 ? ['text, as no font was found']
+        : [...new Set(missing)].map((family) => `the font '${family}', for which another is used (install it, or convert text to paths)`);
+    return { buffers, names, lacking };
 }

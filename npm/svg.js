@@ -36,26 +36,31 @@ export function svgDrawer(memory) {
         return receiveMessageOnPort(port).message;
     }
 
+    /** Puts an answer where host.h has a DropletPage. */
+    function put(answer, place) {
+        const view = new DataView(memory().buffer);
+        for (const [k, number] of [answer.width, answer.height, answer.physicalWidth].entries()) {
+            view.setFloat64(place + 8 * k, number ?? 0, true);
+        }
+        view.setInt32(place + 24, Number(answer.is_damaged ?? false), true);
+        for (const [k, line] of [answer.problem ?? '', answer.lacking ?? ''].entries()) {
+            const bytes = new Uint8Array(memory().buffer, place + 28 + 1000 * k, 1000).fill(0);
+            bytes.set(new TextEncoder().encode(line).subarray(0, 999));
+        }
+    }
+    const late = () => ({ problem: `takes more than ${seconds} s to draw` });
+
     return {
         open_svg(text, size, limit, place) {
             seconds = limit;
-            const answer = ask({ text: new Uint8Array(memory().buffer, text, size).slice() })
-                ?? { problem: `takes more than ${limit} s to draw` };
-            const view = new DataView(memory().buffer);
-            view.setFloat64(place, answer.width ?? 0, true);
-            view.setFloat64(place + 8, answer.height ?? 0, true);
-            view.setInt32(place + 16, Number(answer.is_damaged ?? false), true);
-            for (const [k, line] of [answer.problem ?? '', answer.lacking ?? ''].entries()) {
-                const bytes = new Uint8Array(memory().buffer, place + 20 + 1000 * k, 1000).fill(0);
-                bytes.set(new TextEncoder().encode(line).subarray(0, 999));
-            }
+            put(ask({ text: new Uint8Array(memory().buffer, text, size).slice() }) ?? late(), place);
         },
-        draw_svg(width, height, place) {
-            const answer = ask({ width, height });
-            if (answer?.pixels) {
-                new Uint8Array(memory().buffer, place, 4 * width * height).set(answer.pixels);
+        draw_svg(width, height, pixels, place) {
+            const answer = ask({ width, height }) ?? late();
+            put(answer, place);
+            if (answer.pixels) {
+                new Uint8Array(memory().buffer, pixels, 4 * width * height).set(answer.pixels);
             }
-            return Number(answer?.pixels !== undefined);
         },
     };
 }

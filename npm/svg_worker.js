@@ -5,19 +5,28 @@ import { createRequire } from 'node:module';
 import { workerData } from 'node:worker_threads';
 import { initWasm, Resvg } from '@resvg/resvg-wasm';
 import { fontsFor } from './fonts.js';
+import { decoded, lackingIn, withFontParts, withPage } from './svg_text.js';
 
 const { port, answers } = workerData;
 const wasm = createRequire(import.meta.url).resolve('@resvg/resvg-wasm/index_bg.wasm');
 let text;
 let font;
 
-function opened() {
+function opened(bytes) {
+    text = withFontParts(decoded(bytes));
     const fonts = fontsFor(text);
     font = { fontBuffers: fonts.buffers, ...fonts.names };
-    const page = new Resvg(text, { font });
-    const { width, height } = page;
-    page.free();
-    return { width, height, lacking: fonts.lacking };
+    const page = withPage(text, () => {
+        const unsized = new Resvg(text, { font });
+        const bounds = unsized.getBBox();
+        unsized.free();
+        return bounds;
+    });
+    text = page.text;
+    const sized = new Resvg(text, { font });
+    const { width, height } = sized;
+    sized.free();
+    return { width, height, ...page, text: undefined, lacking: [...lackingIn(text), ...fonts.lacking].join(', ') };
 }
 
 /** Pixels of rows that are as many as wanted: the last one may be missing, or one too many. */
@@ -37,8 +46,7 @@ port.on('message', async (question) => {
     try {
         await ready;
         if (question.text) {
-            text = new TextDecoder().decode(question.text);
-            answer = opened();
+            answer = opened(question.text);
         } else {
             answer = drawn(question.width, question.height);
         }

@@ -8,7 +8,7 @@ import { highWords } from './droplet_shape.js';
 const kError = {
     EACCES: 2, EAGAIN: 6, EBADF: 8, EBUSY: 10, EEXIST: 20, EFBIG: 22, EINVAL: 28, EIO: 29, EISDIR: 31, ELOOP: 32, EMFILE: 33,
     ENAMETOOLONG: 37, ENFILE: 41, ENOENT: 44, ENOMEM: 48, ENOSPC: 51, ENOSYS: 52, ENOTDIR: 54, ENOTEMPTY: 55, EPERM: 63, EPIPE: 64,
-    EROFS: 69, ESPIPE: 70, EXDEV: 75,
+    EROFS: 69, ESPIPE: 70, EXDEV: 75, EDQUOT: 19, ENOTSUP: 58, ENXIO: 60, ETIMEDOUT: 73, ETXTBSY: 74,
 };
 const kKind = { fifo: 0o010000, character: 0o020000, folder: 0o040000, file: 0o100000, link: 0o120000 };
 const kFlags = { access: 0o3, write: 0o1, both: 0o2, create: 0o100, exclusive: 0o200, truncate: 0o1000, append: 0o2000, folder: 0o200000 };
@@ -32,12 +32,12 @@ export const posixPath = process.platform === 'win32' ? (path) => path.replace(/
  * The imports.
  * @param {() => WebAssembly.Memory} memory
  * @param {Map<string, () => Uint8Array>} made  contents of files that are made when they are read, by their paths
- * @param {(path: string, exists: boolean) => void} temporary  told before a temporary file is made, and when it is gone
+ * @param {(path: string, exists: boolean) => void} temporary  told when a temporary file is made, and when it is gone
  */
 export function nodeSystem({ memory, made = new Map(), temporary = () => {} }) {
     const view = () => new DataView(memory().buffer);
     const bytesAt = (place, length) => new Uint8Array(memory().buffer, place, length);
-    const decoder = new TextDecoder();
+    const decoder = new TextDecoder('utf-8', { ignoreBOM: true });
     const textAt = (place) => {
         const bytes = new Uint8Array(memory().buffer, place);
         return decoder.decode(bytes.slice(0, bytes.indexOf(0)));
@@ -131,11 +131,10 @@ export function nodeSystem({ memory, made = new Map(), temporary = () => {} }) {
             ['append', constants.O_APPEND]]) {
             native |= (flags & kFlags[flag]) !== 0 ? own : 0;
         }
-        const is_temporary = (flags & kFlags.create) !== 0 && isTemporary(name);
-        if (is_temporary) {
+        const file = fs.openSync(name, native, mode);
+        if ((flags & kFlags.create) !== 0 && isTemporary(name)) {
             temporary(name, true);
         }
-        const file = fs.openSync(name, native, mode);
         // Node has no call for places in files, so they are kept here.
         return open({ file, at: fs.fstatSync(file).isFile() ? 0 : undefined });
     }

@@ -29,11 +29,12 @@ DROPLET_HOST(received_signal) int droplet_host_received_signal();
 
 /// Page of an SVG.
 struct DropletPage {
-    double width;        ///< [CSS px]
-    double height;       ///< [CSS px]
-    int is_damaged;      ///< whether the file is why there is no page
-    char problem[1000];  ///< why there is no page; else empty
-    char lacking[1000];  ///< as Image::lacking
+    double width;           ///< [CSS px]
+    double height;          ///< [CSS px]
+    double physical_width;  ///< [m]; 0 if it states none
+    int is_damaged;         ///< whether the file is why there is no page
+    char problem[1000];     ///< why it cannot be opened or drawn; else empty
+    char lacking[1000];     ///< as Image::lacking
 };
 
 /// Opens an SVG; it stays open until the next one is opened.
@@ -41,6 +42,8 @@ struct DropletPage {
 DROPLET_HOST(open_svg)
 void droplet_host_open_svg(const std::byte* text, std::size_t size, double seconds, DropletPage* page);
 
-/// Draws the open SVG as wide as that, into premultiplied RGBA; whether it was drawn in time.
-DROPLET_HOST(draw_svg) bool droplet_host_draw_svg(int width, int height, std::uint8_t* pixels);
+/// Draws the open SVG as wide as that, into premultiplied RGBA.
+/// @param page  receives a problem
+DROPLET_HOST(draw_svg)
+void droplet_host_draw_svg(int width, int height, std::uint8_t* pixels, DropletPage* page);
 }

@@ -235,6 +235,8 @@ EMSCRIPTEN_KEEPALIVE Result* droplet_make(const char* arguments, std::size_t arg
 /// Writes the droplet's file in a format, for Array::File.
 EMSCRIPTEN_KEEPALIVE void droplet_write(Result* result, const char* format)
 {
+    result->code.clear();
+    result->message.clear();
     guarded(*result, [&] {
         std::ostringstream out;
         droplet::WriteOptions options;

@@ -16,10 +16,10 @@ install(FILES ${CMAKE_CURRENT_LIST_DIR}/package/lintian-overrides DESTINATION ${
   RENAME droplet-shape COMPONENT command)
 
 # The archive has the C library and its loader, too, which run on every kernel of Linux since 3.2. A small program without
-# libraries starts each of its programs through them; see src/launch.
+# libraries starts each of its programs through them; see cli/launch.
 install(RUNTIME_DEPENDENCY_SET droplet_runtime DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT bundle EXCLUDE_FROM_ALL
   PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-add_executable(droplet_launch ${PROJECT_SOURCE_DIR}/src/launch/launch.cpp)
+add_executable(droplet_launch ${PROJECT_SOURCE_DIR}/cli/launch/launch.cpp)
 target_compile_features(droplet_launch PRIVATE cxx_std_20)
 set(loader_of_x86_64 ld-linux-x86-64.so.2)
 set(loader_of_aarch64 ld-linux-aarch64.so.1)

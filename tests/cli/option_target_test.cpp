@@ -107,7 +107,8 @@ TEST(OptionTarget, RangesAndWordsAreData)
     EXPECT_EQ(all.at(3).at("min"), 10);
     EXPECT_EQ(all.at(4).at("words"), nlohmann::json({"left", "right"}));
     EXPECT_TRUE(all.at(4).at("max").is_null());
-    EXPECT_TRUE(all.at(6).at("max").is_null());
+    EXPECT_EQ(all.at(6).at("min"), 0);
+    EXPECT_EQ(all.at(6).at("max"), std::ldexp(1.0, 64));  // of a seed, as near as a double comes
 }
 
 TEST(OptionTarget, ReadsWhatIsGivenAndNothingElse)

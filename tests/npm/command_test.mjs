@@ -76,8 +76,45 @@ test('text along a path is drawn, and what is not drawn is said', () => {
     made(['text.svg', 'out.glb', '--json', 'report.json', '--quiet']);
     assert.equal(json('report.json').droplets.length, 5);
     assert.equal(json('report.json').input.physical_width_m ?? 0.06, 0.06);
-    svg('No Such Font, DejaVu Sans', '<tspan x="20" y="150">Drop</tspan>');
-    assert.match(`${run(['text.svg', 'out.glb']).stderr}`, /not drawn as they are meant: the font No Such Font\n$/);
+    svg('No Such Font, serif', '<tspan x="20" y="150">Drop</tspan>');
+    assert.match(`${run(['text.svg', 'out.glb']).stderr}`, /not drawn as they are meant: the font 'No Such Font', for which another is used \(.*\)\n$/);
+});
+
+// Pages as SVG 2 and CSS allow them, some of which resvg takes for others.
+const circle = '<circle cx="100" cy="100" r="60"/>';
+const svg = (attributes, content = circle) => `<svg xmlns="http://www.w3.org/2000/svg" ${attributes}>${content}</svg>`;
+for (const [name, drawing] of Object.entries({
+    'a tag in a comment': `<!-- <svg width="10mm"> -->${svg('width="40mm" viewBox="0 0 200 200"')}`,
+    'a prefix': '<s:svg xmlns:s="http://www.w3.org/2000/svg" width="40mm" viewBox="0 0 200 200"><s:circle cx="100" cy="100" r="60"/></s:svg>',
+    'a bracket in an attribute and a unit in capitals': svg('aria-label="a > b" width="40MM" viewBox="0 0 200 200"'),
+    'exponents, signs and spaces': svg('width=" 4e1mm " height="+40mm" viewBox="0 0 200 200"'),
+    'a height alone': svg('height="40mm" viewBox="0 0 200 200"'),
+    'pixels beside millimetres': svg('width="40px" height="40mm" viewBox="0 0 200 200"'),
+    'no size at all': svg(''),
+    percentages: svg('width="100%" height="100%" viewBox="0 0 200 200"'),
+    'what is not drawn': svg('width="4cm" viewBox="0 0 200 200"', `${circle}<foreignObject/><image href="a.png" width="1" height="1"/>`),
+    'a shorthand of fonts': svg('width="4cm" viewBox="0 0 200 100"', '<text x="10" y="60" style="font:bold 60px DejaVu Sans">Drop</text>'),
+    'quotes in an attribute': svg('width="4cm" viewBox="0 0 200 100"',
+        '<text x="10" y="60" style="font-family:&quot;No Such&quot;, &quot;DejaVu Sans&quot;;font-size:60px">Drop</text>'),
+})) {
+    test(`an SVG with ${name} has the native command's page, volume and warnings`, () => {
+        writeFileSync(join(cwd, 'in.svg'), drawing);
+        const words = ['in.svg', 'out.stl', '--model', 'linear', '--triangles', '5k', '--json', 'report.json', '--quiet'];
+        made(words);
+        const here = json('report.json');
+        assert.equal(native(words).status, 0);
+        const there = json('report.json');
+        const pixels = ({ input }) => [input.width_px, input.height_px];
+        assert.deepEqual(pixels(here), pixels(there));
+        assert.ok(near(here.input.pixel_size_m, there.input.pixel_size_m, 1e-12));
+        assert.ok(near(volume(here), volume(there), 1e-2), `${volume(here)}, not ${volume(there)}`);
+        assert.deepEqual(here.warnings, there.warnings);
+    });
+}
+
+test('an SVG in UTF-16 is read', () => {
+    writeFileSync(join(cwd, 'in.svg'), Buffer.from(`\ufeff<?xml version="1.0" encoding="UTF-16"?>${svg('width="4cm" viewBox="0 0 200 200"')}`, 'utf16le'));
+    made(['in.svg', 'out.stl', '--triangles', '2k', '--quiet']);
 });
 
 test('every format is what its extension says', () => {
@@ -181,8 +218,11 @@ test('the page and Studio are written', () => {
 });
 
 /** Starts a run, and resolves when a line of its standard error has a text. */
-function begun(words, text) {
-    const child = spawn(node, [bin, ...words], { cwd, stdio: ['ignore', 'pipe', 'pipe'] });
+function begun(words, text, input = 'ignore') {
+    const child = spawn(node, [bin, ...words], { cwd, stdio: [input, 'pipe', 'pipe'] });
+    if (text === '') {
+        return Promise.resolve({ child, ended: new Promise((end) => void child.on('exit', (code, signal) => end({ code, signal }))) });
+    }
     return new Promise((fulfil, reject) => {
         let said = '';
         const ended = new Promise((end) => void child.on('exit', (code, signal) => end({ code, signal, said: () => said })));
@@ -201,6 +241,16 @@ test('a signal ends it, and leaves no unfinished file', async () => {
     child.kill('SIGTERM');
     assert.equal((await ended).signal, 'SIGTERM');
     assert.deepEqual(readdirSync(cwd), []);
+});
+
+test('a signal leaves the unfinished files of another run', async () => {
+    const { child, ended } = await begun(['-', 'out.glb', '--progress', 'json'], '', 'pipe');
+    writeFileSync(join(cwd, '.droplet-shape-42-0.tmp'), 'of another run');
+    child.stdin.end(readFileSync(data('ampersand.png')));
+    await new Promise((go) => void setTimeout(go, 600));
+    child.kill('SIGTERM');
+    await ended;
+    assert.equal(bytes('.droplet-shape-42-0.tmp').toString(), 'of another run');
 });
 
 test('a batch that is interrupted ends its item and writes its manifest', async () => {

@@ -162,6 +162,7 @@ test('every format is written', () => {
         assert.ok(Buffer.from(bytes).toString('latin1').startsWith(start), format);
     }
     assert.throws(() => droplet.file('dwg'), { code: 'InvalidArgument' });
+    assert.ok(droplet.file('stl').length > 1000);
 });
 
 test('numbers are SI units', () => {
