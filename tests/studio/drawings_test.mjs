@@ -12,7 +12,7 @@ import { chromium } from 'playwright-core';
 import { fileOf, kDrawings } from './drawings.mjs';
 
 const { CHROMIUM = '/usr/bin/chromium', DROPLET_SHAPE, SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
-const { readPicture, withWiderStrokes } = await import(pathToFileURL(resolve(SOURCES, 'page/read_picture.js')).href);
+const { readPicture, withWiderStrokes } = await import(pathToFileURL(resolve(SOURCES, 'html/read_picture.js')).href);
 const kSide = 512;  // a quarter of the side at which the command draws
 
 let browser;

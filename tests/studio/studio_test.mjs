@@ -469,7 +469,7 @@ if (DROPLET_SHAPE) {
             return JSON.parse(readFileSync(join(folder, 'made.json')));
         };
         const report = await command();
-        const { volume, length, rows } = await import(pathToFileURL(resolve(SOURCES, 'page/figures.js')).href);
+        const { volume, length, rows } = await import(pathToFileURL(resolve(SOURCES, 'html/figures.js')).href);
         assert.equal(await result(page), `${volume(report.shape.volume_m3)} of water, ${length(report.shape.height_max_m)} high`);
         const table = await page.locator('#figures table tr').evaluateAll((list) => list.map(({ cells }) => [cells[0].textContent, cells[1].textContent]));
         assert.deepEqual(table.slice(0, -1), rows(report));
