@@ -25,6 +25,7 @@ std::string ownPath()
         return {path.data(), static_cast<std::size_t>(length)};
     }
     // Without /proc the kernel has the path as it was given.
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the kernel gives addresses as numbers
     const auto* const given = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
     return given != nullptr && ::realpath(given, path.data()) != nullptr ? path.data() : "";
 }
