@@ -4,13 +4,16 @@
 import fs from 'node:fs';
 import { constants } from 'node:os';
 import { Worker } from 'node:worker_threads';
-import { kSignal } from './command_worker.js';
 
 /** As exit codes of the command: an internal error. */
 const kInternalError = 1;
 
-// A signal that the command has not seen yet, and whether it waits for signals; see command_worker.js.
-const signals = new Int32Array(new SharedArrayBuffer(8));
+/** A number that the command's thread sees, too. */
+const shared = () => new Int32Array(new SharedArrayBuffer(4));
+/** The first signal that was received, or 0. */
+const received = shared();
+/** Whether a first signal does not end the command, which then asks for it. */
+const isAwaited = shared();
 /** Temporary files that exist. */
 const unfinished = new Set();
 
@@ -28,8 +31,8 @@ function endBy(name) {
 
 for (const name of ['SIGINT', 'SIGTERM', 'SIGHUP']) {
     process.on(name, () => {
-        const is_first = Atomics.compareExchange(signals, kSignal.received, 0, constants.signals[name]) === 0;
-        if (!is_first || Atomics.load(signals, kSignal.is_awaited) === 0) {
+        const is_first = Atomics.compareExchange(received, 0, 0, constants.signals[name]) === 0;
+        if (!is_first || Atomics.load(isAwaited, 0) === 0) {
             endBy(name);
         }
     });
@@ -37,7 +40,7 @@ for (const name of ['SIGINT', 'SIGTERM', 'SIGHUP']) {
 
 const kStack = 64;  // [MB]: deep recursion of the solver has that of the module, of JavaScript little
 const command = new Worker(new URL('./command_worker.js', import.meta.url), {
-    workerData: { words: process.argv.slice(2), signals },
+    workerData: { words: process.argv.slice(2), received, isAwaited },
     // The thread writes to the process's own streams by itself.
     stdout: true,
     stderr: true,
@@ -51,7 +54,7 @@ command.on('error', (error) => {
 });
 command.on('exit', (code) => {
     // A batch ends its items first.
-    const signal = Atomics.load(signals, kSignal.received);
+    const signal = Atomics.load(received, 0);
     const name = Object.keys(constants.signals).find((each) => constants.signals[each] === signal);
     if (name) {
         endBy(name);

@@ -10,9 +10,6 @@ import { studioPage } from './studio_page.js';
 import { svgDrawer } from './svg.js';
 import { nodeSystem, posixPath } from './system.js';
 
-/** Places in the array of signals. */
-export const kSignal = { received: 0, is_awaited: 1 };
-
 const here = (name) => new URL(name, import.meta.url);
 
 /** Shows a page in the browser; whether a program for that was started. */
@@ -29,24 +26,19 @@ function openPage(content) {
     return browser.pid !== undefined;
 }
 
-async function run({ words, signals }) {
-    const made = new Map([['/droplet-shape/studio.html', studioPage]]);
-    const temporary = (path, exists) => parentPort.postMessage({ path, exists });
-    const solver = await instantiate(fs.readFileSync(here('./droplet_shape.wasm')), (memory) => {
-        const system = nodeSystem({ memory, made, temporary });
-        Object.assign(system.droplet, svgDrawer(memory), {
-            open_page: () => Number(openPage(studioPage())),
-            received_signal: () => Atomics.load(signals, kSignal.received),
-            await_signals: (is_awaited) => void Atomics.store(signals, kSignal.is_awaited, is_awaited),
-        });
-        return system;
+const { words, received, isAwaited } = workerData;
+const made = new Map([['/droplet-shape/studio.html', studioPage]]);
+const temporary = (path, exists) => parentPort.postMessage({ path, exists });
+const solver = await instantiate(fs.readFileSync(here('./droplet_shape.wasm')), (memory) => {
+    const system = nodeSystem({ memory, made, temporary });
+    Object.assign(system.droplet, svgDrawer(memory), {
+        open_page: () => Number(openPage(studioPage())),
+        received_signal: () => Atomics.load(received, 0),
+        await_signals: (are_awaited) => void Atomics.store(isAwaited, 0, are_awaited),
     });
-    const text = new TextEncoder().encode(['droplet-shape', ...words.map(posixPath)].map((word) => `${word}\0`).join(''));
-    const place = solver.malloc(text.length);
-    new Uint8Array(solver.memory.buffer, place, text.length).set(text);
-    process.exit(solver.droplet_command(place, text.length));
-}
-
-if (parentPort) {
-    await run(workerData);
-}
+    return system;
+});
+const text = new TextEncoder().encode(['droplet-shape', ...words.map(posixPath)].map((word) => `${word}\0`).join(''));
+const place = solver.malloc(text.length);
+new Uint8Array(solver.memory.buffer, place, text.length).set(text);
+process.exit(solver.droplet_command(place, text.length));

@@ -11,7 +11,6 @@
 #include <climits>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -38,11 +37,11 @@ int main(int argc, char** argv)
     for (std::size_t slash = self.rfind('/'); slash != std::string::npos;
          slash = slash == 0 ? std::string::npos : self.rfind('/', slash - 1)) {
         const std::string libraries = self.substr(0, slash) + "/" DROPLET_LIBRARIES;
-        std::string loader = libraries + "/" DROPLET_LOADER;
+        const std::string loader = libraries + "/" DROPLET_LOADER;
         if (::access(loader.c_str(), X_OK) != 0) {
             continue;
         }
-        std::string program = self + ".elf";
+        const std::string program = self + ".elf";
         std::vector<const char*> words{
             loader.c_str(), "--library-path", libraries.c_str(), "--argv0", argc > 0 ? argv[0] : self.c_str(),
             program.c_str()};
