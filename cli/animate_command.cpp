@@ -34,6 +34,7 @@
 #include "surface_files.h"
 #include "surroundings.h"
 #include "terminal.h"
+#include "this_process.h"
 #include "video_writer.h"
 
 namespace cli {

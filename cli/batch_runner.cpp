@@ -9,7 +9,6 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
-#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <mutex>
@@ -353,8 +352,7 @@ int makeAll(const std::vector<BatchItem>& items, const BatchOptions& options)
     }
     if (signal != 0) {
         batch.summarise();
-        std::signal(signal, SIG_DFL);
-        std::raise(signal);
+        endBySignal(signal);
     }
     try {
         batch.drawSheet();

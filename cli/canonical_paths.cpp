@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "canonical_paths.h"
 
-#include <sys/stat.h>
-
 #include <filesystem>
 #include <system_error>
 
@@ -24,15 +22,6 @@ std::string CanonicalPaths::of(const std::string& path)
         folder->second = fs::weakly_canonical(absolute.parent_path(), ignored).string();
     }
     return (fs::path(folder->second) / absolute.filename()).lexically_normal().string();
-}
-
-std::optional<FileNode> nodeOf(const std::string& path)
-{
-    struct stat status = {};
-    if (stat(path.c_str(), &status) != 0) {
-        return std::nullopt;
-    }
-    return FileNode(status.st_dev, status.st_ino);
 }
 
 }  // namespace cli

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet_report.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -83,13 +81,6 @@ droplet::Report describe(const droplet::Droplet& droplet, const DropletSettings&
     const auto grave_end = report.warnings.begin() + static_cast<std::ptrdiff_t>(report.severe_warnings);
     report.warnings.insert(grave_end, settings.warnings.begin(), settings.warnings.end());
     return report;
-}
-
-std::uint64_t peakMemory()
-{
-    struct rusage usage = {};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux returns KiB
 }
 
 }  // namespace cli

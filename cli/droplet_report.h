@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "droplet/droplet.h"
@@ -16,8 +15,5 @@ droplet::OutputReport describeOutput(const droplet::Surface& surface, const std:
 
 /// Report of a droplet, without input, output, times and memory.
 droplet::Report describe(const droplet::Droplet& droplet, const DropletSettings& settings);
-
-/// Peak memory of this process [bytes].
-std::uint64_t peakMemory();
 
 }  // namespace cli

@@ -27,6 +27,7 @@
 #include "option_values.h"
 #include "stage_clock.h"
 #include "surface_files.h"
+#include "this_process.h"
 #include "video_writer.h"
 
 namespace cli {

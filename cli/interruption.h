@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <signal.h>
-
-#include <array>
+#include <memory>
 
 namespace cli {
 
-/// Installs handlers that remove temporary files before SIGINT, SIGTERM, SIGHUP or SIGXCPU ends the process.
+/// Lets the process remove temporary files before SIGINT, SIGTERM, SIGHUP or SIGXCPU ends it. Windows has ^C and the
+/// closing of the console instead.
 void cleanUpOnSignals();
+
+/// Ends the process by a signal, as if nothing had caught it.
+[[noreturn]] void endBySignal(int signal);
 
 /// Scope in which the first SIGINT, SIGTERM or SIGHUP is only recorded; a second one ends the process.
 class Interruption {
@@ -23,11 +25,8 @@ public:
     [[nodiscard]] static int receivedSignal();
 
 private:
-    struct Handled {
-        int signal;
-        struct sigaction before = {};
-    };
-    std::array<Handled, 3> handled_{{{SIGINT}, {SIGTERM}, {SIGHUP}}};
+    struct Before;
+    std::unique_ptr<Before> before_;  ///< what happened on signals before the scope
 };
 
 }  // namespace cli

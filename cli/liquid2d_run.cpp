@@ -28,6 +28,7 @@
 #include "film.h"
 #include "option_values.h"
 #include "stage_clock.h"
+#include "this_process.h"
 #include "video_writer.h"
 
 namespace cli {

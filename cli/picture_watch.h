@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 namespace cli {
 
@@ -21,12 +22,8 @@ public:
     void wait();
 
 private:
-    /// Reads what happened in the folder.
-    /// @return  whether the file was saved
-    bool read();
-
-    std::filesystem::path path_;
-    int events_ = -1;
+    struct Watched;
+    std::unique_ptr<Watched> watched_;
 };
 
 }  // namespace cli

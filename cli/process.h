@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -11,9 +10,12 @@
 
 namespace cli {
 
+/// What the system knows a started program by.
+using ProcessId = std::intptr_t;
+
 /// Running program, with its standard error in a file.
 struct Process {
-    pid_t id = -1;
+    std::optional<ProcessId> id;
     std::FILE* input = nullptr;   ///< pipe to its standard input, or null
     std::FILE* output = nullptr;  ///< pipe from its standard output, or null
     std::FILE* log = nullptr;     ///< temporary file that receives its standard error
@@ -28,30 +30,35 @@ struct Started {
     int failure = 0;  ///< 0, or an error number of errno
 };
 
+/// How a program ended.
+struct ProcessEnd {
+    int code = 0;                  ///< exit code; of a program that did not end by itself, not 0
+    bool was_out_of_time = false;  ///< limitTime() has ended it
+};
+
 /// Starts a program.
 /// @param command    name, looked up in PATH, and arguments
-/// @param inherited  open file that becomes the program's file descriptor 3
-Started start(const std::vector<std::string>& command, Piped piped, std::optional<int> inherited = {});
+/// @param inherited  temporary file that the program may open by inheritedName()
+Started start(const std::vector<std::string>& command, Piped piped, std::FILE* inherited = nullptr);
+
+/// File without a name of its own, which the system removes when it is closed; null, with errno, if there is none.
+std::FILE* temporaryFile();
+
+/// Name by which a program that inherits a temporary file opens it.
+std::string inheritedName(std::FILE* file);
 
 /// Limits the private memory of a running program, and lets it write no core file.
 /// @param bytes  beyond which its allocations fail
-void limitMemory(pid_t id, std::size_t bytes);
+void limitMemory(ProcessId id, std::size_t bytes);
 
-/// Limits the processor time of a running program, counted from now. SIGXCPU ends it.
+/// Limits the processor time of a running program, counted from now. The system then ends it.
 /// @param seconds  at least 1
-void limitTime(pid_t id, std::size_t seconds);
+void limitTime(ProcessId id, std::size_t seconds);
 
-/// Waits for the end of a program and returns its status.
-int waitFor(pid_t id);
+/// Waits for the end of a program.
+ProcessEnd waitFor(ProcessId id);
 
-/// Beginning of a program's log, up to 4096 bytes.
-std::string logText(std::FILE* log);
-
-/// First line of a program's log, without the addresses that ffmpeg's messages contain: [mp4 @ 0x55d0c0de]. They differ
-/// from run to run.
-std::string firstLine(std::FILE* log);
-
-/// File name that ffmpeg cannot take for an option or a protocol.
-std::string plainName(const std::string& path);
+/// Ends a program at once, and waits for its end.
+void endNow(ProcessId id);
 
 }  // namespace cli

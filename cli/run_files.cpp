@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_files.h"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -15,6 +12,7 @@
 #include "canonical_paths.h"
 #include "droplet/error.h"
 #include "droplet/io/object.h"
+#include "file_node.h"
 #include "files.h"
 #include "option_values.h"
 
@@ -34,15 +32,6 @@ std::vector<std::size_t> existingNumbers(const NamedFile& frames)
     std::vector<std::size_t> numbers = frames.pattern->numbers();
     std::erase_if(numbers, [&](std::size_t number) { return !contains(frames.numbers, number); });
     return numbers;
-}
-
-/// Inode of a standard stream that is a regular file, as in `program - out < out`.
-std::optional<FileNode> nodeOfStream(int stream)
-{
-    struct stat status = {};
-    return fstat(stream, &status) == 0 && S_ISREG(status.st_mode)
-               ? std::optional(FileNode(status.st_dev, status.st_ino))
-               : std::nullopt;
 }
 
 /// Number of a file that another pattern of the same folder writes, too.
@@ -70,8 +59,8 @@ public:
         std::string path;
     };
 
-    /// @param stream  descriptor that kStandardStream stands for
-    KnownFiles(CanonicalPaths& paths, int stream) : paths_(paths), stream_(stream) {}
+    /// @param stream  what kStandardStream stands for
+    KnownFiles(CanonicalPaths& paths, Stream stream) : paths_(paths), stream_(stream) {}
 
     void add(const NamedFile& file)
     {
@@ -96,7 +85,7 @@ public:
 private:
     [[nodiscard]] std::optional<FileNode> nodeOf(const NamedFile& file) const
     {
-        return isStream(file.path) ? nodeOfStream(stream_) : cli::nodeOf(file.path);
+        return isStream(file.path) ? cli::nodeOf(stream_) : cli::nodeOf(file.path);
     }
 
     void addNode(const std::optional<FileNode>& node, const NamedFile& file)
@@ -160,7 +149,7 @@ private:
     }
 
     CanonicalPaths& paths_;
-    int stream_;
+    Stream stream_;
     std::map<std::string, const NamedFile*> by_path_;
     std::map<FileNode, const NamedFile*> by_node_;
     std::vector<std::pair<std::string, const NamedFile*>> patterns_;  ///< with their canonical folders
@@ -219,11 +208,11 @@ void makeFolderOf(const std::string& path)
 void refuseClashes(const RunFiles& files)
 {
     CanonicalPaths paths;
-    KnownFiles read(paths, STDIN_FILENO);
+    KnownFiles read(paths, Stream::Input);
     for (const NamedFile& input : files.read) {
         read.add(input);
     }
-    KnownFiles written(paths, STDOUT_FILENO);
+    KnownFiles written(paths, Stream::Output);
     const auto refuse_clash = [](const NamedFile& output, const KnownFiles::Match& other) {
         refuse(output.name + " and " + other.file->name + " are the same, '" + other.path +
                "'; they must be different files");

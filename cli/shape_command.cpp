@@ -39,6 +39,7 @@
 #include "surface_files.h"
 #include "surroundings.h"
 #include "terminal.h"
+#include "this_process.h"
 
 namespace cli {
 namespace {

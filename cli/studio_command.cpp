@@ -10,6 +10,7 @@
 #include "files.h"
 #include "option_values.h"
 #include "run_files.h"
+#include "this_process.h"
 
 namespace cli {
 namespace {
@@ -36,9 +37,8 @@ const CommandText& commandText()
 /// The page, where it was installed or built, relative to this program.
 fs::path pageOfStudio()
 {
+    fs::path page = (programFile().parent_path() / DROPLET_STUDIO_PAGE).lexically_normal();
     std::error_code unknown;
-    const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
-    fs::path page = (program.parent_path() / DROPLET_STUDIO_PAGE).lexically_normal();
     if (!fs::exists(page, unknown)) {
         refuse("studio is not available: " + page.string() +
                " does not exist, because the program was built without DROPLET_STUDIO");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "terminal.h"
 
-#include <unistd.h>
-
 #include <cstdlib>
 #include <iostream>
 
@@ -19,17 +17,6 @@ std::string_view environment(const char* variable)
 }
 
 }  // namespace
-
-bool errorIsTerminal()
-{
-    return isatty(STDERR_FILENO) == 1 && environment("TERM") != "dumb";
-}
-
-bool hasDisplay()
-{
-    return !environment("DISPLAY").empty() || !environment("WAYLAND_DISPLAY").empty() ||
-           !environment("BROWSER").empty();
-}
 
 std::string paint(std::string_view text, Colour colour)
 {

@@ -14,9 +14,6 @@ enum class Colour { Red, Yellow, Bold };
 /// Whether standard error is a terminal that can move its cursor.
 bool errorIsTerminal();
 
-/// Whether there is a display for a browser, or the user has named a browser in BROWSER.
-bool hasDisplay();
-
 /// Text in a colour, if standard error is a terminal and NO_COLOR is unset or empty.
 std::string paint(std::string_view text, Colour colour);
 

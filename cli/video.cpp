@@ -2,18 +2,16 @@
 #include "video.h"
 
 #include <fmt/core.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <csignal>
 #include <cstring>
 #include <string_view>
 
 #include "droplet/error.h"
-#include "process.h"
+#include "process_log.h"
 
 namespace cli {
 namespace {
@@ -42,24 +40,23 @@ Process startReading(const std::string& path, const std::string& program, const 
     std::vector<std::string> command{program};
     command.insert(command.end(), before.begin(), before.end());
     command.insert(command.end(), {"-format_whitelist", kContainers, "-protocol_whitelist", "file,pipe", "-max_pixels",
-                                   kMaxPixels, "-i", plainName(path)});
+                                   kMaxPixels, "-i", "file:" + path});
     command.insert(command.end(), after.begin(), after.end());
     const Started started = start(command, Piped::Output);
     if (started.failure != 0) {
         throw Error(ErrorCode::InvalidInput, path + ": videos are read through the program " + program +
                                                  ", which cannot be run: " + std::strerror(started.failure));
     }
-    limitMemory(started.process.id, kMemory);
-    limitTime(started.process.id, kSeconds);
+    limitMemory(*started.process.id, kMemory);
+    limitTime(*started.process.id, kSeconds);
     return started.process;
 }
 
 /// Refuses a video that ffmpeg gave up for lack of time.
-void refuseSlow(const std::string& path, int status)
+void refuseSlow(const std::string& path, const ProcessEnd& end)
 {
-    // ffprobe ends by the signal; ffmpeg by itself with 255, or with 123 after the fourth.
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
-    if ((WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) || code == 255 || code == 123) {
+    // The system ends ffprobe; ffmpeg ends by itself with 255, or with 123 after the fourth signal.
+    if (end.was_out_of_time || end.code == 255 || end.code == 123) {
         throw Error(ErrorCode::InvalidInput,
                     fmt::format("{}: a frame takes more than {} s of processor time", path, kSeconds));
     }
@@ -123,11 +120,11 @@ Video::Metadata readMetadata(const std::string& path)
     std::array<char, 512> text{};
     const std::size_t count = std::fread(text.data(), 1, text.size() - 1, process.output);
     std::fclose(process.output);
-    const int status = waitFor(process.id);
+    const ProcessEnd end = waitFor(*process.id);
     std::FILE* const log = process.log;
-    if (status != 0 || count == 0) {
+    if (end.code != 0 || count == 0) {
         try {
-            refuseSlow(path, status);
+            refuseSlow(path, end);
             throwReadError(path, "ffprobe", log);
         } catch (...) {
             std::fclose(log);
@@ -161,9 +158,8 @@ Video::~Video()
     if (frames_ != nullptr) {
         std::fclose(frames_);
     }
-    if (process_ > 0) {
-        ::kill(process_, SIGKILL);
-        waitFor(process_);
+    if (process_) {
+        endNow(*process_);
     }
     std::fclose(log_);
 }
@@ -172,20 +168,20 @@ void Video::finish()
 {
     std::fclose(frames_);
     frames_ = nullptr;
-    const int status = waitFor(process_);
-    process_ = -1;
-    refuseSlow(path_, status);
+    const ProcessEnd end = waitFor(*process_);
+    process_.reset();
+    refuseSlow(path_, end);
     // ffmpeg reads a Matroska file that ends too early without an error status.
     const bool is_cut = logText(log_).find("ended prematurely") != std::string::npos;
     const bool is_short = metadata_.frames && static_cast<double>(done_) + 1.0 < *metadata_.frames;
-    if (done_ > 0 && (status != 0 || is_cut || is_short)) {
+    if (done_ > 0 && (end.code != 0 || is_cut || is_short)) {
         const std::string line = firstLine(log_);
         throw Error(ErrorCode::InvalidInput,
                     path_ + ": is cut off or damaged after frame " + std::to_string(done_) +
                         (is_short ? " of " + std::to_string(std::lround(*metadata_.frames)) : "") +
                         (line.empty() ? "" : ": " + line));
     }
-    if (status != 0) {
+    if (end.code != 0) {
         throwReadError(path_, "ffmpeg", log_);
     }
 }
@@ -223,7 +219,7 @@ std::optional<std::vector<std::byte>> Video::next()
         throwReadError(path_, "ffmpeg", log_);
     }
     ++done_;
-    limitTime(process_, kSeconds);  // of the next frame
+    limitTime(*process_, kSeconds);  // of the next frame
     return frame;
 }
 

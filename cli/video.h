@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstddef>
 #include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "process.h"
 
 namespace cli {
 
@@ -46,7 +46,7 @@ private:
     std::string path_;
     Metadata metadata_;
     std::size_t done_ = 0;  ///< number of frames read
-    pid_t process_ = -1;
+    std::optional<ProcessId> process_;
     std::FILE* frames_ = nullptr;
     std::FILE* log_ = nullptr;
 };

@@ -7,7 +7,6 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <initializer_list>
@@ -17,6 +16,7 @@
 
 #include "droplet/error.h"
 #include "option_values.h"
+#include "process_log.h"
 
 namespace cli {
 namespace {
@@ -76,7 +76,7 @@ droplet::Picture plainPicture(int width, int height, unsigned char level)
 }
 
 Process startFfmpeg(const std::vector<std::string>& command, Piped piped, const std::string& path,
-                    std::optional<int> file)
+                    std::FILE* file = nullptr)
 {
     const Started started = start(command, piped, file);
     if (started.failure != 0) {
@@ -136,7 +136,7 @@ std::vector<std::string> qualityOf(const std::string& codec, double quality)
     return {"-q:v", steps(31.0)};
 }
 
-std::vector<std::string> commandOf(const VideoWriterOptions& options)
+std::vector<std::string> commandOf(const VideoWriterOptions& options, std::FILE* video)
 {
     std::vector<std::string> command{"ffmpeg", "-nostdin", "-v", "error"};
     const auto add = [&](std::initializer_list<std::string> words) { command.insert(command.end(), words); };
@@ -163,7 +163,7 @@ std::vector<std::string> commandOf(const VideoWriterOptions& options)
     const std::vector<std::string> quality = qualityOf(options.codec, options.quality);
     command.insert(command.end(), quality.begin(), quality.end());
     add({"-threads", "2", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"});
-    add({"-f", containerOf(options.path)->format, "-y", "/dev/fd/3"});
+    add({"-f", containerOf(options.path)->format, "-y", inheritedName(video)});
     return command;
 }
 
@@ -192,8 +192,7 @@ bool hasAlpha(const std::string& codec)
 
 void checkCodec(const std::string& codec, const std::string& path)
 {
-    const Process process =
-        startFfmpeg({"ffmpeg", "-hide_banner", "-v", "error", "-encoders"}, Piped::Output, path, {});
+    const Process process = startFfmpeg({"ffmpeg", "-hide_banner", "-v", "error", "-encoders"}, Piped::Output, path);
     std::string text;
     std::array<char, 4096> part{};
     for (std::size_t count = 0; (count = std::fread(part.data(), 1, part.size(), process.output)) > 0;) {
@@ -201,7 +200,7 @@ void checkCodec(const std::string& codec, const std::string& path)
     }
     std::fclose(process.output);
     std::fclose(process.log);
-    waitFor(process.id);
+    waitFor(*process.id);
     // Lines such as ` V....D libx264   libx264 H.264 / AVC`, after a legend that ends with dashes.
     std::istringstream lines(text.substr(std::min(text.find("------"), text.size())));
     for (std::string line; std::getline(lines, line);) {
@@ -236,13 +235,13 @@ void tryVideo(const VideoWriterOptions& options)
 }
 
 VideoWriter::VideoWriter(const VideoWriterOptions& options)
-    : path_(options.path), has_alpha_(options.alpha), video_(std::tmpfile())
+    : path_(options.path), has_alpha_(options.alpha), video_(temporaryFile())
 {
     if (video_ == nullptr) {
         throw Error(ErrorCode::OutputFailed, path_ + ": a temporary file cannot be created: " + std::strerror(errno));
     }
     try {
-        process_ = startFfmpeg(commandOf(options), Piped::Input, path_, ::fileno(video_));
+        process_ = startFfmpeg(commandOf(options, video_), Piped::Input, path_, video_);
     } catch (...) {
         std::fclose(video_);
         throw;
@@ -254,9 +253,8 @@ VideoWriter::~VideoWriter()
     if (process_.input != nullptr) {
         std::fclose(process_.input);
     }
-    if (process_.id > 0) {
-        ::kill(process_.id, SIGKILL);
-        waitFor(process_.id);
+    if (process_.id) {
+        endNow(*process_.id);
     }
     std::fclose(process_.log);
     std::fclose(video_);
@@ -266,9 +264,9 @@ int VideoWriter::end()
 {
     std::fclose(process_.input);
     process_.input = nullptr;
-    const int status = waitFor(process_.id);
-    process_.id = -1;
-    return status;
+    const ProcessEnd ended = waitFor(*process_.id);
+    process_.id.reset();
+    return ended.code;
 }
 
 void VideoWriter::throwWriteError()

@@ -19,6 +19,7 @@
 #include "film.h"
 #include "option_values.h"
 #include "stage_clock.h"
+#include "this_process.h"
 #include "windshield_files.h"
 #include "windshield_frames.h"
 #include "windshield_plan.h"

@@ -2,9 +2,21 @@
 // Signals come from the thread that has started the command.
 #include "interruption.h"
 
+#include <csignal>
+#include <cstdlib>
+
 #include "host.h"
 
 namespace cli {
+
+void endBySignal(int signal)
+{
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+    std::abort();
+}
+
+struct Interruption::Before {};
 
 Interruption::Interruption()
 {

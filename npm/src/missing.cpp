@@ -78,34 +78,31 @@ bool isThreadShortage(const std::exception&)
     return false;
 }
 
-Started start(const std::vector<std::string>& command, Piped, std::optional<int>)
+Started start(const std::vector<std::string>& command, Piped, std::FILE*)
 {
     refuse("this needs the program " + command[0] + kElsewhere);
 }
 
-void limitMemory(pid_t, std::size_t) {}
-
-void limitTime(pid_t, std::size_t) {}
-
-int waitFor(pid_t)
+std::FILE* temporaryFile()
 {
-    return 0;
+    return nullptr;
 }
 
-std::string logText(std::FILE*)
+std::string inheritedName(std::FILE*)
 {
     return {};
 }
 
-std::string firstLine(std::FILE*)
+void limitMemory(ProcessId, std::size_t) {}
+
+void limitTime(ProcessId, std::size_t) {}
+
+ProcessEnd waitFor(ProcessId)
 {
     return {};
 }
 
-std::string plainName(const std::string& path)
-{
-    return path;
-}
+void endNow(ProcessId) {}
 
 void openInBrowser(const std::filesystem::path& page)
 {

@@ -8,7 +8,11 @@
 
 namespace cli {
 
-PictureWatch::PictureWatch(const std::filesystem::path& path) : path_(std::filesystem::absolute(path)) {}
+struct PictureWatch::Watched {
+    std::filesystem::path path;
+};
+
+PictureWatch::PictureWatch(const std::filesystem::path& path) : watched_(new Watched{std::filesystem::absolute(path)}) {}
 
 PictureWatch::~PictureWatch() = default;
 
@@ -17,7 +21,7 @@ void PictureWatch::wait()
     constexpr double kBetween = 100.0;  // [ms]
     const auto time = [&] {
         std::error_code missing;
-        return std::filesystem::last_write_time(path_, missing);
+        return std::filesystem::last_write_time(watched_->path, missing);
     };
     const auto before = time();
     while (time() == before || time() == decltype(before)::min()) {

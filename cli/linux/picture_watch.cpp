@@ -26,16 +26,26 @@ constexpr int kSettled = 30;  // [ms]
 
 }  // namespace
 
+struct PictureWatch::Watched {
+    std::filesystem::path path;
+    int events = -1;
+
+    /// Reads what happened in the folder.
+    /// @return  whether the file was saved
+    [[nodiscard]] bool read() const;
+};
+
 PictureWatch::PictureWatch(const std::filesystem::path& path)
-    : path_(std::filesystem::weakly_canonical(std::filesystem::absolute(path)))
+    : watched_(new Watched{std::filesystem::weakly_canonical(std::filesystem::absolute(path))})
 {
-    const std::filesystem::path folder = path_.parent_path();
-    events_ = inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
-    if (events_ == -1 || inotify_add_watch(events_, folder.c_str(),
-                                           IN_CLOSE_WRITE | IN_MOVED_TO | IN_DELETE_SELF | IN_MOVE_SELF) == -1) {
+    const std::filesystem::path folder = watched_->path.parent_path();
+    int& events = watched_->events;
+    events = inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
+    if (events == -1 ||
+        inotify_add_watch(events, folder.c_str(), IN_CLOSE_WRITE | IN_MOVED_TO | IN_DELETE_SELF | IN_MOVE_SELF) == -1) {
         const std::string why = std::strerror(errno);
-        if (events_ != -1) {
-            close(events_);
+        if (events != -1) {
+            close(events);
         }
         refuse(folder, why);
     }
@@ -43,30 +53,30 @@ PictureWatch::PictureWatch(const std::filesystem::path& path)
 
 PictureWatch::~PictureWatch()
 {
-    close(events_);
+    close(watched_->events);
 }
 
 void PictureWatch::wait()
 {
-    pollfd ready{events_, POLLIN, 0};
+    pollfd ready{watched_->events, POLLIN, 0};
     for (bool is_saved = false;;) {
         const int count = poll(&ready, 1, is_saved ? kSettled : -1);
         if (count == 0) {
             return;
         }
         if (count == -1 && errno != EINTR) {
-            refuse(path_.parent_path(), std::strerror(errno));
+            refuse(watched_->path.parent_path(), std::strerror(errno));
         }
-        is_saved = (count > 0 && read()) || is_saved;
+        is_saved = (count > 0 && watched_->read()) || is_saved;
     }
 }
 
-bool PictureWatch::read()
+bool PictureWatch::Watched::read() const
 {
     alignas(inotify_event) std::array<char, 4096> buffer;
     bool is_saved = false;
     for (;;) {
-        const ssize_t size = ::read(events_, buffer.data(), buffer.size());
+        const ssize_t size = ::read(events, buffer.data(), buffer.size());
         if (size <= 0) {
             return is_saved;
         }
@@ -74,11 +84,11 @@ bool PictureWatch::read()
             inotify_event event{};
             std::memcpy(&event, buffer.data() + at, sizeof event);
             if ((event.mask & (IN_DELETE_SELF | IN_MOVE_SELF | IN_IGNORED)) != 0) {
-                refuse(path_.parent_path(), "the folder is gone");
+                refuse(path.parent_path(), "the folder is gone");
             }
             // A name is padded with zeros; an overflowing queue has lost names.
             is_saved = is_saved || (event.mask & IN_Q_OVERFLOW) != 0 ||
-                       (event.len > 0 && path_.filename() == buffer.data() + at + sizeof event);
+                       (event.len > 0 && path.filename() == buffer.data() + at + sizeof event);
             at += sizeof event + event.len;
         }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// OpenCV's codecs are linked with the module.
+// OpenCV's codecs where they are linked with the program.
 #include "image/open_codecs.h"
 
 extern "C" {

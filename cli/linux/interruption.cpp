@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interruption.h"
 
+#include <unistd.h>
+
+#include <array>
 #include <atomic>
 #include <csignal>
 
@@ -46,10 +49,25 @@ void cleanUpOnSignals()
     }
 }
 
-Interruption::Interruption()
+void endBySignal(int signal)
+{
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+    ::_exit(1);  // the signal is blocked
+}
+
+struct Interruption::Before {
+    struct Handled {
+        int signal;
+        struct sigaction action = {};
+    };
+    std::array<Handled, 3> handled{{{SIGINT}, {SIGTERM}, {SIGHUP}}};
+};
+
+Interruption::Interruption() : before_(new Before)
 {
     received_signal = 0;
-    for (Handled& handled : handled_) {
+    for (Before::Handled& handled : before_->handled) {
         handle(
             handled.signal,
             [](int signal) {
@@ -57,14 +75,14 @@ Interruption::Interruption()
                     endBy(signal);
                 }
             },
-            &handled.before);
+            &handled.action);
     }
 }
 
 Interruption::~Interruption()
 {
-    for (const Handled& handled : handled_) {
-        sigaction(handled.signal, &handled.before, nullptr);
+    for (const Before::Handled& handled : before_->handled) {
+        sigaction(handled.signal, &handled.action, nullptr);
     }
 }
 

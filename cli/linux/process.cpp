@@ -10,21 +10,31 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <ctime>
-#include <regex>
 #include <stdexcept>
 
 extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX headers do not declare it
 
 namespace cli {
+namespace {
 
-Started start(const std::vector<std::string>& command, Piped piped, std::optional<int> inherited)
+constexpr int kInherited = 3;  // descriptor
+
+pid_t pidOf(ProcessId id)
+{
+    return static_cast<pid_t>(id);
+}
+
+}  // namespace
+
+Started start(const std::vector<std::string>& command, Piped piped, std::FILE* inherited)
 {
     Started started;
     Process& process = started.process;
     std::array<int, 2> ends{};
-    process.log = std::tmpfile();
+    process.log = temporaryFile();
     if (process.log == nullptr || ::pipe2(ends.data(), O_CLOEXEC) != 0) {
         throw std::runtime_error(std::string("no pipe to ") + command[0] + ": " + std::strerror(errno));
     }
@@ -39,8 +49,8 @@ Started start(const std::vector<std::string>& command, Piped piped, std::optiona
         posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     }
     posix_spawn_file_actions_adddup2(&actions, ::fileno(process.log), STDERR_FILENO);
-    if (inherited) {
-        posix_spawn_file_actions_adddup2(&actions, *inherited, 3);
+    if (inherited != nullptr) {
+        posix_spawn_file_actions_adddup2(&actions, ::fileno(inherited), kInherited);
     }
     std::vector<char*> arguments;
     arguments.reserve(command.size() + 1);
@@ -48,8 +58,10 @@ Started start(const std::vector<std::string>& command, Piped piped, std::optiona
         arguments.push_back(const_cast<char*>(argument.c_str()));
     }
     arguments.push_back(nullptr);
-    started.failure = ::posix_spawnp(&process.id, command[0].c_str(), &actions, nullptr, arguments.data(), environ);
+    pid_t id = 0;
+    started.failure = ::posix_spawnp(&id, command[0].c_str(), &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
+    process.id = id;
     ::close(reads ? ends[0] : ends[1]);
     std::FILE*& ours = reads ? process.input : process.output;
     ours = ::fdopen(reads ? ends[1] : ends[0], reads ? "wb" : "rb");
@@ -61,52 +73,54 @@ Started start(const std::vector<std::string>& command, Piped piped, std::optiona
     return started;
 }
 
-void limitMemory(pid_t id, std::size_t bytes)
+std::FILE* temporaryFile()
 {
-    const rlimit memory{bytes, bytes};
-    ::prlimit(id, RLIMIT_DATA, &memory, nullptr);
-    const rlimit no_core{0, 0};
-    ::prlimit(id, RLIMIT_CORE, &no_core, nullptr);
+    return std::tmpfile();
 }
 
-void limitTime(pid_t id, std::size_t seconds)
+std::string inheritedName(std::FILE* /*file*/)
+{
+    return "/dev/fd/" + std::to_string(kInherited);
+}
+
+void limitMemory(ProcessId id, std::size_t bytes)
+{
+    const rlimit memory{bytes, bytes};
+    ::prlimit(pidOf(id), RLIMIT_DATA, &memory, nullptr);
+    const rlimit no_core{0, 0};
+    ::prlimit(pidOf(id), RLIMIT_CORE, &no_core, nullptr);
+}
+
+void limitTime(ProcessId id, std::size_t seconds)
 {
     clockid_t clock{};
     timespec used{};
     rlimit time{};
     // A program that has ended has no clock.
-    if (::clock_getcpuclockid(id, &clock) != 0 || ::clock_gettime(clock, &used) != 0 ||
-        ::prlimit(id, RLIMIT_CPU, nullptr, &time) != 0) {
+    if (::clock_getcpuclockid(pidOf(id), &clock) != 0 || ::clock_gettime(clock, &used) != 0 ||
+        ::prlimit(pidOf(id), RLIMIT_CPU, nullptr, &time) != 0) {
         return;
     }
     time.rlim_cur = std::min(static_cast<rlim_t>(used.tv_sec) + 1 + seconds, time.rlim_max);
-    ::prlimit(id, RLIMIT_CPU, &time, nullptr);
+    ::prlimit(pidOf(id), RLIMIT_CPU, &time, nullptr);
 }
 
-int waitFor(pid_t id)
+ProcessEnd waitFor(ProcessId id)
 {
     int status = 0;
-    while (::waitpid(id, &status, 0) == -1 && errno == EINTR) {
+    while (::waitpid(pidOf(id), &status, 0) == -1 && errno == EINTR) {
     }
-    return status;
+    if (WIFSIGNALED(status)) {
+        constexpr int kBySignal = 128;  // as shells count
+        return {kBySignal + WTERMSIG(status), WTERMSIG(status) == SIGXCPU};
+    }
+    return {WEXITSTATUS(status), false};
 }
 
-std::string logText(std::FILE* log)
+void endNow(ProcessId id)
 {
-    std::array<char, 4096> text{};
-    std::rewind(log);
-    return {text.data(), std::fread(text.data(), 1, text.size(), log)};
-}
-
-std::string firstLine(std::FILE* log)
-{
-    const std::string text = logText(log);
-    return std::regex_replace(text.substr(0, text.find_first_of("\r\n")), std::regex(" @ 0x[0-9a-f]+"), "");
-}
-
-std::string plainName(const std::string& path)
-{
-    return "file:" + path;
+    ::kill(pidOf(id), SIGKILL);
+    waitFor(id);
 }
 
 }  // namespace cli

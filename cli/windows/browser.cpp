@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "browser.h"
+
+// Others need it first.
+#include <shellapi.h>
+#include <windows.h>
+
+#include "droplet/error.h"
+
+namespace cli {
+
+void openInBrowser(const std::filesystem::path& page)
+{
+    constexpr INT_PTR kLastError = 32;
+    const HINSTANCE started = ::ShellExecuteW(nullptr, L"open", page.c_str(), nullptr, nullptr, SW_SHOWNORMAL);
+    if (reinterpret_cast<INT_PTR>(started) <= kLastError) {
+        throw droplet::Error(droplet::ErrorCode::OutputFailed,
+                             "no browser opens; open " + page.string() + " in a browser");
+    }
+}
+
+}  // namespace cli
