@@ -111,9 +111,9 @@ void addFolder(const fs::path& folder, const fs::path& below, bool recursive, In
                 if (recursive && !entry.is_symlink()) {
                     folders.push_back(name);
                 }
-            } else if (isPicture(name)) {
+            } else if (isPicture(name.string())) {
                 files.push_back(name);
-            } else if (!isOutput(name)) {
+            } else if (!isOutput(name.string())) {
                 others.push_back(name);
             }
         }
@@ -129,7 +129,7 @@ void addFolder(const fs::path& folder, const fs::path& below, bool recursive, In
     }
     for (const fs::path& name : others) {
         inputs.left_out.push_back(
-            {(folder / name).string(),
+            {(folder / name).generic_string(),
              droplet::whyNoPicture(folder / name).value_or("its name has no extension of pictures")});
     }
     for (const fs::path& name : folders) {
@@ -175,7 +175,7 @@ PatternValues valuesOf(const Picture& picture, std::size_t index, std::size_t co
     return {{"stem", picture.path.stem().string()},
             {"name", picture.path.filename().string()},
             {"ext", extension.empty() ? "" : extension.substr(1)},
-            {"dir", picture.below.empty() ? "." : picture.below.string()},
+            {"dir", picture.below.empty() ? "." : picture.below.generic_string()},
             {"parent", parent},
             {"index", std::string(std::to_string(count).size() - number.size(), '0') + number}};
 }
@@ -238,7 +238,7 @@ int runBatch(int argc, const char* const* argv)
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const PatternValues values = valuesOf(pictures[i], i, pictures.size());
         BatchItem item;
-        item.name = pictures[i].path.string();
+        item.name = pictures[i].path.generic_string();
         item.input = item.name;
         item.output = fillPattern(*output, values, kPlaceholders);
         if (report) {

@@ -8,6 +8,7 @@
 
 #include "droplet/io/read_surface.h"
 #include "option_values.h"
+#include "path_separators.h"
 #include "preview.h"
 
 namespace cli {
@@ -48,7 +49,7 @@ std::string ofShard(fs::path path, const std::optional<BatchShard>& shard)
 fs::path manifestBeside(const std::string& output_pattern)
 {
     const std::string fixed = output_pattern.substr(0, output_pattern.find_first_of("{%"));
-    return fs::path(fixed.substr(0, fixed.rfind('/') + 1)) / "manifest.json";
+    return fs::path(fixed.substr(0, fixed.find_last_of(kPathSeparators.data()) + 1)) / "manifest.json";
 }
 
 std::vector<std::pair<std::string, std::string>> decisiveOptions(const CommandLine& line)

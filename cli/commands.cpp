@@ -69,7 +69,7 @@ int runCommand(int argc, const char* const* argv, std::span<const Command> comma
     }
     const auto& known = programCommands();
     if (std::any_of(known.begin(), known.end(), [&](const auto& command) { return command.first == word; })) {
-        becomeMotion(argv);
+        return runMotion(argc, argv);
     }
     refuseMisspelt(std::string(word));
     return runShape(argc, argv);

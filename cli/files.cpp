@@ -31,9 +31,10 @@ using droplet::ErrorCode;
 
 void readAll(int file, const std::string& name, const std::function<void(std::span<const std::byte>)>& take)
 {
-    std::vector<std::byte> part(std::size_t{1} << 18);
+    constexpr unsigned kPart = 1U << 18;
+    std::vector<std::byte> part(kPart);
     for (;;) {
-        const ssize_t got = read(file, part.data(), part.size());
+        const ssize_t got = read(file, part.data(), kPart);
         if (got < 0 && errno == EINTR) {
             continue;
         }

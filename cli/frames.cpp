@@ -58,7 +58,7 @@ std::vector<std::string> picturesIn(const std::string& folder)
     std::vector<std::string> names;
     std::error_code failure;
     for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure)) {
-        if (isPicture(entry->path())) {
+        if (isPicture(entry->path().string())) {
             names.push_back(entry->path().filename().string());
         }
     }
@@ -70,7 +70,7 @@ std::vector<std::string> picturesIn(const std::string& folder)
     }
     std::sort(names.begin(), names.end(), before);
     for (std::string& name : names) {
-        name = (fs::path(folder) / name).string();
+        name = (fs::path(folder) / name).generic_string();
     }
     return names;
 }

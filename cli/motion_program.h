@@ -3,9 +3,10 @@
 
 namespace cli {
 
-/// Becomes the program of what moves.
-/// @param argv            the program's name, a command of that program, and its arguments
-/// @throws droplet::Error InvalidArgument: it is missing
-[[noreturn]] void becomeMotion(const char* const* argv);
+/// Runs a command of what moves: on Linux, by becoming the program that has them.
+/// @param argv            the program's name, a command of what moves, and its arguments
+/// @return                exit code
+/// @throws droplet::Error on any failure; InvalidArgument: the program is missing
+int runMotion(int argc, const char* const* argv);
 
 }  // namespace cli

@@ -10,6 +10,7 @@
 
 #include "droplet/error.h"
 #include "option_values.h"
+#include "path_separators.h"
 
 namespace cli {
 
@@ -24,7 +25,7 @@ std::optional<NumberedPath> NumberedPath::of(const std::string& text, const std:
     const std::string allowed = "a path with one %d or %04d, for the number, in the file's name";
     NumberedPath path;
     path.text_ = text;
-    const auto slash = text.rfind('/');
+    const auto slash = text.find_last_of(kPathSeparators.data());
     const std::size_t name = slash == std::string::npos ? 0 : slash + 1;
     std::size_t numbers = 0;
     std::string* part = &path.folder_;

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <string_view>
 #include <vector>
+
+#include "path_separators.h"
 
 namespace cli {
 
@@ -14,10 +17,10 @@ namespace {
 /// @param filled  whether a byte of `text` comes from a placeholder
 void refuseEscape(const Given& pattern, const std::string& text, const std::vector<bool>& filled)
 {
-    const bool becomes_absolute = text.starts_with('/') && !pattern.text.starts_with('/');
-    bool leaves = becomes_absolute;
+    using Path = std::filesystem::path;
+    bool leaves = Path(text).has_root_path() && !Path(pattern.text).has_root_path();
     for (std::size_t begin = 0; begin < text.size() && !leaves;) {
-        const std::size_t end = std::min(text.find('/', begin), text.size());
+        const std::size_t end = std::min(text.find_first_of(kPathSeparators.data(), begin), text.size());
         const auto part = filled.begin() + static_cast<std::ptrdiff_t>(begin);
         leaves = text.compare(begin, end - begin, "..") == 0 && (part[0] || part[1]);
         begin = end + 1;

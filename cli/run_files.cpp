@@ -15,6 +15,7 @@
 #include "file_node.h"
 #include "files.h"
 #include "option_values.h"
+#include "path_separators.h"
 
 namespace cli {
 namespace {
@@ -140,7 +141,7 @@ private:
     /// Whether a canonical path is one of the files of a pattern in a canonical folder.
     static bool isFrame(const std::string& path, const std::string& folder, const NamedFile& frames)
     {
-        const std::size_t slash = path.rfind('/');
+        const std::size_t slash = path.find_last_of(kPathSeparators.data());
         if (slash == std::string::npos || std::string_view(path).substr(0, slash) != folder) {
             return false;
         }

@@ -26,7 +26,7 @@ Bytes readBytes(const std::filesystem::path& path, std::uint64_t max, const std:
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
-    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.string().c_str(), "rb"));
     if (!file) {
         throw Damage(std::generic_category().message(errno));
     }

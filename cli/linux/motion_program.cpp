@@ -10,7 +10,7 @@
 
 namespace cli {
 
-void becomeMotion(const char* const* argv)
+int runMotion(int /*argc*/, const char* const* argv)
 {
     const std::string program = (programFile().parent_path() / DROPLET_MOTION).lexically_normal().string();
     execv(program.c_str(), const_cast<char* const*>(argv));

@@ -26,7 +26,7 @@ constexpr DWORD kSettled = 100;  // [ms] editors save in steps; Windows tells of
 struct PictureWatch::Watched {
     std::filesystem::path path;
     HANDLE changes = INVALID_HANDLE_VALUE;
-    std::filesystem::file_time_type time;
+    std::filesystem::file_time_type time = {};
 
     [[nodiscard]] std::filesystem::file_time_type timeNow() const
     {

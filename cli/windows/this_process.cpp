@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "this_process.h"
 
-// Others need it first.
-#include <psapi.h>
+// The second needs the first.
+// clang-format off
 #include <windows.h>
+#include <psapi.h>
+// clang-format on
 
 #include <array>
 

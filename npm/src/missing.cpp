@@ -63,7 +63,7 @@ int runGlyphs(int, const char* const*)
     refuse(std::string("glyphs needs fonts") + kElsewhere);
 }
 
-void becomeMotion(const char* const* argv)
+int runMotion(int, const char* const* argv)
 {
     refuse(std::string(argv[1]) + " is a command of what moves" + kElsewhere);
 }

@@ -19,7 +19,7 @@ public:
     };
     using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
 
-    EmbreeDevice() : device_(rtcNewDevice(nullptr))
+    EmbreeDevice() : device_(rtcNewDevice("set_affinity=0"))  // Windows' default binds threads to processors
     {
         if (!device_) {
             throw std::runtime_error("Embree does not start on this machine");

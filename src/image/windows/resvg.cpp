@@ -8,7 +8,6 @@
 // has run out, so that the next call ends the drawing.
 #include "image/windows/resvg.h"
 
-// The C's header needs it first.
 #include <index_bg.h>
 #include <process.h>
 #include <windows.h>

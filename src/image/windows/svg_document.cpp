@@ -33,7 +33,8 @@ std::string problemOf(const xmlError* error)
     if (error == nullptr || error->message == nullptr) {
         return "it is not an SVG drawing";
     }
-    return fmt::format("XML parse error on line {}: {}", error->line, trimmed(error->message));
+    return fmt::format("XML parse error: on line {} column {} of data: {}", error->line, error->int2,
+                       trimmed(error->message));
 }
 
 void setAttribute(xmlNode& element, const char* name, const std::string& value)
