@@ -12,7 +12,6 @@
 #include <atomic>
 #include <csignal>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -160,8 +159,7 @@ void growStack()
         return;
     }
     const std::size_t depth = std::min<std::size_t>(limit.rlim_cur, kMost) - kMargin;
-    volatile char here = 0;
-    *reinterpret_cast<volatile char*>(reinterpret_cast<std::uintptr_t>(&here) - depth) = here;
+    *static_cast<volatile char*>(__builtin_alloca(depth)) = 0;
 }
 
 }  // namespace

@@ -12,7 +12,9 @@ struct PictureWatch::Watched {
     std::filesystem::path path;
 };
 
-PictureWatch::PictureWatch(const std::filesystem::path& path) : watched_(new Watched{std::filesystem::absolute(path)}) {}
+PictureWatch::PictureWatch(const std::filesystem::path& path) : watched_(new Watched{std::filesystem::absolute(path)})
+{
+}
 
 PictureWatch::~PictureWatch() = default;
 

@@ -7,6 +7,7 @@ add_custom_command(OUTPUT ${addon} COMMAND ${CMAKE_COMMAND} -E tar cf ${addon} -
 add_custom_target(blender_addon ALL DEPENDS ${addon})
 install(FILES ${addon} DESTINATION ${CMAKE_INSTALL_DATADIR}/droplet-shape COMPONENT command)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/src/cmake/package/copyright
+  ${CMAKE_CURRENT_LIST_DIR}/libraries.txt
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/droplet-shape COMPONENT command)
 
 set(CPACK_GENERATOR ZIP NSIS)

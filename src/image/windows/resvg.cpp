@@ -5,7 +5,7 @@
 // that the glue hands over by number: texts, bytes, lists of them.
 //
 // Every function of the C counts how deep it is called, and compares that with a limit. The limit is 0 after the time
-// has run out, so that the next call ends the drawing.
+// has run out, so that the next call ends the drawing, or the next turn of a loop.
 #include "image/windows/resvg.h"
 
 #include <index_bg.h>
