@@ -146,6 +146,7 @@ public:
         app_.formatter(std::make_shared<HelpFormatter>(text));
         app_.set_help_flag();
         app_.allow_extras();
+        app_.allow_windows_style_options(false);  // which would take the path /a for an option
         app_.footer(listOf(text.commands) + text.footer);
     }
 

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <vector>
 
+#include "flow_io/seat.h"
+
 namespace droplet {
 
 Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies& bodies, Vec3 gravity)
@@ -49,31 +51,39 @@ Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies
     return surface;
 }
 
-Surface withBases(Surface surface, const DropletBodies& bodies)
+Surface seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletBodies& bodies,
+                       Vec3 gravity)
 {
+    Surface surface = dropletSurfaces(samples, bodies, gravity);
+    const std::size_t vertex_count = bodies.vertices();
     const std::size_t rim = bodies.rimVertices();
-    const std::size_t droplets = surface.vertices.size() / bodies.vertices();
-    for (std::size_t i = 0; i < droplets; ++i) {
-        const auto first = static_cast<std::uint32_t>(i * bodies.vertices());
-        const auto centre = static_cast<std::uint32_t>(surface.vertices.size());
-        Vec3 middle;
-        Vec3 area;
-        for (std::uint32_t k = 0; k < rim; ++k) {
-            const Vec3 position = surface.vertices[first + k];
-            const auto next = static_cast<std::uint32_t>((k + 1) % rim);
-            middle = middle + (1.0 / static_cast<double>(rim)) * position;
-            area = area + cross(position - surface.vertices[first], surface.vertices[first + next] - position);
-            surface.triangles.push_back({centre, centre + 1 + next, centre + 1 + k});
+    const std::size_t triangle_count = bodies.triangles().size();
+    const std::vector<Triangle> base_triangles = baseTriangles(rim);
+    const std::size_t base_count = baseVertices(rim);
+    std::vector<std::vector<Vec3>> bases(samples.size());
+    tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+        const std::span vertices = std::span(surface.vertices).subspan(i * vertex_count, vertex_count);
+        const std::span normals = std::span(surface.normals).subspan(i * vertex_count, vertex_count);
+        if (samples[i].contact == FlowContact::Air) {
+            // The base of a ball is a point.
+            bases[i].assign(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(rim));
+            bases[i].resize(base_count, vertices.front());
+        } else {
+            bases[i] = seat(terrain, frameOf(samples[i], gravity), {vertices, normals, bodies.triangles(), rim});
         }
-        // A ball in the air touches the ground in a point.
-        const Vec3 down = length(area) > 0.0 ? (-1.0 / length(area)) * area : Vec3{0.0, 0.0, -1.0};
-        surface.vertices.push_back(middle);
-        surface.weld.push_back(centre);
-        for (std::uint32_t k = 0; k < rim; ++k) {
-            surface.vertices.push_back(surface.vertices[first + k]);
-            surface.weld.push_back(surface.weld[first + k]);
+    });
+    surface.triangles.reserve(samples.size() * (triangle_count + base_triangles.size()));
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const auto first = static_cast<std::uint32_t>(i * vertex_count);
+        const auto base = static_cast<std::uint32_t>(surface.vertices.size());
+        for (const auto& [a, b, c] : base_triangles) {
+            surface.triangles.push_back({base + a, base + b, base + c});
         }
-        surface.normals.resize(surface.vertices.size(), down);
+        for (std::size_t k = 0; k < base_count; ++k) {
+            surface.vertices.push_back(bases[i][k]);
+            surface.weld.push_back(k < rim ? surface.weld[first + k] : base + static_cast<std::uint32_t>(k));
+        }
+        surface.normals.resize(surface.vertices.size(), -1.0 * frameOf(samples[i], gravity).normal);
     }
     surface.uvs.resize(surface.vertices.size());
     surface.contact_angle.resize(surface.vertices.size());

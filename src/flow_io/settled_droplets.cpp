@@ -10,17 +10,15 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "droplet/flow_io/droplet_surfaces.h"
+#include "flow_io/seat.h"
 
 namespace droplet {
 namespace {
 
-constexpr double kSkirt = 0.08;     // depth of the extended rim, over the droplet's mean radius
-constexpr double kMostRise = 0.25;  // of the ground over the droplet's plane that it is bent to, over that radius
-constexpr double kMostFall = 1.0;   // and below it
+constexpr double kSkirt = 0.08;  // depth of the extended rim, over the droplet's mean radius
 
 using Edge = std::array<std::uint32_t, 2>;
 
@@ -42,50 +40,27 @@ std::vector<Edge> rimOf(std::span<const Triangle> triangles)
     return rim;
 }
 
-/// Height of the ground over a droplet's plane, by a ray along its normal; 0 if there is no ground near.
-double groundBelow(const FlowTerrain& terrain, const DropletFrame& frame, Vec3 local, double size)
+/// Base of a flat droplet.
+DropletBase baseOf(const DropletFrame& frame, const FlatDroplet& droplet)
 {
-    const double from = 1.5 * size;
-    const Vec3 origin = frame.place + local.x * frame.ahead + local.y * frame.left + from * frame.normal;
-    const std::optional<FlowTerrain::Point> hit = terrain.firstAlong(origin, -1.0 * frame.normal);
-    if (!hit || dot(terrain.surface().faces[hit->face].normal, frame.normal) <= 0.0) {
-        return 0.0;
-    }
-    const double height = dot(hit->place - frame.place, frame.normal);
-    return height < -kMostFall * size ? 0.0 : std::min(height, kMostRise * size);
-}
-
-/// One droplet, as part of a surface.
-struct Part {
-    std::span<Vec3> vertices;
-    std::span<const std::uint32_t> rim;  ///< vertices
-};
-
-DropletBase settle(const FlowTerrain& terrain, const DropletFrame& frame, const Part& part)
-{
-    std::vector<Vec3> local;
-    for (const Vec3 p : part.vertices) {
-        const Vec3 d = p - frame.place;
-        local.push_back({dot(d, frame.ahead), dot(d, frame.left), dot(d, frame.normal)});
-    }
+    DropletBase base;
     Vec2 low{1e300, 1e300};
     Vec2 high{-1e300, -1e300};
-    for (const std::uint32_t v : part.rim) {
-        low = {std::min(low.x, local[v].x), std::min(low.y, local[v].y)};
-        high = {std::max(high.x, local[v].x), std::max(high.y, local[v].y)};
+    for (std::size_t v = 0; v < droplet.vertices.size(); ++v) {
+        const Vec3 d = droplet.vertices[v] - frame.place;
+        base.height = std::max(base.height, dot(d, frame.normal));
+        if (v < droplet.rim) {
+            const Vec2 p{dot(d, frame.ahead), dot(d, frame.left)};
+            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+        }
     }
-    DropletBase base;
     const Vec2 middle = 0.5 * (low + high);
     base.place = frame.place + middle.x * frame.ahead + middle.y * frame.left;
     base.ahead = frame.ahead;
     base.normal = frame.normal;
     base.half_length = 0.5 * (high.x - low.x);
     base.half_width = 0.5 * (high.y - low.y);
-    const double size = std::sqrt(base.half_length * base.half_width);
-    for (std::size_t v = 0; v < local.size(); ++v) {
-        base.height = std::max(base.height, local[v].z);
-        part.vertices[v] = part.vertices[v] + groundBelow(terrain, frame, local[v], size) * frame.normal;
-    }
     return base;
 }
 
@@ -107,7 +82,8 @@ SettledDroplets settled(const FlowTerrain& terrain, std::span<const FlowSample> 
     }
     const std::size_t vertex_count = droplets.vertices.size() / samples.size();
     const std::size_t triangles = droplets.triangles.size() / samples.size();
-    const std::vector<Edge> rim = rimOf(std::span(droplets.triangles).first(triangles));
+    const std::span<const Triangle> one = std::span(droplets.triangles).first(triangles);
+    const std::vector<Edge> rim = rimOf(one);
     std::vector<std::uint32_t> rim_vertices;
     std::vector<std::uint32_t> lowered(vertex_count);  // copies of them below the rim
     for (const Edge& edge : rim) {
@@ -132,7 +108,9 @@ SettledDroplets settled(const FlowTerrain& terrain, std::span<const FlowSample> 
         double depth = 0.0;
         const DropletFrame frame = frameOf(sample, {});
         if (sample.contact != FlowContact::Air) {
-            bases[i] = settle(terrain, frame, {vertices.first(vertex_count), rim_vertices});
+            const FlatDroplet flat{vertices.first(vertex_count), normals.first(vertex_count), one, rim_vertices.size()};
+            bases[i] = baseOf(frame, flat);
+            seat(terrain, frame, flat);
             depth = kSkirt * std::sqrt(bases[i].half_length * bases[i].half_width);
         }
         for (std::size_t k = 0; k < rim_vertices.size(); ++k) {

@@ -17,8 +17,7 @@ struct SettledDroplets {
     std::vector<DropletBase> bases;  ///< of those that are not in the air
 };
 
-/// Bends droplets so that they follow the object below them, and extends their rims a little into it, so that no light
-/// leaks in between. Bending shifts columns of liquid along the droplet's normal, so the volume stays the same.
+/// Seats droplets on the object below them, and extends their rims a little into it, so that no light leaks in between.
 /// @param samples   droplets
 /// @param droplets  dropletSurfaces() of them
 /// @param is_shown  for each; others are left out

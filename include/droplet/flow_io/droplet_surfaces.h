@@ -6,6 +6,7 @@
 
 #include "droplet/body/droplet_body.h"
 #include "droplet/flow/flow.h"
+#include "droplet/flow/flow_terrain.h"
 #include "droplet/surface/surface.h"
 #include "droplet/vector.h"
 
@@ -35,10 +36,15 @@ BodyConditions conditionsOf(const FlowSample& sample, Vec3 gravity);
 /// @param gravity  in the object's frame [m/s²]
 Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies& bodies, Vec3 gravity);
 
-/// Closes the droplets at the ground, each by a flat base.
-/// @param surface  from dropletSurfaces()
-/// @param bodies   the same
-/// @return         the vertices and triangles of `surface`, followed by those of the bases
-Surface withBases(Surface surface, const DropletBodies& bodies);
+/// Closed droplets that sit on the object: surfaces as dropletSurfaces() makes them, followed by their bases.
+///
+/// Each droplet is bent along its normal to the ground below it and keeps its volume to 1 %, unless it would become
+/// three times as high. Its rim lies on the object; at edges and steps it is drawn back to them. A ball in the air stays one.
+/// @param terrain  the object
+/// @param samples  the droplets
+/// @param bodies   their shapes
+/// @param gravity  in the object's frame [m/s²]
+Surface seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletBodies& bodies,
+                       Vec3 gravity);
 
 }  // namespace droplet

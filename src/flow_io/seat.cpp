@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// In the droplet's frame a point (x, y, z) of the flat droplet becomes (x', y', h(x', y') + c z): h is the height of
+// the ground, (x', y') is (x, y) moved with the rim in its direction, by a share that grows from the middle to the rim.
+// The volume is linear in c, so that two of them give the c with which it stays.
+#include "flow_io/seat.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace droplet {
+namespace {
+
+// Experiments for the constants: docs/method/flow.md, "Droplets on the object".
+constexpr double kReach = 1.0;      // of the ground above and below the droplet's plane, over its mean radius
+constexpr double kSteepest = 2.5;   // rise of the ground that a droplet follows, over the way
+constexpr double kLeastWay = 0.55;  // to which a rim is drawn back, over its distance from the middle
+constexpr double kMostTall = 2.5;   // factor on heights
+constexpr double kMostStep = 0.5;   // of the ground from the plane through middle and rim, over the mean radius
+constexpr int kSteps = 12;          // along the way from the middle to the rim
+
+struct Local {
+    Vec2 level;
+    double height = 0.0;
+};
+
+/// The ground below a droplet, in its frame.
+class Ground {
+public:
+    Ground(const FlowTerrain& terrain, const DropletFrame& frame, double size)
+        : terrain_(terrain), frame_(frame), size_(size)
+    {
+    }
+
+    /// Height over the droplet's plane; none where no ground that faces the droplet is in reach.
+    [[nodiscard]] std::optional<double> at(Vec2 p) const
+    {
+        constexpr double kFrom = 1.5;
+        const Vec3 origin = toSpace({p, kFrom * size_});
+        const auto hit = terrain_.firstAlong(origin, -1.0 * frame_.normal);
+        if (!hit || dot(terrain_.surface().faces[hit->face].normal, frame_.normal) <= 0.0) {
+            return std::nullopt;
+        }
+        const double height = dot(hit->place - frame_.place, frame_.normal);
+        return std::abs(height) <= kReach * size_ ? std::optional(height) : std::nullopt;
+    }
+
+    [[nodiscard]] Local nearest(Vec2 p) const { return toLocal(terrain_.nearest(toSpace({p, 0.0})).place); }
+
+    [[nodiscard]] Vec3 toSpace(const Local& p) const
+    {
+        return frame_.place + p.level.x * frame_.ahead + p.level.y * frame_.left + p.height * frame_.normal;
+    }
+    [[nodiscard]] Local toLocal(Vec3 place) const
+    {
+        const Vec3 d = place - frame_.place;
+        return {{dot(d, frame_.ahead), dot(d, frame_.left)}, dot(d, frame_.normal)};
+    }
+
+    [[nodiscard]] double size() const { return size_; }
+
+    /// Share of the way to a point over which the ground goes on without a step.
+    [[nodiscard]] double wayTo(Vec2 p) const
+    {
+        const double step = length(p) / kSteps;
+        double before = at({}).value_or(0.0);
+        for (int i = 1; i <= kSteps; ++i) {
+            const double share = static_cast<double>(i) / kSteps;
+            const auto height = at(share * p);
+            if (!height || std::abs(*height - before) > kSteepest * step) {
+                return edgeBetween(p, {share - 1.0 / kSteps, share}, before);
+            }
+            before = *height;
+        }
+        return 1.0;
+    }
+
+private:
+    /// Where the ground ends between two shares of a way.
+    [[nodiscard]] double edgeBetween(Vec2 p, std::array<double, 2> shares, double height) const
+    {
+        constexpr int kHalvings = 8;
+        for (int i = 0; i < kHalvings; ++i) {
+            const double middle = 0.5 * (shares[0] + shares[1]);
+            const auto there = at(middle * p);
+            const double way = (middle - shares[0]) * length(p);
+            if (there && std::abs(*there - height) <= kSteepest * way) {
+                shares[0] = middle;
+                height = *there;
+            } else {
+                shares[1] = middle;
+            }
+        }
+        return shares[0];
+    }
+
+    const FlowTerrain& terrain_;
+    const DropletFrame& frame_;
+    double size_;
+};
+
+/// Frame whose normal is the mean of the ground's below a droplet, so that it sits on both sides of an edge alike.
+/// Below places beyond an edge, the nearest ground is on its other side.
+DropletFrame leaning(const FlowTerrain& terrain, DropletFrame frame, double size)
+{
+    constexpr std::size_t kAround = 12;
+    constexpr double kAway = 0.75;
+    constexpr double kBelow = 0.35;
+    constexpr double kNearlyOne = 1.0 - 1e-12;
+    Vec3 sum = static_cast<double>(kAround) / 3.0 * frame.normal;
+    for (std::size_t k = 0; k < kAround; ++k) {
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kAround;
+        const Vec3 place = frame.place + size * (kAway * std::cos(angle) * frame.ahead +
+                                                 kAway * std::sin(angle) * frame.left - kBelow * frame.normal);
+        const FlowTerrain::Point point = terrain.nearest(place);
+        const Vec3 normal = terrain.surface().faces[point.face].normal;
+        // What is far belongs to another part of the object, and a thin part has a back.
+        if (length(point.place - place) <= size && dot(normal, frame.normal) > -0.5) {
+            sum = sum + normal;
+        }
+    }
+    const Vec3 normal = (1.0 / length(sum)) * sum;
+    if (dot(normal, frame.normal) > kNearlyOne) {
+        return frame;
+    }
+    frame.normal = normal;
+    const Vec3 ahead = frame.ahead - dot(frame.ahead, normal) * normal;
+    if (length(ahead) > 0.1) {
+        frame.ahead = (1.0 / length(ahead)) * ahead;
+        frame.left = cross(normal, frame.ahead);
+    } else {
+        const Vec3 left = frame.left - dot(frame.left, normal) * normal;
+        frame.left = (1.0 / length(left)) * left;
+        frame.ahead = cross(frame.left, normal);
+    }
+    return frame;
+}
+
+/// The rim of a droplet, and where it goes.
+class Rim {
+public:
+    Rim(const Ground& ground, std::vector<Vec2> flat) : flat_(std::move(flat)), seated_(flat_.size())
+    {
+        const std::size_t count = flat_.size();
+        bool is_even = true;
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto height = ground.at(flat_[k]);
+            is_even = is_even && height && std::abs(*height) <= kSteepest * length(flat_[k]);
+            seated_[k] = {flat_[k], height.value_or(0.0)};
+        }
+        for (std::size_t k = 0; k < count && is_even; ++k) {
+            const std::size_t next = (k + 1) % count;
+            is_even = std::abs(seated_[next].height - seated_[k].height) <= kSteepest * length(flat_[next] - flat_[k]);
+        }
+        if (!is_even) {
+            drawBack(ground);
+        }
+        for (const Vec2 p : flat_) {
+            angles_.push_back(std::atan2(p.y, p.x));
+        }
+        first_ = static_cast<std::size_t>(std::min_element(angles_.begin(), angles_.end()) - angles_.begin());
+        std::rotate(angles_.begin(), angles_.begin() + static_cast<std::ptrdiff_t>(first_), angles_.end());
+    }
+
+    [[nodiscard]] const Local& seated(std::size_t k) const { return seated_[k]; }
+
+    struct Place {
+        double share = 0.0;   ///< of the way from the middle to the rim
+        Vec2 moved;           ///< the rim's way along the plane
+        double height = 0.0;  ///< of the seated rim
+    };
+
+    /// Rim in the direction of a point.
+    [[nodiscard]] Place towards(Vec2 p) const
+    {
+        const std::size_t count = flat_.size();
+        const double angle = std::atan2(p.y, p.x);
+        const auto after = std::upper_bound(angles_.begin(), angles_.end(), angle) - angles_.begin();
+        const std::size_t b = (static_cast<std::size_t>(after) + first_) % count;
+        const std::size_t a = (b + count - 1) % count;
+        // The rim from a to b is met at u: p × (a + u (b − a)) = 0.
+        const double from = cross(p, flat_[a]);
+        const double to = cross(p, flat_[b]);
+        const double u = from != to ? std::clamp(from / (from - to), 0.0, 1.0) : 0.0;
+        const Vec2 met = (1.0 - u) * flat_[a] + u * flat_[b];
+        const Vec2 end = (1.0 - u) * seated_[a].level + u * seated_[b].level;
+        return {length(met) > 0.0 ? length(p) / length(met) : 0.0, end - met,
+                (1.0 - u) * seated_[a].height + u * seated_[b].height};
+    }
+
+private:
+    /// Draws the rim back to where the ground ends, without teeth.
+    void drawBack(const Ground& ground)
+    {
+        constexpr double kTooth = 0.12;  // that a way may exceed its neighbour's
+        const std::size_t count = flat_.size();
+        std::vector<double> ways;
+        for (const Vec2 p : flat_) {
+            ways.push_back(ground.wayTo(p));
+        }
+        for (std::size_t k = 0; k < 2 * count; ++k) {
+            ways[(k + 1) % count] = std::min(ways[(k + 1) % count], ways[k % count] + kTooth);
+        }
+        for (std::size_t k = 2 * count; k-- > 0;) {
+            ways[k % count] = std::min(ways[k % count], ways[(k + 1) % count] + kTooth);
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            const Vec2 end = std::max(ways[k], kLeastWay) * flat_[k];
+            const auto height = ground.at(end);
+            seated_[k] = ways[k] >= kLeastWay && height ? Local{end, *height} : ground.nearest(end);
+        }
+    }
+
+    std::vector<Vec2> flat_;
+    std::vector<Local> seated_;
+    std::vector<double> angles_;  ///< ascending, from vertex first_ on
+    std::size_t first_ = 0;
+};
+
+/// Where the ground is below a point of the flat droplet.
+Local groundBelow(const Ground& ground, const Rim& rim, Vec2 p)
+{
+    const Rim::Place place = rim.towards(p);
+    const double share = std::min(place.share, 1.0);  // liquid over the rim goes with the rim
+    const Vec2 level = p + share * place.moved;
+    if (share == 1.0) {
+        return {level, place.height};
+    }
+    // A step of the ground under the droplet stays under it.
+    const double expected = share * place.height;
+    const auto height = ground.at(level);
+    return {level, height && std::abs(*height - expected) <= kMostStep * ground.size() ? *height : expected};
+}
+
+/// Sums of the normals of the triangles around each vertex, not of unit length.
+std::vector<Vec3> facing(std::span<const Vec3> vertices, std::span<const Triangle> triangles)
+{
+    std::vector<Vec3> sums(vertices.size());
+    for (const auto& [a, b, c] : triangles) {
+        const Vec3 area = cross(vertices[b] - vertices[a], vertices[c] - vertices[a]);
+        for (const std::uint32_t v : {a, b, c}) {
+            sums[v] = sums[v] + area;
+        }
+    }
+    return sums;
+}
+
+Vec3 unit(Vec3 v)
+{
+    const double size = length(v);
+    return size > 0.0 ? (1.0 / size) * v : v;
+}
+
+double volumeUnder(std::span<const Vec3> vertices, std::span<const Triangle> triangles, Vec3 origin)
+{
+    double volume = 0.0;
+    for (const auto& [a, b, c] : triangles) {
+        volume += dot(vertices[a] - origin, cross(vertices[b] - origin, vertices[c] - origin)) / 6.0;
+    }
+    return volume;
+}
+
+}  // namespace
+
+std::vector<Triangle> baseTriangles(std::size_t rim)
+{
+    std::vector<Triangle> triangles;
+    const auto number = [&](std::size_t ring, std::size_t k) {
+        return static_cast<std::uint32_t>(ring * rim + k % rim);
+    };
+    const auto middle = static_cast<std::uint32_t>((1 + kBaseRings) * rim);
+    for (std::size_t k = 0; k < rim; ++k) {
+        for (std::size_t ring = 0; ring < kBaseRings; ++ring) {
+            triangles.push_back({number(ring, k), number(ring + 1, k + 1), number(ring, k + 1)});
+            triangles.push_back({number(ring, k), number(ring + 1, k), number(ring + 1, k + 1)});
+        }
+        triangles.push_back({number(kBaseRings, k), middle, number(kBaseRings, k + 1)});
+    }
+    return triangles;
+}
+
+std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, FlatDroplet droplet)
+{
+    const Ground plane(terrain, frame, 0.0);
+    std::vector<Local> flat;
+    for (const Vec3 p : droplet.vertices) {
+        flat.push_back(plane.toLocal(p));
+    }
+    for (std::size_t k = 0; k < droplet.rim; ++k) {
+        flat[k].height = 0.0;  // but for rounding
+    }
+    std::vector<Vec2> rim_points;
+    double area = 0.0;
+    for (std::size_t k = 0; k < droplet.rim; ++k) {
+        rim_points.push_back(flat[k].level);
+        area += 0.5 * cross(flat[k].level, flat[(k + 1) % droplet.rim].level);
+    }
+    const double size = std::sqrt(std::abs(area) / std::numbers::pi);
+    const DropletFrame leant = leaning(terrain, frame, size);
+    const auto turned = [&](Vec3 v) {
+        return dot(v, frame.ahead) * leant.ahead + dot(v, frame.left) * leant.left +
+               dot(v, frame.normal) * leant.normal;
+    };
+    const Ground ground(terrain, leant, size);
+    const Rim rim(ground, rim_points);
+
+    std::vector<Local> below(flat.size());
+    for (std::size_t v = 0; v < flat.size(); ++v) {
+        below[v] = v < droplet.rim ? rim.seated(v) : groundBelow(ground, rim, flat[v].level);
+    }
+    std::vector<Vec3> base;
+    for (std::size_t ring = 0; ring <= kBaseRings; ++ring) {
+        const double share = 1.0 - static_cast<double>(ring) / (1 + kBaseRings);
+        for (std::size_t k = 0; k < droplet.rim; ++k) {
+            base.push_back(ground.toSpace(ring == 0 ? rim.seated(k) : groundBelow(ground, rim, share * rim_points[k])));
+        }
+    }
+    base.push_back(ground.toSpace(groundBelow(ground, rim, {})));
+
+    // The volume with no height and with the flat droplet's heights.
+    const std::vector<Triangle> base_triangles = baseTriangles(droplet.rim);
+    const double volume_of_base = volumeUnder(base, base_triangles, frame.place);
+    const auto place = [&](double factor) {
+        for (std::size_t v = 0; v < flat.size(); ++v) {
+            droplet.vertices[v] = ground.toSpace({below[v].level, below[v].height + factor * flat[v].height});
+        }
+    };
+    const double volume = volumeUnder(droplet.vertices, droplet.triangles, frame.place);
+    const std::vector<Vec3> before = facing(droplet.vertices, droplet.triangles);
+    place(0.0);
+    const double empty = volumeUnder(droplet.vertices, droplet.triangles, frame.place) + volume_of_base;
+    place(1.0);
+    const double full = volumeUnder(droplet.vertices, droplet.triangles, frame.place) + volume_of_base;
+    const double factor = (volume - empty) / (full - empty);
+    place(factor > 0.0 && factor <= kMostTall ? factor : kMostTall);
+    const std::vector<Vec3> after = facing(droplet.vertices, droplet.triangles);
+    for (std::size_t v = 0; v < flat.size(); ++v) {
+        droplet.normals[v] = unit(turned(droplet.normals[v] - unit(before[v])) + unit(after[v]));
+    }
+    return base;
+}
+
+}  // namespace droplet
