@@ -176,6 +176,7 @@ void CheckpointFile::removeOther() const
     const std::string expected = signatureOf(run_.command);
     std::string beginning(expected.size(), '\0');
     file.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+    file.close();  // Windows removes no open file
     if (beginning != expected) {
         throw droplet::Error(droplet::ErrorCode::OutputFailed,
                              path_ + ": is not a checkpoint, and will not be replaced by one; move it away");

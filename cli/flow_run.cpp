@@ -452,8 +452,7 @@ void FlowRun::writeMaps(const Moment& moment)
 
 void FlowRun::writeMesh(const Moment& moment) const
 {
-    droplet::Surface surface =
-        droplet::seatedDroplets(plan_.terrain, moment.samples, bodies_, gravityAt(moment.time));
+    droplet::Surface surface = droplet::seatedDroplets(plan_.terrain, moment.samples, bodies_, gravityAt(moment.time));
     SurfaceTarget target{options_.files->at(moment.number), options_.file.format, {}};
     target.options.material = material_;
     target.options.compression = options_.file.compression;

@@ -39,7 +39,8 @@ Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies
 /// Closed droplets that sit on the object: surfaces as dropletSurfaces() makes them, followed by their bases.
 ///
 /// Each droplet is bent along its normal to the ground below it and keeps its volume to 1 %, unless it would become
-/// three times as high. Its rim lies on the object; at edges and steps it is drawn back to them. A ball in the air stays one.
+/// three times as high. Its rim lies on the object; at edges and steps it is drawn back to them. A ball in the air
+/// stays one.
 /// @param terrain  the object
 /// @param samples  the droplets
 /// @param bodies   their shapes
