@@ -28,6 +28,16 @@ xmlParserInput* loadNothing(const char* /*url*/, const char* /*id*/, xmlParserCt
     return nullptr;
 }
 
+/// The tree of a drawing. Nothing that it refers to is read.
+std::unique_ptr<xmlDoc, void (*)(xmlDoc*)> parsed(std::span<const std::byte> text)
+{
+    xmlSetExternalEntityLoader(loadNothing);
+    xmlDoc* const document =
+        xmlReadMemory(reinterpret_cast<const char*>(text.data()), static_cast<int>(text.size()), nullptr, nullptr,
+                      XML_PARSE_NOENT | XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING);
+    return {document, xmlFreeDoc};
+}
+
 std::string problemOf(const xmlError* error)
 {
     if (error == nullptr || error->message == nullptr) {
@@ -127,13 +137,8 @@ struct SvgDocument::Tree {
     }
 };
 
-SvgDocument::SvgDocument(std::span<const std::byte> text)
-    : tree_(
-          new Tree{{xmlReadMemory(reinterpret_cast<const char*>(text.data()), static_cast<int>(text.size()), nullptr,
-                                  nullptr, XML_PARSE_NOENT | XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING),
-                    xmlFreeDoc}})
+SvgDocument::SvgDocument(std::span<const std::byte> text) : tree_(new Tree{parsed(text)})
 {
-    xmlSetExternalEntityLoader(loadNothing);
     xmlNode* const root = tree_->document ? xmlDocGetRootElement(tree_->document.get()) : nullptr;
     if (root == nullptr || nameOf(*root) != "svg") {
         throwDamaged(ImageFormat::Svg, problemOf(xmlGetLastError()));
