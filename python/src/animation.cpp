@@ -32,6 +32,7 @@
 #include "state.h"
 #include "surface.h"
 #include "surroundings.h"
+#include "this_process.h"
 #include "work.h"
 
 namespace binding {

@@ -27,6 +27,7 @@
 #include "shape_options.h"
 #include "state.h"
 #include "surroundings.h"
+#include "this_process.h"
 #include "work.h"
 
 namespace binding {
