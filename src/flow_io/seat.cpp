@@ -15,12 +15,12 @@ namespace droplet {
 namespace {
 
 // Experiments for the constants: docs/method/flow.md, "Droplets on the object".
-constexpr double kReach = 1.0;      // of the ground above and below the droplet's plane, over its mean radius
-constexpr double kSteepest = 2.5;   // rise of the ground that a droplet follows, over the way
-constexpr double kLeastWay = 0.55;  // to which a rim is drawn back, over its distance from the middle
-constexpr double kMostTall = 2.5;   // factor on heights
-constexpr double kMostStep = 0.5;   // of the ground from the plane through middle and rim, over the mean radius
-constexpr int kSteps = 12;          // along the way from the middle to the rim
+constexpr double kReach = 1.0;     // of the ground above and below the droplet's plane, over its mean radius
+constexpr double kSteepest = 2.5;  // rise of the ground that a droplet follows, over the way
+constexpr double kLeastWay = 0.8;  // to which a rim is drawn back, over its distance from the middle
+constexpr double kMostTall = 2.5;  // factor on heights
+constexpr double kMostStep = 0.5;  // of the ground from the plane through middle and rim, over the mean radius
+constexpr int kSteps = 12;         // along the way from the middle to the rim
 
 struct Local {
     Vec2 level;
