@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 
@@ -24,15 +25,6 @@ struct Running {
 Running& runningOf(ProcessId id)
 {
     return *reinterpret_cast<Running*>(id);
-}
-
-std::wstring wide(const std::string& text)
-{
-    std::wstring result(text.size(), L'\0');
-    const int size = ::MultiByteToWideChar(CP_UTF8, 0, text.data(), static_cast<int>(text.size()), result.data(),
-                                           static_cast<int>(result.size()));
-    result.resize(static_cast<std::size_t>(size));
-    return result;
 }
 
 /// Argument in a command line, by the rules of CommandLineToArgvW.
@@ -108,7 +100,7 @@ Started start(const std::vector<std::string>& command, Piped piped, std::FILE* /
     startup.hStdError = handleOf(process.log);
     std::wstring line;
     for (const std::string& argument : command) {
-        line += (line.empty() ? L"" : L" ") + quoted(wide(argument));
+        line += (line.empty() ? L"" : L" ") + quoted(std::filesystem::path(argument).wstring());
     }
     auto running = std::make_unique<Running>();
     running->job = ::CreateJobObjectW(nullptr, nullptr);

@@ -27,6 +27,12 @@ struct Local {
     double height = 0.0;
 };
 
+Local toLocal(const DropletFrame& frame, Vec3 place)
+{
+    const Vec3 d = place - frame.place;
+    return {{dot(d, frame.ahead), dot(d, frame.left)}, dot(d, frame.normal)};
+}
+
 /// The ground below a droplet, in its frame.
 class Ground {
 public:
@@ -48,16 +54,11 @@ public:
         return std::abs(height) <= kReach * size_ ? std::optional(height) : std::nullopt;
     }
 
-    [[nodiscard]] Local nearest(Vec2 p) const { return toLocal(terrain_.nearest(toSpace({p, 0.0})).place); }
+    [[nodiscard]] Local nearest(Vec2 p) const { return toLocal(frame_, terrain_.nearest(toSpace({p, 0.0})).place); }
 
     [[nodiscard]] Vec3 toSpace(const Local& p) const
     {
         return frame_.place + p.level.x * frame_.ahead + p.level.y * frame_.left + p.height * frame_.normal;
-    }
-    [[nodiscard]] Local toLocal(Vec3 place) const
-    {
-        const Vec3 d = place - frame_.place;
-        return {{dot(d, frame_.ahead), dot(d, frame_.left)}, dot(d, frame_.normal)};
     }
 
     [[nodiscard]] double size() const { return size_; }
@@ -284,10 +285,9 @@ std::vector<Triangle> baseTriangles(std::size_t rim)
 
 std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, FlatDroplet droplet)
 {
-    const Ground plane(terrain, frame, 0.0);
     std::vector<Local> flat;
     for (const Vec3 p : droplet.vertices) {
-        flat.push_back(plane.toLocal(p));
+        flat.push_back(toLocal(frame, p));
     }
     for (std::size_t k = 0; k < droplet.rim; ++k) {
         flat[k].height = 0.0;  // but for rounding

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -25,36 +27,35 @@ const DropletBodies& bodies()
     return made;
 }
 
-/// Ball of 5 cm with waves of 2.5 mm that are about 1 cm long: it bends as much as a droplet is wide.
-FlowTerrain wavyBall()
+/// Ball of so many meridians and half as many circles of latitude.
+/// @param radius  of a direction [m]
+FlowTerrain ball(std::uint32_t around, const std::function<double(Vec3)>& radius)
 {
     testing::Sheet sheet;
-    sheet.columns = 240;
-    sheet.rows = 120;
-    sheet.place = [](Vec2 uv) {
+    sheet.columns = around;
+    sheet.rows = around / 2;
+    sheet.place = [&](Vec2 uv) {
         const double turn = 2.0 * std::numbers::pi * uv.x;
         const double tilt = std::numbers::pi * std::clamp(uv.y, 1e-3, 1.0 - 1e-3);
         const Vec3 n{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
-        const double wave = std::sin(30.0 * n.x + 1.0) * std::sin(28.0 * n.y) * std::sin(26.0 * n.z + 2.0);
-        return (50e-3 + 2.5e-3 * wave) * n;
+        return radius(n) * n;
     };
     const TexturedMesh mesh = testing::meshOf(sheet);
     return FlowTerrain(flowSurface(mesh.vertices, mesh.triangles));
 }
 
+/// Ball of 5 cm with waves of 2.5 mm that are about 1 cm long: it bends as much as a droplet is wide.
+FlowTerrain wavyBall()
+{
+    return ball(240, [](Vec3 n) {
+        return 50e-3 + 2.5e-3 * std::sin(30.0 * n.x + 1.0) * std::sin(28.0 * n.y) * std::sin(26.0 * n.z + 2.0);
+    });
+}
+
 /// Ball of 3 cm with few facets, whose edges are sharp: 30° between neighbours.
 FlowTerrain coarseBall()
 {
-    testing::Sheet sheet;
-    sheet.columns = 12;
-    sheet.rows = 6;
-    sheet.place = [](Vec2 uv) {
-        const double turn = 2.0 * std::numbers::pi * uv.x;
-        const double tilt = std::numbers::pi * std::clamp(uv.y, 1e-3, 1.0 - 1e-3);
-        return 30e-3 * Vec3{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
-    };
-    const TexturedMesh mesh = testing::meshOf(sheet);
-    return FlowTerrain(flowSurface(mesh.vertices, mesh.triangles));
+    return ball(12, [](Vec3) { return 30e-3; });
 }
 
 /// Box of 4 cm with sharp edges.

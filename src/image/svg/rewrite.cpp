@@ -10,7 +10,6 @@
 #include <dlfcn.h>
 #include <fmt/core.h>
 #include <librsvg/rsvg.h>
-#include <libxml/parser.h>
 #include <libxml/tree.h>
 
 #include <algorithm>
@@ -25,6 +24,7 @@
 #include <string_view>
 
 #include "image/svg/css_text.h"
+#include "image/svg/drawing_tree.h"
 #include "image/svg/style_sheet.h"
 
 namespace droplet {
@@ -33,8 +33,6 @@ namespace {
 constexpr std::size_t kMaxText = std::size_t{8} << 20;  // a tree takes some twenty times as much memory
 constexpr std::size_t kMaxValue = std::size_t{1} << 16;
 constexpr std::string_view kShapes[] = {"circle", "ellipse", "inset", "polygon", "path", "rect", "xywh"};
-
-using Document = std::unique_ptr<xmlDoc, void (*)(xmlDoc*)>;
 
 bool isElement(const xmlNode* node)
 {
@@ -48,11 +46,6 @@ bool isDrawn(const xmlNode& element)
            std::strcmp(reinterpret_cast<const char*>(element.ns->href), "http://www.w3.org/2000/svg") == 0;
 }
 
-void setAttribute(xmlNode& element, const char* name, const std::string& value)
-{
-    xmlSetProp(&element, reinterpret_cast<const xmlChar*>(name), reinterpret_cast<const xmlChar*>(value.c_str()));
-}
-
 /// Sets a property so that it wins over rules. librsvg misreads some values that are marked as important.
 void setProperty(xmlNode& element, const std::string& name, const std::string& value)
 {
@@ -63,16 +56,6 @@ void setProperty(xmlNode& element, const std::string& name, const std::string& v
         }
     }
     setAttribute(element, "style", style + name + ":" + value);
-}
-
-std::string textOf(xmlDoc* document)
-{
-    xmlChar* bytes = nullptr;
-    int size = 0;
-    xmlDocDumpMemoryEnc(document, &bytes, &size, "UTF-8");
-    std::string text(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(std::max(size, 0)));
-    xmlFree(bytes);
-    return text;
 }
 
 /// Rectangle in the coordinates of an element.
@@ -414,7 +397,7 @@ private:
             id = fmt::format("droplet-{}", boxes_asked_);
             setAttribute(element, "id", id);
         }
-        const Document copy(xmlCopyDoc(document_, 1), xmlFreeDoc);
+        const DrawingTree copy(xmlCopyDoc(document_, 1), xmlFreeDoc);
         std::vector<xmlNode*> open{copy ? xmlDocGetRootElement(copy.get()) : nullptr};
         xmlNode* found = nullptr;
         while (!open.empty() && found == nullptr) {
@@ -741,9 +724,7 @@ private:
         if (const auto lacking = known.find(name); lacking != known.end() && !is_chosen) {
             note(lacking->second);
         }
-        const std::string target(trimmed(attributeOf(element, "href").value_or("")));
-        const bool is_outside =
-            !target.empty() && target.front() != '#' && !lowered(target.substr(0, 5)).starts_with("data:");
+        const bool is_outside = refersOutside(element);
         if (is_outside && (name == "image" || name == "feImage")) {
             note("linked pictures (embed them)");
         } else if (is_outside && name == "use") {
@@ -786,16 +767,7 @@ private:
             return;
         }
         std::string first;
-        for (std::string_view rest = families->value; !rest.empty();) {
-            const std::size_t comma = rest.find(',');
-            std::string_view family = trimmed(rest.substr(0, comma));
-            rest = comma == std::string_view::npos ? std::string_view() : rest.substr(comma + 1);
-            if (family.size() >= 2 && (family.front() == '"' || family.front() == '\'')) {
-                family = family.substr(1, family.size() - 2);
-            }
-            if (family.empty()) {
-                continue;
-            }
+        for (const std::string& family : familiesIn(families->value)) {
             const bool is_generic = generic.contains(lowered(family));
             if (is_generic ? first.empty() : installedFonts().contains(lowered(family))) {
                 return;
@@ -803,7 +775,7 @@ private:
             if (is_generic) {
                 continue;  // what is used instead, as the drawing asks
             }
-            first = first.empty() ? std::string(family) : first;
+            first = first.empty() ? family : first;
         }
         if (!first.empty()) {
             const bool is_web = styles_.atRules().contains("@font-face");
@@ -824,11 +796,6 @@ private:
     bool is_changed_ = false;
 };
 
-xmlParserInput* loadNothing(const char* /*url*/, const char* /*id*/, xmlParserCtxt* /*context*/)
-{
-    return nullptr;
-}
-
 }  // namespace
 
 Rewritten rewritten(std::span<const std::byte> text)
@@ -836,11 +803,7 @@ Rewritten rewritten(std::span<const std::byte> text)
     if (text.size() > kMaxText) {
         return {};
     }
-    xmlSetExternalEntityLoader(loadNothing);
-    const Document document(
-        xmlReadMemory(reinterpret_cast<const char*>(text.data()), static_cast<int>(text.size()), nullptr, nullptr,
-                      XML_PARSE_NOENT | XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING),
-        xmlFreeDoc);
+    const DrawingTree document = parseDrawing(text);
     if (!document || xmlDocGetRootElement(document.get()) == nullptr) {
         return {};
     }

@@ -4,8 +4,8 @@
 #include "image/windows/svg_document.h"
 
 #include <fmt/core.h>
-#include <libxml/parser.h>
 #include <libxml/tree.h>
+#include <libxml/xmlerror.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +15,7 @@
 #include "droplet/units.h"
 #include "image/image_bytes.h"
 #include "image/svg/css_text.h"
+#include "image/svg/drawing_tree.h"
 #include "image/svg/style_sheet.h"
 
 namespace droplet {
@@ -23,21 +24,6 @@ namespace {
 constexpr double kInch = 25.4 * kMillimetre;
 constexpr double kDotsPerInch = 96.0;  // CSS
 
-xmlParserInput* loadNothing(const char* /*url*/, const char* /*id*/, xmlParserCtxt* /*context*/)
-{
-    return nullptr;
-}
-
-/// The tree of a drawing. Nothing that it refers to is read.
-std::unique_ptr<xmlDoc, void (*)(xmlDoc*)> parsed(std::span<const std::byte> text)
-{
-    xmlSetExternalEntityLoader(loadNothing);
-    xmlDoc* const document =
-        xmlReadMemory(reinterpret_cast<const char*>(text.data()), static_cast<int>(text.size()), nullptr, nullptr,
-                      XML_PARSE_NOENT | XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING);
-    return {document, xmlFreeDoc};
-}
-
 std::string problemOf(const xmlError* error)
 {
     if (error == nullptr || error->message == nullptr) {
@@ -45,11 +31,6 @@ std::string problemOf(const xmlError* error)
     }
     return fmt::format("XML parse error: on line {} column {} of data: {}", error->line, error->int2,
                        trimmed(error->message));
-}
-
-void setAttribute(xmlNode& element, const char* name, const std::string& value)
-{
-    xmlSetProp(&element, reinterpret_cast<const xmlChar*>(name), reinterpret_cast<const xmlChar*>(value.c_str()));
 }
 
 /// Length that depends on nothing else.
@@ -111,17 +92,10 @@ std::vector<Declaration> partsOfFont(const Declaration& font)
     return {};
 }
 
-bool refersOutside(const xmlNode& element)
-{
-    const auto attribute = attributeOf(element, "href");
-    const std::string target(trimmed(attribute.value_or("")));
-    return !target.empty() && target.front() != '#' && !lowered(target.substr(0, 5)).starts_with("data:");
-}
-
 }  // namespace
 
 struct SvgDocument::Tree {
-    std::unique_ptr<xmlDoc, void (*)(xmlDoc*)> document;
+    DrawingTree document;
     std::vector<xmlNode*> elements = {};  ///< in the order of the text
 
     [[nodiscard]] xmlNode& root() const { return *elements.front(); }
@@ -137,7 +111,7 @@ struct SvgDocument::Tree {
     }
 };
 
-SvgDocument::SvgDocument(std::span<const std::byte> text) : tree_(new Tree{parsed(text)})
+SvgDocument::SvgDocument(std::span<const std::byte> text) : tree_(new Tree{parseDrawing(text)})
 {
     xmlNode* const root = tree_->document ? xmlDocGetRootElement(tree_->document.get()) : nullptr;
     if (root == nullptr || nameOf(*root) != "svg") {
@@ -183,12 +157,7 @@ SvgDocument::~SvgDocument() = default;
 
 std::string SvgDocument::text() const
 {
-    xmlChar* bytes = nullptr;
-    int size = 0;
-    xmlDocDumpMemoryEnc(tree_->document.get(), &bytes, &size, "UTF-8");
-    std::string text(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(std::max(size, 0)));
-    xmlFree(bytes);
-    return text;
+    return textOf(tree_->document.get());
 }
 
 std::optional<SvgDocument::Page> SvgDocument::page(const std::function<std::optional<Resvg::Box>()>& ink)
@@ -240,20 +209,8 @@ std::set<std::vector<std::string>> SvgDocument::families() const
         if (name != "text" && name != "tspan" && name != "textPath") {
             continue;
         }
-        std::vector<std::string> names;
         const auto value = styles.inherited(*element, "font-family");
-        for (std::string_view rest = value ? std::string_view(value->value) : "serif"; !rest.empty();) {
-            const std::size_t comma = rest.find(',');
-            std::string_view family = trimmed(rest.substr(0, comma));
-            rest = comma == std::string_view::npos ? std::string_view() : rest.substr(comma + 1);
-            if (family.size() >= 2 && (family.front() == '"' || family.front() == '\'')) {
-                family = family.substr(1, family.size() - 2);
-            }
-            if (!family.empty()) {
-                names.emplace_back(family);
-            }
-        }
-        families.insert(names);
+        families.insert(familiesIn(value ? std::string_view(value->value) : "serif"));
     }
     return families;
 }
