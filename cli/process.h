@@ -36,16 +36,32 @@ struct ProcessEnd {
     bool was_out_of_time = false;  ///< limitTime() has ended it
 };
 
+/// Temporary file that a started program opens, too. On Windows it stays if this process is killed.
+class SharedFile {
+public:
+    SharedFile();
+    /// Removes the file.
+    ~SharedFile();
+    SharedFile(const SharedFile&) = delete;
+    SharedFile& operator=(const SharedFile&) = delete;
+
+    /// For reading and writing; null, with errno, if there is none.
+    [[nodiscard]] std::FILE* get() const { return file_; }
+    /// By which the program opens it.
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+private:
+    std::FILE* file_ = nullptr;
+    std::string name_;
+};
+
 /// Starts a program.
-/// @param command    name, looked up in PATH, and arguments
-/// @param inherited  temporary file that the program may open by inheritedName()
-Started start(const std::vector<std::string>& command, Piped piped, std::FILE* inherited = nullptr);
+/// @param command  name, looked up in PATH, and arguments
+/// @param shared   file that the program may open, or null
+Started start(const std::vector<std::string>& command, Piped piped, const SharedFile* shared = nullptr);
 
 /// File without a name of its own, which the system removes when it is closed; null, with errno, if there is none.
 std::FILE* temporaryFile();
-
-/// Name by which a program that inherits a temporary file opens it.
-std::string inheritedName(std::FILE* file);
 
 /// Limits the private memory of a running program, and lets it write no core file.
 /// @param bytes  beyond which its allocations fail

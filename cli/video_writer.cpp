@@ -76,7 +76,7 @@ droplet::Picture plainPicture(int width, int height, unsigned char level)
 }
 
 Process startFfmpeg(const std::vector<std::string>& command, Piped piped, const std::string& path,
-                    std::FILE* file = nullptr)
+                    const SharedFile* file = nullptr)
 {
     const Started started = start(command, piped, file);
     if (started.failure != 0) {
@@ -136,7 +136,7 @@ std::vector<std::string> qualityOf(const std::string& codec, double quality)
     return {"-q:v", steps(31.0)};
 }
 
-std::vector<std::string> commandOf(const VideoWriterOptions& options, std::FILE* video)
+std::vector<std::string> commandOf(const VideoWriterOptions& options, const std::string& file)
 {
     std::vector<std::string> command{"ffmpeg", "-nostdin", "-v", "error"};
     const auto add = [&](std::initializer_list<std::string> words) { command.insert(command.end(), words); };
@@ -163,7 +163,7 @@ std::vector<std::string> commandOf(const VideoWriterOptions& options, std::FILE*
     const std::vector<std::string> quality = qualityOf(options.codec, options.quality);
     command.insert(command.end(), quality.begin(), quality.end());
     add({"-threads", "2", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"});
-    add({"-f", containerOf(options.path)->format, "-y", inheritedName(video)});
+    add({"-f", containerOf(options.path)->format, "-y", file});
     return command;
 }
 
@@ -234,18 +234,12 @@ void tryVideo(const VideoWriterOptions& options)
     }
 }
 
-VideoWriter::VideoWriter(const VideoWriterOptions& options)
-    : path_(options.path), has_alpha_(options.alpha), video_(temporaryFile())
+VideoWriter::VideoWriter(const VideoWriterOptions& options) : path_(options.path), has_alpha_(options.alpha)
 {
-    if (video_ == nullptr) {
+    if (video_.get() == nullptr) {
         throw Error(ErrorCode::OutputFailed, path_ + ": a temporary file cannot be created: " + std::strerror(errno));
     }
-    try {
-        process_ = startFfmpeg(commandOf(options, video_), Piped::Input, path_, video_);
-    } catch (...) {
-        std::fclose(video_);
-        throw;
-    }
+    process_ = startFfmpeg(commandOf(options, video_.name()), Piped::Input, path_, &video_);
 }
 
 VideoWriter::~VideoWriter()
@@ -257,7 +251,6 @@ VideoWriter::~VideoWriter()
         endNow(*process_.id);
     }
     std::fclose(process_.log);
-    std::fclose(video_);
 }
 
 int VideoWriter::end()
@@ -302,9 +295,9 @@ void VideoWriter::finish(std::ostream& out)
     if (end() != 0) {
         throwWriteError();
     }
-    std::rewind(video_);
+    std::rewind(video_.get());
     std::array<char, 65536> part{};
-    for (std::size_t count = 0; (count = std::fread(part.data(), 1, part.size(), video_)) > 0;) {
+    for (std::size_t count = 0; (count = std::fread(part.data(), 1, part.size(), video_.get())) > 0;) {
         out.write(part.data(), static_cast<std::streamsize>(count));
     }
     out.flush();

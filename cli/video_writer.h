@@ -76,7 +76,7 @@ private:
 
     std::string path_;
     bool has_alpha_;
-    std::FILE* video_ = nullptr;
+    SharedFile video_;
     Process process_;
 };
 

@@ -29,7 +29,7 @@ pid_t pidOf(ProcessId id)
 
 }  // namespace
 
-Started start(const std::vector<std::string>& command, Piped piped, std::FILE* inherited)
+Started start(const std::vector<std::string>& command, Piped piped, const SharedFile* shared)
 {
     Started started;
     Process& process = started.process;
@@ -49,8 +49,8 @@ Started start(const std::vector<std::string>& command, Piped piped, std::FILE* i
         posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     }
     posix_spawn_file_actions_adddup2(&actions, ::fileno(process.log), STDERR_FILENO);
-    if (inherited != nullptr) {
-        posix_spawn_file_actions_adddup2(&actions, ::fileno(inherited), kInherited);
+    if (shared != nullptr) {
+        posix_spawn_file_actions_adddup2(&actions, ::fileno(shared->get()), kInherited);
     }
     std::vector<char*> arguments;
     arguments.reserve(command.size() + 1);
@@ -78,9 +78,13 @@ std::FILE* temporaryFile()
     return std::tmpfile();
 }
 
-std::string inheritedName(std::FILE* /*file*/)
+SharedFile::SharedFile() : file_(temporaryFile()), name_("/dev/fd/" + std::to_string(kInherited)) {}
+
+SharedFile::~SharedFile()
 {
-    return "/dev/fd/" + std::to_string(kInherited);
+    if (file_ != nullptr) {
+        std::fclose(file_);
+    }
 }
 
 void limitMemory(ProcessId id, std::size_t bytes)

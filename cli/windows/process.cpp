@@ -64,6 +64,28 @@ HANDLE handleOf(std::FILE* file)
     return reinterpret_cast<HANDLE>(::_get_osfhandle(::_fileno(file)));
 }
 
+std::wstring temporaryPath()
+{
+    static std::atomic<unsigned> number{0};
+    std::array<wchar_t, MAX_PATH + 1> folder{};
+    ::GetTempPathW(static_cast<DWORD>(folder.size()), folder.data());
+    return std::wstring(folder.data()) + L"droplet-shape-" + std::to_wstring(::GetCurrentProcessId()) + L"-" +
+           std::to_wstring(number++) + L".tmp";
+}
+
+/// Temporary file for reading and writing; null, with errno, if it cannot be made.
+std::FILE* openNew(const std::wstring& path, DWORD flags)
+{
+    const HANDLE file = ::CreateFileW(path.c_str(), GENERIC_READ | GENERIC_WRITE,
+                                      FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr, CREATE_ALWAYS,
+                                      FILE_ATTRIBUTE_TEMPORARY | flags, nullptr);
+    if (file == INVALID_HANDLE_VALUE) {
+        errno = EACCES;
+        return nullptr;
+    }
+    return streamOf(file, "w+b");
+}
+
 JOBOBJECT_EXTENDED_LIMIT_INFORMATION limitsOf(HANDLE job)
 {
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits{};
@@ -79,7 +101,7 @@ void setLimits(HANDLE job, JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits, DWORD ad
 
 }  // namespace
 
-Started start(const std::vector<std::string>& command, Piped piped, std::FILE* /*inherited*/)
+Started start(const std::vector<std::string>& command, Piped piped, const SharedFile* /*shared*/)
 {
     Started started;
     Process& process = started.process;
@@ -131,28 +153,21 @@ Started start(const std::vector<std::string>& command, Piped piped, std::FILE* /
 
 std::FILE* temporaryFile()
 {
-    static std::atomic<unsigned> number{0};
-    std::array<wchar_t, MAX_PATH + 1> folder{};
-    ::GetTempPathW(static_cast<DWORD>(folder.size()), folder.data());
-    const std::wstring path = std::wstring(folder.data()) + L"droplet-shape-" +
-                              std::to_wstring(::GetCurrentProcessId()) + L"-" + std::to_wstring(number++) + L".tmp";
-    const HANDLE file = ::CreateFileW(path.c_str(), GENERIC_READ | GENERIC_WRITE,
-                                      FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, nullptr, CREATE_ALWAYS,
-                                      FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, nullptr);
-    if (file == INVALID_HANDLE_VALUE) {
-        errno = EACCES;
-        return nullptr;
-    }
-    return streamOf(file, "w+b");
+    return openNew(temporaryPath(), FILE_FLAG_DELETE_ON_CLOSE);
 }
 
-std::string inheritedName(std::FILE* file)
+// Without that flag: most programs open no file that its owner may delete.
+SharedFile::SharedFile() : name_(std::filesystem::path(temporaryPath()).string())
 {
-    std::array<char, 32768> path{};
-    const DWORD size = ::GetFinalPathNameByHandleA(handleOf(file), path.data(), static_cast<DWORD>(path.size()), 0);
-    const std::string text(path.data(), size < path.size() ? size : 0);
-    constexpr std::string_view kPrefix = "\\\\?\\";
-    return text.starts_with(kPrefix) ? text.substr(kPrefix.size()) : text;
+    file_ = openNew(std::filesystem::path(name_).wstring(), 0);
+}
+
+SharedFile::~SharedFile()
+{
+    if (file_ != nullptr) {
+        std::fclose(file_);
+        ::DeleteFileW(std::filesystem::path(name_).c_str());
+    }
 }
 
 void limitMemory(ProcessId id, std::size_t bytes)
