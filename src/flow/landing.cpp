@@ -102,7 +102,7 @@ struct Landing::Scene {
         return times;
     }
 
-    struct Context : RTCIntersectContext {
+    struct Context : RayContext {
         const Scene* scene = nullptr;
         const Flight* flight = nullptr;
     };
@@ -122,10 +122,9 @@ struct Landing::Scene {
         ray.ray.mask = 0xFFFFFFFFU;
         ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         Context context;
-        rtcInitIntersectContext(&context);
         context.scene = this;
         context.flight = flight;
-        rtcIntersect1(scene.get(), &context, &ray);
+        intersect(scene.get(), context, ray);
         return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID ? std::optional(ray.hit.primID) : std::nullopt;
     }
 

@@ -327,6 +327,27 @@ bool readSource(std::vector<unsigned char>* to, std::string* /*error*/, const st
     return true;
 }
 
+/// tinygltf's reading of files. From version 2.9 on it asks for their sizes, too, and wants all functions.
+template <typename Callbacks>
+Callbacks callbacksFor(Sources& sources)
+{
+    Callbacks callbacks{};
+    callbacks.FileExists = [](const std::string&, void*) { return true; };
+    callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
+    callbacks.ReadWholeFile = readSource;
+    callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+        return false;
+    };
+    if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+            *size = 0;  // readSource() knows it
+            return true;
+        };
+    }
+    callbacks.user_data = &sources;
+    return callbacks;
+}
+
 }  // namespace
 
 GltfFile readGltfFile(const std::filesystem::path& path)
@@ -364,8 +385,7 @@ GltfFile readGltfFile(const std::filesystem::path& path)
         throw Damage("its JSON is longer than 4 GiB");
     }
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks({[](const std::string&, void*) { return true; },
-                           [](const std::string& name, void*) { return name; }, readSource, nullptr, &sources});
+    loader.SetFsCallbacks(callbacksFor<tinygltf::FsCallbacks>(sources));
     std::string error;
     std::string warning;
     const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <embree3/rtcore.h>
+#include <rtcore.h>
 
 #include <memory>
 #include <new>
@@ -9,6 +9,28 @@
 #include <type_traits>
 
 namespace droplet {
+
+#if RTC_VERSION_MAJOR >= 4
+using RayContext = RTCRayQueryContext;
+#else
+using RayContext = RTCIntersectContext;
+#endif
+
+/// First intersection of one ray, as `ray` says afterwards. `context`, which is initialized here, reaches the filters
+/// of the geometries.
+inline void intersect(RTCScene scene, RayContext& context, RTCRayHit& ray)
+{
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&context);
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+    rtcIntersect1(scene, &ray, &arguments);
+#else
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &ray);
+#endif
+}
 
 /// Running Embree device. Its scenes must be released first.
 class EmbreeDevice {

@@ -206,8 +206,7 @@ Vec2 RayTracer::uvOnPlane(Vec3f place) const
 
 Meeting RayTracer::meet(void* scene, const RayF& ray) const
 {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    RayContext context;
     RTCRayHit hit{};
     hit.ray.org_x = ray.origin.x;
     hit.ray.org_y = ray.origin.y;
@@ -219,7 +218,7 @@ Meeting RayTracer::meet(void* scene, const RayF& ray) const
     hit.ray.tfar = std::numeric_limits<float>::infinity();
     hit.ray.mask = ~0U;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(static_cast<RTCScene>(scene), &context, &hit);
+    intersect(static_cast<RTCScene>(scene), context, hit);
     Meeting meeting;
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         return meeting;

@@ -342,8 +342,8 @@ TEST(WindTunnelCommand, TableAgreesWithTheReport)
         EXPECT_THAT(table.remarks, Contains("# air.boundary_layer_m = " + run.at("air").at("boundary_layer_m").dump()));
         for (const Json& one : run.at("cases")) {
             for (std::size_t w = 0; w < run.at("wind_m_per_s").size(); ++w, ++row) {
-                EXPECT_EQ(table.columns.at("preset").at(row), run.at("preset"));
-                EXPECT_EQ(table.columns.at("regime").at(row), one.at("regime").at(w));
+                EXPECT_EQ(table.columns.at("preset").at(row), run.at("preset").get<std::string>());
+                EXPECT_EQ(table.columns.at("regime").at(row), one.at("regime").at(w).get<std::string>());
                 EXPECT_EQ(table.number("wind_m_per_s", row), run.at("wind_m_per_s").at(w));
                 for (const char* key : {"volume_m3", "slope_deg", "hysteresis", "retention_n", "mass_kg"}) {
                     EXPECT_EQ(table.number(key, row), one.at(key)) << key;
