@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow_run.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -83,6 +85,8 @@ private:
     /// Draws a frame, and writes it unless it is the picture of the last one.
     void drawPicture(const Moment& moment);
     void writeMaps(const Moment& moment);
+    /// Warns of droplets that are shown smaller than they are.
+    void warnOfLostVolume();
     /// Writes the droplets of a frame.
     void writeMesh(const Moment& moment) const;
     [[nodiscard]] droplet::Vec3 gravityAt(double time) const;
@@ -150,7 +154,7 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
         animation.material = material_;
         animation.gravity = plan_.parameters.gravity;
         animation.motion = plan_.parameters.motion;
-        animation_.emplace(plan_.object, bodies_, animation);
+        animation_.emplace(plan_.object, plan_.terrain, bodies_, animation);
     }
     if (isPicture() || options_.has_preview) {
         preparePainter();
@@ -306,6 +310,7 @@ void FlowRun::run(std::ostream* table)
     if (report_.balance.empty() || report_.balance.back().time != state_.time) {
         report_.balance.push_back(flowBalanceRow(state_));
     }
+    warnOfLostVolume();
     report_.counts = state_.counts;
     report_.time = state_.time;
     if (options_.streaks) {
@@ -314,6 +319,23 @@ void FlowRun::run(std::ostream* table)
             animation_->setStreaks(streaks_);
         }
         turnToFile(streaks_, formatOf(*options_.streaks), options_.reading);
+    }
+}
+
+void FlowRun::warnOfLostVolume()
+{
+    const std::vector<droplet::FlowSample> samples = droplet::sampleFlow(state_, plan_.terrain, plan_.parameters);
+    const std::vector<double> volumes = droplet::seatedVolumes(
+        droplet::seatedDroplets(plan_.terrain, samples, bodies_, gravityAt(state_.time)), samples.size(), bodies_);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        count += volumes[i] < 0.99 * samples[i].volume ? 1U : 0U;
+    }
+    if (count > 0) {
+        report_.warnings.push_back(fmt::format(
+            "{}: {} of {} droplets at the end sit where the object bends more than they can follow, and are shown with "
+            "less than 99 % of their volume; smaller droplets, or a smoother object, keep it",
+            report_.input, count, samples.size()));
     }
 }
 

@@ -90,4 +90,19 @@ Surface seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> s
     return surface;
 }
 
+std::vector<double> seatedVolumes(const Surface& seated, std::size_t count, const DropletBodies& bodies)
+{
+    const std::size_t vertices = bodies.vertices();
+    const std::size_t base = baseVertices(bodies.rimVertices());
+    const std::size_t bases_begin = count * vertices;
+    std::vector<double> volumes(count);
+    for (const auto& [a, b, c] : seated.triangles) {
+        const std::size_t i = a < bases_begin ? a / vertices : (a - bases_begin) / base;
+        const Vec3 origin = seated.vertices[i * vertices];
+        volumes[i] +=
+            dot(seated.vertices[a] - origin, cross(seated.vertices[b] - origin, seated.vertices[c] - origin)) / 6.0;
+    }
+    return volumes;
+}
+
 }  // namespace droplet

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <ostream>
@@ -88,15 +89,18 @@ void FlowAnimationOptions::validate() const
 
 struct FlowAnimation::Content {
     FlowObject object;
+    const FlowTerrain& terrain;
     const DropletBodies& bodies;
     FlowAnimationOptions options;
     double unit_volume;  ///< of all meshes of a droplet
     DropletHistories histories = {};
-    std::vector<CrowdPose> poses = {};       ///< of the object, if it moves
-    std::array<Vec3, 2> corners = {};        ///< of the object and all droplets, in the object's frame
-    std::array<Vec3, 2> moved_corners = {};  ///< the same in the world
-    double logarithms = 0.0;                 ///< sum of the logarithms of volumes
-    std::uint64_t volumes = 0;               ///< their number
+    std::vector<CrowdPose> poses = {};                 ///< of the object, if it moves
+    std::array<Vec3, 2> corners = {};                  ///< of the object and all droplets, in the object's frame
+    std::array<Vec3, 2> moved_corners = {};            ///< the same in the world
+    double logarithms = 0.0;                           ///< sum of the logarithms of volumes
+    std::uint64_t volumes = 0;                         ///< their number
+    std::map<std::uint64_t, DropletPose> shaped = {};  ///< with which droplets got their last shape, by id
+    std::size_t shapes = 0;                            ///< about the number that the file will have
     std::optional<Surface> streaks = {};
 
     [[nodiscard]] DropletPose poseOf(const FlowSample& sample, Vec3 gravity) const
@@ -127,6 +131,19 @@ struct FlowAnimation::Content {
         return pose;
     }
 
+    /// Counts the shapes that a droplet needs on its way over ground that bends.
+    void countShapes(std::uint64_t id, const DropletPose& pose)
+    {
+        constexpr double kWay = 1.2;  // over the contact radius: experiment with Suzanne and the bunny
+        const auto [last, is_new] = shaped.try_emplace(id, pose);
+        const double way = length(vectorOf(pose.place) - vectorOf(last->second.place));
+        if (!pose.airborne && way > kWay * static_cast<double>(pose.across) &&
+            dot(pose.normal(), last->second.normal()) < std::cos(kFacing)) {
+            last->second = pose;
+            ++shapes;
+        }
+    }
+
     void include(const ObjectPose& pose)
     {
         const auto corner = [&](std::size_t i) {
@@ -143,10 +160,11 @@ struct FlowAnimation::Content {
     }
 };
 
-FlowAnimation::FlowAnimation(FlowObject object, const DropletBodies& bodies, const FlowAnimationOptions& options)
+FlowAnimation::FlowAnimation(FlowObject object, const FlowTerrain& terrain, const DropletBodies& bodies,
+                             const FlowAnimationOptions& options)
 {
     options.validate();
-    content_ = std::make_unique<Content>(Content{std::move(object), bodies, options, unitVolume(bodies)});
+    content_ = std::make_unique<Content>(Content{std::move(object), terrain, bodies, options, unitVolume(bodies)});
     content_->corners = cornersOf(content_->object.vertices);
 }
 
@@ -169,6 +187,7 @@ void FlowAnimation::add(double time, std::span<const FlowSample> samples)
         content.logarithms += std::log(samples[i].volume);
         ++content.volumes;
         content.histories.add(samples[i].id, poses[i]);
+        content.countShapes(samples[i].id, poses[i]);
     }
     content.include(at);
     if (!content.options.motion.rests()) {
@@ -185,7 +204,7 @@ void FlowAnimation::add(double time, std::span<const FlowSample> samples)
         content.poses.push_back(pose);
     }
     content.histories.endFrame();
-    checkCrowd(content.histories, "fewer droplets");
+    checkCrowd(content.histories, content.shapes, "fewer droplets");
 }
 
 void FlowAnimation::setStreaks(Surface streaks)
@@ -223,7 +242,8 @@ std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) 
     droplets.corners = content.moved_corners;
     droplets.corner = "corner of the scene";
     droplets.poses = content.poses;
-    droplets.resting = unitBody(bodies, conditions, {.around = 12, .rings = 4}, unit);
+    constexpr std::uint32_t kAround = 16;
+    droplets.resting = unitBody(bodies, conditions, {.around = kAround, .rings = 4}, unit);
     // A running droplet of usual length stands for all.
     constexpr double kUsualLength = 1.6;  // over the width
     constexpr double kFastest = 2.0;      // [m/s]
@@ -232,8 +252,14 @@ std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) 
     for (Vec2 half; conditions.speed < kFastest && half.x <= kUsualLength * half.y; conditions.speed *= 1.25) {
         half = halfSizes(bodies, conditions);
     }
-    droplets.running = unitBody(bodies, conditions, {.around = 16, .rings = 5}, unit);
+    droplets.running = unitBody(bodies, conditions, {.around = kAround, .rings = 5}, unit);
     droplets.falling = unitBall({.around = 10, .rings = 6}, unit);
+    droplets.seating = {[&](const DropletMesh& mesh, const DropletPose& pose) {
+                            return seatedBody(content.terrain, mesh, kAround, pose);
+                        },
+                        [&](const std::vector<Vec3>& vertices, const DropletPose& pose) {
+                            return rimGap(content.terrain, vertices, kAround, pose);
+                        }};
     addDroplets(content.histories, droplets, scene);
     return writeScene(scene, out, file);
 }

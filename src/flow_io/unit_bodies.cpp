@@ -5,7 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
+
+#include "axes.h"
+#include "flow_io/seat.h"
 
 namespace droplet {
 namespace {
@@ -73,6 +77,13 @@ double volumeOf(const DropletMesh& mesh)
     return volume;
 }
 
+/// A seated base may have triangles without area.
+Vec3 unit(Vec3 v)
+{
+    const double size = length(v);
+    return size > 0.0 ? (1.0 / size) * v : Vec3{0.0, 0.0, -1.0};
+}
+
 /// Sets the normals to the mean of those of the triangles around each vertex.
 void setNormals(DropletMesh& mesh)
 {
@@ -84,7 +95,7 @@ void setNormals(DropletMesh& mesh)
         }
     }
     for (Vec3& normal : mesh.normals) {
-        normal = (1.0 / length(normal)) * normal;
+        normal = unit(normal);
     }
 }
 
@@ -107,6 +118,46 @@ double angleOf(std::uint32_t k, const BodyDetail& detail)
 {
     return 2.0 * std::numbers::pi * k / detail.around;
 }
+
+/// Frame of a mesh that a pose scales, turns and shifts.
+class UnitFrame {
+public:
+    explicit UnitFrame(const DropletPose& pose)
+        : frame_(frameOf(pose)),
+          scale_{static_cast<double>(pose.along), static_cast<double>(pose.across), static_cast<double>(pose.up)}
+    {
+    }
+
+    [[nodiscard]] const DropletFrame& frame() const { return frame_; }
+    [[nodiscard]] Vec3 toObject(Vec3 p) const
+    {
+        return frame_.place + turned({scale_.x * p.x, scale_.y * p.y, scale_.z * p.z});
+    }
+    [[nodiscard]] Vec3 fromObject(Vec3 p) const
+    {
+        const Vec3 local = turnedBack(p - frame_.place);
+        return {local.x / scale_.x, local.y / scale_.y, local.z / scale_.z};
+    }
+    [[nodiscard]] Vec3 normalToObject(Vec3 n) const
+    {
+        return turned(unit({n.x / scale_.x, n.y / scale_.y, n.z / scale_.z}));
+    }
+    [[nodiscard]] Vec3 normalFromObject(Vec3 n) const
+    {
+        const Vec3 local = turnedBack(n);
+        return unit({local.x * scale_.x, local.y * scale_.y, local.z * scale_.z});
+    }
+
+private:
+    [[nodiscard]] Vec3 turned(Vec3 v) const { return v.x * frame_.ahead + v.y * frame_.left + v.z * frame_.normal; }
+    [[nodiscard]] Vec3 turnedBack(Vec3 v) const
+    {
+        return {dot(v, frame_.ahead), dot(v, frame_.left), dot(v, frame_.normal)};
+    }
+
+    DropletFrame frame_;
+    Vec3 scale_;
+};
 
 }  // namespace
 
@@ -163,13 +214,71 @@ DropletMesh unitBody(const DropletBodies& bodies, const BodyConditions& conditio
     setNormals(mesh);
     // The base on the ground.
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (std::size_t ring = 0; ring <= kBaseRings; ++ring) {
+        const double share = 1.0 - static_cast<double>(ring) / (1 + kBaseRings);
+        for (std::uint32_t k = 0; k < detail.around; ++k) {
+            mesh.vertices.push_back(share * mesh.vertices[first - detail.around + k]);
+        }
+    }
     mesh.vertices.emplace_back();
-    for (std::uint32_t k = 0; k < detail.around; ++k) {
-        mesh.vertices.push_back(mesh.vertices[first - detail.around + k]);
-        mesh.triangles.push_back({first, first + 1 + (k + 1) % detail.around, first + 1 + k});
+    for (const auto& [a, b, c] : baseTriangles(detail.around)) {
+        mesh.triangles.push_back({first + a, first + b, first + c});
     }
     mesh.normals.resize(mesh.vertices.size(), {0.0, 0.0, -1.0});
     return mesh;
+}
+
+DropletFrame frameOf(const DropletPose& pose)
+{
+    return {zUp(vectorOf(pose.place)), zUp(turnedBy(pose.turn, {1.0, 0.0, 0.0})),
+            zUp(turnedBy(pose.turn, {0.0, 0.0, -1.0})), zUp(pose.normal())};
+}
+
+DropletShape seatedBody(const FlowTerrain& terrain, const DropletMesh& mesh, std::size_t rim, const DropletPose& pose)
+{
+    const UnitFrame unit(pose);
+    const std::size_t body = mesh.vertices.size() - baseVertices(rim);
+    // seat() wants the rim first.
+    const auto moved = [&](std::size_t v) { return (v + rim) % body; };
+    std::vector<Vec3> vertices(body);
+    std::vector<Vec3> normals(body);
+    for (std::size_t v = 0; v < body; ++v) {
+        vertices[moved(v)] = unit.toObject(mesh.vertices[v]);
+        normals[moved(v)] = unit.normalToObject(mesh.normals[v]);
+    }
+    std::vector<Triangle> triangles;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        if (std::max({a, b, c}) < body) {
+            triangles.push_back({static_cast<std::uint32_t>(moved(a)), static_cast<std::uint32_t>(moved(b)),
+                                 static_cast<std::uint32_t>(moved(c))});
+        }
+    }
+    const std::vector<Vec3> base = seat(terrain, unit.frame(), {vertices, normals, triangles, rim});
+    DropletMesh seated;
+    for (std::size_t v = 0; v < body; ++v) {
+        seated.vertices.push_back(unit.fromObject(vertices[moved(v)]));
+    }
+    for (const Vec3 p : base) {
+        seated.vertices.push_back(unit.fromObject(p));
+    }
+    seated.triangles = mesh.triangles;
+    setNormals(seated);
+    for (std::size_t v = 0; v < body; ++v) {
+        seated.normals[v] = unit.normalFromObject(normals[moved(v)]);
+    }
+    return {std::move(seated.vertices), std::move(seated.normals)};
+}
+
+double rimGap(const FlowTerrain& terrain, const std::vector<Vec3>& vertices, std::size_t rim, const DropletPose& pose)
+{
+    const UnitFrame unit(pose);
+    const std::size_t base = vertices.size() - baseVertices(rim);
+    double gap = 0.0;
+    for (std::size_t v = base; v < base + rim; ++v) {
+        const Vec3 p = unit.toObject(vertices[v]);
+        gap = std::max(gap, length(p - terrain.nearest(p).place));
+    }
+    return gap / static_cast<double>(std::sqrt(pose.along * pose.across));
 }
 
 DropletMesh unitBall(const BodyDetail& detail, double volume)

@@ -5,6 +5,9 @@
 #include <cstdint>
 
 #include "droplet/body/droplet_body.h"
+#include "droplet/flow/flow_terrain.h"
+#include "droplet/flow_io/droplet_surfaces.h"
+#include "io/droplet_crowd.h"
 #include "io/droplet_meshes.h"
 
 namespace droplet {
@@ -21,12 +24,24 @@ double unitVolume(const DropletBodies& bodies);
 /// Half the length and half the width of a droplet [m].
 Vec2 halfSizes(const DropletBodies& bodies, const BodyConditions& conditions);
 
-/// Closed mesh of a droplet's body with its base, with fewer vertices. Half its length and half its width are 1 m; its
-/// height makes the volume right.
+/// Closed mesh of a droplet's body with its base, as baseTriangles() has it, with fewer vertices. Half its length and
+/// half its width are 1 m; its height makes the volume right.
 /// @param conditions  on the ground
 /// @param volume      of the mesh [m³]
 DropletMesh unitBody(const DropletBodies& bodies, const BodyConditions& conditions, const BodyDetail& detail,
                      double volume);
+
+/// Frame of a droplet with a pose, whose file has +Y up.
+DropletFrame frameOf(const DropletPose& pose);
+
+/// A mesh of unitBody() as it sits on the ground in a pose.
+/// @param rim  BodyDetail::around of the mesh
+DropletShape seatedBody(const FlowTerrain& terrain, const DropletMesh& mesh, std::size_t rim, const DropletPose& pose);
+
+/// Largest distance of a rim from the ground, over the contact radius.
+/// @param vertices  of a mesh of unitBody(), or of seatedBody()
+/// @param rim       BodyDetail::around of the mesh
+double rimGap(const FlowTerrain& terrain, const std::vector<Vec3>& vertices, std::size_t rim, const DropletPose& pose);
 
 /// Ball.
 DropletMesh unitBall(const BodyDetail& detail, double volume);

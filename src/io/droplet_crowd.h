@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,20 @@ struct CrowdPose {
     Float4 turn{0.0F, 0.0F, 0.0F, 1.0F};  ///< x first, w last
 };
 
+/// Vertices and normals that a mesh has instead of its own.
+struct DropletShape {
+    std::vector<Vec3> vertices;
+    std::vector<Vec3> normals;
+};
+
+/// How droplets sit on ground that is not flat. Both functions may be called at once.
+struct CrowdSeating {
+    /// Shape of a mesh that sits on the ground in a pose, in the mesh's frame.
+    std::function<DropletShape(const DropletMesh& mesh, const DropletPose& pose)> seat;
+    /// Largest distance of a rim from the ground, over the contact radius, of such vertices or a mesh's own.
+    std::function<double(const std::vector<Vec3>& vertices, const DropletPose& pose)> gap;
+};
+
 /// How droplets look, and what they run over. Each mesh of a droplet has the volume of a cap of contact radius 1 m; z
 /// is off the ground.
 struct CrowdOptions {
@@ -35,18 +51,23 @@ struct CrowdOptions {
     DropletMesh resting;            ///< droplets at rest, which are scaled alike in all directions
     DropletMesh running;            ///< droplets on their way; +x is ahead
     DropletMesh falling;            ///< droplets in the air
+    std::optional<CrowdSeating> seating = {};  ///< empty: the ground is flat below a droplet
 };
 
 /// Adds droplets to a scene, and the motion of the ground.
 ///
 /// A copy belongs to one droplet after another, so there are about as many as droplets at once. Keys are written where
 /// a change exceeds a tolerance: those of the options, DropletPose::looksLike() and, for droplets at rest, kFacing.
+///
+/// On ground that is not flat a copy has a shape of its own, and another copy follows where that shape fits no more.
+/// The rim is within a twentieth of the contact radius of the ground, unless seating leaves it farther away.
 /// @param scene  with the ground and its frames per second
 void addDroplets(const DropletHistories& histories, const CrowdOptions& options, Scene& scene);
 
 /// Rejects droplets whose file would be too large for viewers.
+/// @param shapes  number of copies with a shape of their own
 /// @param remedy  what the user can do besides using a shorter time or fewer frames per second
 /// @throws Error  InvalidArgument from 128 MiB on
-void checkCrowd(const DropletHistories& histories, const char* remedy);
+void checkCrowd(const DropletHistories& histories, std::size_t shapes, const char* remedy);
 
 }  // namespace droplet

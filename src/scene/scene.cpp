@@ -61,4 +61,9 @@ std::vector<Float2> sceneCoordinates(const std::vector<Vec2>& uvs)
     return floats;
 }
 
+Vec3 vectorOf(const Float3& numbers)
+{
+    return {static_cast<double>(numbers[0]), static_cast<double>(numbers[1]), static_cast<double>(numbers[2])};
+}
+
 }  // namespace droplet

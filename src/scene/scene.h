@@ -78,11 +78,23 @@ struct SceneNode {
     std::vector<SceneProperty> properties = {};
 };
 
+/// Vertices in place of a mesh's own.
+struct SceneShape {
+    std::vector<Float3> vertices;  ///< [m]
+    std::vector<Float3> normals;
+};
+
 /// Many copies of a small mesh, each moved by a node of its own: droplets.
 struct SceneCrowd {
-    std::size_t mesh = 0;            ///< with one geometry, without targets
-    std::vector<std::size_t> nodes;  ///< one for each copy, without mesh and children
-    std::size_t parent = 0;          ///< node above all of them
+    std::size_t mesh = 0;                 ///< with one geometry, without targets
+    std::vector<std::size_t> nodes;       ///< one for each copy, without mesh and children
+    std::size_t parent = 0;               ///< node above all of them
+    std::vector<SceneShape> shapes = {};  ///< of copies, besides the mesh's own
+    std::vector<std::size_t> shape_of =
+        {};  ///< of each copy: 0 is the mesh's, k the one of shapes[k - 1]; empty: all 0
+
+    /// Shape of a copy.
+    [[nodiscard]] std::size_t shapeOf(std::size_t copy) const { return shape_of.empty() ? 0 : shape_of[copy]; }
 };
 
 /// What a track changes.
@@ -135,6 +147,8 @@ struct Scene {
 std::vector<Float3> sceneVectors(const std::vector<Vec3>& vectors);
 /// @throws Error InvalidArgument beyond float's range
 Float3 sceneVector(Vec3 vector);
+/// A scene's numbers, still y up.
+Vec3 vectorOf(const Float3& numbers);
 /// @throws Error InvalidArgument beyond float's range
 std::vector<Float2> sceneCoordinates(const std::vector<Vec2>& uvs);
 

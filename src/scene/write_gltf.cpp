@@ -33,11 +33,7 @@ using tinygltf::Value;
 
 /// Copies of a crowd in a mesh.
 constexpr std::size_t kCopiesOfMesh = 62;
-
-Vec3 vectorOf(const Float3& v)
-{
-    return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
+using CopyShapes = std::array<std::size_t, kCopiesOfMesh>;
 
 std::vector<Vec3> vectorsOf(const std::vector<Float3>& floats)
 {
@@ -158,7 +154,8 @@ struct Copies {
     std::vector<std::array<std::uint8_t, 4>> joints;  ///< of each vertex; the first counts
 };
 
-Copies copiesOf(const SceneGeometry& one)
+/// @param shapes  of the copies: SceneCrowd::shape_of
+Copies copiesOf(const SceneGeometry& one, const SceneCrowd& crowd, const CopyShapes& shapes)
 {
     Copies copies;
     SceneGeometry& all = copies.geometry;
@@ -166,8 +163,9 @@ Copies copiesOf(const SceneGeometry& one)
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     for (std::size_t k = 0; k < kCopiesOfMesh; ++k) {
         const auto first = static_cast<std::uint32_t>(all.vertices.size());
-        append(all.vertices, one.vertices);
-        append(all.normals, one.normals);
+        const SceneShape* const shape = shapes[k] > 0 ? &crowd.shapes[shapes[k] - 1] : nullptr;
+        append(all.vertices, shape ? shape->vertices : one.vertices);
+        append(all.normals, shape ? shape->normals : one.normals);
         append(all.uvs, one.uvs);
         copies.joints.resize(all.vertices.size(), {static_cast<std::uint8_t>(k), 0, 0, 0});
         for (const auto& [a, b, c] : one.parts.front().triangles) {
@@ -276,9 +274,9 @@ private:
 
     void findCrowds()
     {
-        is_crowd_.assign(scene_.meshes.size(), false);
+        crowd_of_.assign(scene_.meshes.size(), nullptr);
         for (const SceneCrowd& crowd : scene_.crowds) {
-            is_crowd_[crowd.mesh] = true;
+            crowd_of_[crowd.mesh] = &crowd;
         }
     }
 
@@ -291,7 +289,7 @@ private:
         double longest = 0.0;
         for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
             for (const SceneGeometry& geometry : scene_.meshes[i].geometries) {
-                if (is_crowd_[i]) {
+                if (crowd_of_[i]) {
                     continue;
                 }
                 const std::vector<Vec3> own = vectorsOf(geometry.vertices);
@@ -312,7 +310,7 @@ private:
         for (std::size_t i = 0; cube_ && i < scene_.meshes.size(); ++i) {
             for (const SceneGeometry& geometry : scene_.meshes[i].geometries) {
                 for (const ScenePart& part : geometry.parts) {
-                    is_small[part.material] = !is_crowd_[i];
+                    is_small[part.material] = !crowd_of_[i];
                 }
             }
         }
@@ -329,6 +327,10 @@ private:
 
     void addMesh(std::size_t index)
     {
+        if (crowd_of_[index]) {
+            addCopies(*crowd_of_[index], 0);
+            return;
+        }
         const SceneMesh& from = scene_.meshes[index];
         tinygltf::Mesh mesh;
         mesh.name = from.name;
@@ -343,22 +345,57 @@ private:
         }
         setExtras(mesh.extras, std::move(extras));
         for (const SceneGeometry& geometry : from.geometries) {
-            std::optional<QuantizationCube> cube = cube_;
-            const bool has_own = is_crowd_[index];
-            Copies* copies = nullptr;
-            if (has_own || compression_ == Compression::Meshopt) {
-                copies = &copies_.emplace_back(has_own ? copiesOf(geometry) : Copies{geometry, {}});
-            }
-            if (has_own && cube) {
-                cube = cubeAround(vectorsOf(copies->geometry.vertices), 0.0);
-                crowd_cubes_[index] = *cube;
-            }
+            const SceneGeometry* shown = &geometry;
             if (compression_ == Compression::Meshopt) {
-                optimize(*copies);
+                Copies& copies = copies_.emplace_back(Copies{geometry, {}});
+                optimize(copies);
+                shown = &copies.geometry;
             }
-            addPrimitives(copies ? copies->geometry : geometry, copies ? &copies->joints : nullptr, cube, mesh);
+            addPrimitives(*shown, nullptr, cube_, mesh);
         }
         model_.meshes.push_back(std::move(mesh));
+    }
+
+    /// Adds the mesh of some of a crowd's copies.
+    /// @param first  of the copies
+    void addCopies(const SceneCrowd& crowd, std::size_t first)
+    {
+        const SceneMesh& from = scene_.meshes[crowd.mesh];
+        tinygltf::Mesh mesh;
+        mesh.name = from.name;
+        Copies& copies = copies_.emplace_back(copiesOf(from.geometries.front(), crowd, shapesFrom(crowd, first)));
+        if (cube_ && first == 0) {
+            std::vector<Vec3> vertices = vectorsOf(from.geometries.front().vertices);
+            vertices.emplace_back();  // of the corners
+            for (const SceneShape& shape : crowd.shapes) {
+                const std::vector<Vec3> own = vectorsOf(shape.vertices);
+                vertices.insert(vertices.end(), own.begin(), own.end());
+            }
+            crowd_cubes_[crowd.mesh] = cubeAround(vertices, 0.0);
+        }
+        if (compression_ == Compression::Meshopt) {
+            optimize(copies);
+        }
+        const auto cube = cube_ ? std::optional(crowd_cubes_.at(crowd.mesh)) : std::nullopt;
+        if (first == 0) {
+            addPrimitives(copies.geometry, &copies.joints, cube, mesh);
+        } else {
+            // All but vertices and normals is the same in the first mesh of the crowd.
+            tinygltf::Primitive& primitive = mesh.primitives.emplace_back(model_.meshes[crowd.mesh].primitives.front());
+            primitive.attributes["POSITION"] = addPositions(copies.geometry.vertices, cube);
+            primitive.attributes["NORMAL"] = addNormals(copies.geometry.normals, cube.has_value());
+        }
+        model_.meshes.push_back(std::move(mesh));
+    }
+
+    /// Shapes of the copies in a mesh.
+    static CopyShapes shapesFrom(const SceneCrowd& crowd, std::size_t first)
+    {
+        CopyShapes shapes{};
+        for (std::size_t k = 0; k < shapes.size() && first + k < crowd.nodes.size(); ++k) {
+            shapes[k] = crowd.shapeOf(first + k);
+        }
+        return shapes;
     }
 
     using Joints = std::vector<std::array<std::uint8_t, 4>>;
@@ -563,14 +600,21 @@ private:
             model_.nodes[crowd.parent].children.push_back(joints.back());
             model_.nodes.push_back(std::move(spare));
         }
-        for (auto first = joints.begin(); first != joints.end(); first += kCopiesOfMesh) {
+        std::map<CopyShapes, int> meshes{{shapesFrom(crowd, 0), static_cast<int>(crowd.mesh)}};
+        for (std::size_t first = 0; first < joints.size(); first += kCopiesOfMesh) {
+            const auto [mesh, is_new] =
+                meshes.try_emplace(shapesFrom(crowd, first), static_cast<int>(model_.meshes.size()));
+            if (is_new) {
+                addCopies(crowd, first);
+            }
             tinygltf::Skin skin;
             skin.inverseBindMatrices = bindOf(crowd.mesh);
-            skin.joints.assign(first, first + kCopiesOfMesh);
+            const auto begin = joints.begin() + static_cast<std::ptrdiff_t>(first);
+            skin.joints.assign(begin, begin + kCopiesOfMesh);
             skin.joints.insert(skin.joints.end(), scene_.corners.begin(), scene_.corners.end());
             tinygltf::Node node;
             node.name = scene_.meshes[crowd.mesh].name;
-            node.mesh = static_cast<int>(crowd.mesh);
+            node.mesh = mesh->second;
             node.skin = static_cast<int>(model_.skins.size());
             model_.skins.push_back(std::move(skin));
             model_.scenes.front().nodes.push_back(static_cast<int>(model_.nodes.size()));
@@ -682,8 +726,8 @@ private:
     Compression compression_;
     tinygltf::Model model_;
     GltfBuffer buffer_;
-    std::vector<bool> is_crowd_;            ///< of every mesh
-    std::optional<QuantizationCube> cube_;  ///< of all meshes but those of crowds
+    std::vector<const SceneCrowd*> crowd_of_;  ///< of every mesh, or null
+    std::optional<QuantizationCube> cube_;     ///< of all meshes but those of crowds
     std::map<std::size_t, QuantizationCube> crowd_cubes_;
     std::deque<Copies> copies_;  ///< what arrays refer to
     std::deque<std::vector<std::array<float, 16>>> matrices_;

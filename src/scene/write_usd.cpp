@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -485,10 +486,16 @@ public:
         for (const SceneTrack& track : scene.tracks) {
             tracks_[track.node].push_back(&track);
         }
-        crowd_of_.resize(scene.nodes.size());
+        class_of_.resize(scene.nodes.size());
         for (std::size_t k = 0; k < scene.crowds.size(); ++k) {
-            for (const std::size_t node : scene.crowds[k].nodes) {
-                crowd_of_[node] = k;
+            const SceneCrowd& crowd = scene.crowds[k];
+            std::map<std::size_t, std::size_t> numbers;  // of the classes of its shapes
+            for (std::size_t i = 0; i < crowd.nodes.size(); ++i) {
+                const auto [number, is_new] = numbers.try_emplace(crowd.shapeOf(i), classes_.size());
+                if (is_new) {
+                    classes_.push_back({k, crowd.shapeOf(i)});
+                }
+                class_of_[crowd.nodes[i]] = number->second;
             }
         }
         nameAll();
@@ -521,7 +528,7 @@ public:
         for (std::size_t i = 0; i < shown.size(); ++i) {
             writeNode(shown[i], root_names_[i], "    ");
         }
-        for (std::size_t k = 0; k < scene_.crowds.size(); ++k) {
+        for (std::size_t k = 0; k < classes_.size(); ++k) {
             writeClass(k);
         }
         for (const std::size_t i : written_materials_) {
@@ -531,7 +538,13 @@ public:
     }
 
 private:
-    /// Names what lies directly below the default prim: nodes, classes of crowds, materials. Equal looks share one.
+    /// A mesh that copies refer to.
+    struct Class {
+        std::size_t crowd = 0;  ///< index
+        std::size_t shape = 0;  ///< as in SceneCrowd::shape_of
+    };
+
+    /// Names what lies directly below the default prim: nodes, classes, materials. Equal looks share one.
     void nameAll()
     {
         std::vector<std::string> names;
@@ -539,8 +552,8 @@ private:
             names.push_back(scene_.nodes[node].name);
         }
         const std::size_t nodes = names.size();
-        for (const SceneCrowd& crowd : scene_.crowds) {
-            names.push_back(scene_.meshes[crowd.mesh].name);
+        for (const Class& one : classes_) {
+            names.push_back(scene_.meshes[scene_.crowds[one.crowd].mesh].name);
         }
         std::vector<std::size_t> same(scene_.materials.size());
         for (std::size_t i = 0; i < same.size(); ++i) {
@@ -560,13 +573,13 @@ private:
         root_names_.assign(prims.begin(), prims.begin() + static_cast<std::ptrdiff_t>(nodes));
         material_names_.resize(same.size());
         for (std::size_t k = 0; k < written_materials_.size(); ++k) {
-            material_names_[written_materials_[k]] = prims[nodes + scene_.crowds.size() + k];
+            material_names_[written_materials_[k]] = prims[nodes + classes_.size() + k];
         }
         for (std::size_t i = 0; i < same.size(); ++i) {
             material_names_[i] = material_names_[same[i]];
             material_paths_.push_back(std::string(kRoot) + material_names_[i].prim);
         }
-        for (std::size_t k = 0; k < scene_.crowds.size(); ++k) {
+        for (std::size_t k = 0; k < classes_.size(); ++k) {
             class_names_.push_back(prims[nodes + k]);
         }
     }
@@ -576,7 +589,7 @@ private:
     {
         std::vector<std::size_t> shown;
         std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(shown), [this](std::size_t node) {
-            return scene_.nodes[node].mesh || crowd_of_[node] || !shownOf(scene_.nodes[node].children).empty();
+            return scene_.nodes[node].mesh || class_of_[node] || !shownOf(scene_.nodes[node].children).empty();
         });
         return shown;
     }
@@ -596,10 +609,10 @@ private:
             writeMesh(index, name, indent, true);
             return;
         }
-        if (crowd_of_[index]) {
+        if (class_of_[index]) {
             beginPrim(bytes_, indent, "Xform", name.prim,
                       {"instanceable = true",
-                       "prepend references = <" + std::string(kRoot) + class_names_[*crowd_of_[index]].prim + ">"});
+                       "prepend references = <" + std::string(kRoot) + class_names_[*class_of_[index]].prim + ">"});
         } else {
             beginPrim(bytes_, indent, "Xform", name.prim, {displayName(name)});
         }
@@ -637,14 +650,21 @@ private:
         writer.end(place, material_names_);
     }
 
-    /// Writes a crowd's mesh, which its copies refer to.
-    void writeClass(std::size_t crowd)
+    /// Writes the mesh of some of a crowd's copies, which refer to it.
+    void writeClass(std::size_t number)
     {
         const std::string indent = "    ";
-        const PrimName& name = class_names_[crowd];
+        const PrimName& name = class_names_[number];
+        const auto& [index, shape] = classes_[number];
+        const SceneCrowd& crowd = scene_.crowds[index];
+        SceneMesh mesh = scene_.meshes[crowd.mesh];
+        if (shape > 0) {
+            mesh.geometries.front().vertices = crowd.shapes[shape - 1].vertices;
+            mesh.geometries.front().normals = crowd.shapes[shape - 1].normals;
+        }
         bytes_.text("\n" + indent + "class Xform \"" + name.prim + "\"\n" + indent + "{\n");
         const MeshWriter::Place place{indent + "    ", {"surface", "surface"}, material_paths_};
-        MeshWriter writer(scene_, scene_.meshes[scene_.crowds[crowd].mesh], nullptr, bytes_);
+        MeshWriter writer(scene_, mesh, nullptr, bytes_);
         writer.begin(place);
         writer.end(place, material_names_);
         bytes_.text(indent + "}\n");
@@ -701,9 +721,10 @@ private:
     const Scene& scene_;
     ByteStream& bytes_;
     std::vector<std::vector<const SceneTrack*>> tracks_;  ///< of every node
-    std::vector<std::optional<std::size_t>> crowd_of_;    ///< of every node
-    std::vector<PrimName> root_names_;                    ///< of nodes
-    std::vector<PrimName> class_names_;                   ///< of crowds
+    std::vector<Class> classes_;
+    std::vector<std::optional<std::size_t>> class_of_;  ///< of every node
+    std::vector<PrimName> root_names_;                  ///< of nodes
+    std::vector<PrimName> class_names_;
     std::vector<PrimName> material_names_;
     std::vector<std::string> material_paths_;
     std::vector<std::size_t> written_materials_;

@@ -79,7 +79,7 @@ struct WindshieldAnimation::Content {
             checkTexture(histories.maxCount(), histories.frames());
             return;
         }
-        checkCrowd(histories, "less rain");
+        checkCrowd(histories, 0, "less rain");
     }
 };
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -127,14 +128,10 @@ std::vector<double> gaps(const FlowTerrain& terrain, const Surface& surface, con
 /// Volume of each droplet over its sample's.
 std::vector<double> volumes(const Surface& surface, const std::vector<FlowSample>& samples)
 {
-    std::vector<double> all(samples.size());
-    const std::size_t bodies_end = samples.size() * bodies().vertices();
-    const std::size_t base = (surface.vertices.size() - bodies_end) / std::max<std::size_t>(samples.size(), 1);
-    for (const auto& [a, b, c] : surface.triangles) {
-        const std::size_t i = a < bodies_end ? a / bodies().vertices() : (a - bodies_end) / base;
-        const Vec3 from = samples[i].place;
-        all[i] += dot(surface.vertices[a] - from, cross(surface.vertices[b] - from, surface.vertices[c] - from)) / 6.0 /
-                  samples[i].volume;
+    std::vector<double> all = seatedVolumes(surface, samples.size(), bodies());
+    EXPECT_NEAR(std::accumulate(all.begin(), all.end(), 0.0) / enclosedVolume(surface), 1.0, 1e-9);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        all[i] /= samples[i].volume;
     }
     std::sort(all.begin(), all.end());
     return all;

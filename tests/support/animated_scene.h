@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -90,6 +91,44 @@ public:
         return all;
     }
 
+    /// A droplet's mesh in its own frame, without compression.
+    struct Shape {
+        std::vector<Vec3> vertices;
+        std::vector<std::array<std::size_t, 3>> triangles;
+    };
+    /// Shapes of all slots.
+    [[nodiscard]] std::vector<Shape> shapes() const
+    {
+        std::vector<Shape> shapes;
+        for (const nlohmann::json& node : json_.at("nodes")) {
+            if (!node.contains("skin")) {
+                continue;
+            }
+            const std::size_t first = shapes.size();
+            const nlohmann::json& skin = json_.at("skins").at(node.at("skin").get<std::size_t>());
+            shapes.resize(first + skin.at("joints").size() - 2);
+            const nlohmann::json& primitive =
+                json_.at("meshes").at(node.at("mesh").get<std::size_t>()).at("primitives").at(0);
+            const nlohmann::json& attributes = primitive.at("attributes");
+            const auto vertices = array(attributes.at("POSITION"));
+            const auto joints = array(attributes.at("JOINTS_0"));
+            const auto slot = [&](std::size_t v) { return first + static_cast<std::size_t>(joints[v][0]); };
+            std::vector<std::size_t> numbers(vertices.size());
+            for (std::size_t v = 0; v < vertices.size(); ++v) {
+                if (slot(v) < shapes.size()) {
+                    numbers[v] = shapes[slot(v)].vertices.size();
+                    shapes[slot(v)].vertices.push_back({vertices[v][0], vertices[v][1], vertices[v][2]});
+                }
+            }
+            const auto corners = array(primitive.at("indices"));
+            for (std::size_t c = 0; c + 2 < corners.size(); c += 3) {
+                const auto at = [&](std::size_t k) { return static_cast<std::size_t>(corners[c + k][0]); };
+                shapes[slot(at(0))].triangles.push_back({numbers[at(0)], numbers[at(1)], numbers[at(2)]});
+            }
+        }
+        return shapes;
+    }
+
     /// The only picture of the file.
     [[nodiscard]] std::string png() const
     {
@@ -115,14 +154,22 @@ private:
             one.value("byteOffset", std::size_t{0});
         std::vector<std::vector<double>> rows(one.at("count").get<std::size_t>(), std::vector<double>(width));
         for (std::size_t i = 0; i < width * rows.size(); ++i) {
-            if (one.at("componentType") == 5122) {
-                std::int16_t number = 0;
-                std::memcpy(&number, buffer_.data() + offset + 2 * i, 2);
-                rows[i / width][i % width] = number / 32767.0;
-            } else {
-                float number = 0.0F;
-                std::memcpy(&number, buffer_.data() + offset + 4 * i, 4);
-                rows[i / width][i % width] = static_cast<double>(number);
+            const auto number = [&](auto kind) {
+                std::memcpy(&kind, buffer_.data() + offset + sizeof kind * i, sizeof kind);
+                return static_cast<double>(kind);
+            };
+            switch (one.at("componentType").get<int>()) {
+                case 5121:
+                    rows[i / width][i % width] = number(std::uint8_t{});
+                    break;
+                case 5122:
+                    rows[i / width][i % width] = number(std::int16_t{}) / 32767.0;
+                    break;
+                case 5123:
+                    rows[i / width][i % width] = number(std::uint16_t{});
+                    break;
+                default:
+                    rows[i / width][i % width] = number(float{});
             }
         }
         return rows;

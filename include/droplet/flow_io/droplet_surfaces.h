@@ -48,4 +48,10 @@ Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies
 Surface seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletBodies& bodies,
                        Vec3 gravity);
 
+/// Volumes of the droplets in a surface of seatedDroplets() [m³], in their order.
+/// @param seated  the surface
+/// @param count   number of its droplets
+/// @param bodies  their shapes
+std::vector<double> seatedVolumes(const Surface& seated, std::size_t count, const DropletBodies& bodies);
+
 }  // namespace droplet

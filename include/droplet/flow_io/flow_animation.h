@@ -8,6 +8,7 @@
 
 #include "droplet/body/droplet_body.h"
 #include "droplet/flow/flow.h"
+#include "droplet/flow/flow_terrain.h"
 #include "droplet/flow/object_motion.h"
 #include "droplet/flow_io/flow_object.h"
 #include "droplet/scene/format.h"
@@ -37,16 +38,19 @@ struct FlowAnimationOptions {
 /// half width, plus 2 ms of the way along a path; other tolerances are those of AnimationMethod::Nodes. There are three
 /// meshes of a droplet, all with the right volume: a round cap at rest, which is scaled alike in all directions; a head
 /// with a tail for running droplets, with the length and width of the droplet's body at every key; and a ball in the
-/// air. Joints lie in the object's node, which is animated if the object moves. The object has a material for each name
-/// in its file, without textures. Metres, +Y up.
+/// air. Droplets sit on the object as seatedDroplets() does it: their rims are within a twentieth of the contact radius
+/// of it at every frame, unless it bends more than a droplet can follow. Joints lie in the object's node, which is
+/// animated if the object moves. The object has a material for each name in its file, without textures. Metres, +Y up.
 class FlowAnimation {
 public:
     /// Makes an animation without frames.
     /// @param object   that the droplets run over
+    /// @param terrain  of this object's triangles; must outlive the animation
     /// @param bodies   shapes of the droplets; must outlive the animation
     /// @param options  frame rate, look, gravity
     /// @throws Error  InvalidArgument if an option is out of its range
-    FlowAnimation(FlowObject object, const DropletBodies& bodies, const FlowAnimationOptions& options = {});
+    FlowAnimation(FlowObject object, const FlowTerrain& terrain, const DropletBodies& bodies,
+                  const FlowAnimationOptions& options = {});
     ~FlowAnimation();
     FlowAnimation(FlowAnimation&&) noexcept;             ///< Moves all frames.
     FlowAnimation& operator=(FlowAnimation&&) noexcept;  ///< Moves all frames.
