@@ -140,7 +140,7 @@ std::vector<std::string> commandOf(const VideoWriterOptions& options, const std:
 {
     std::vector<std::string> command{"ffmpeg", "-nostdin", "-v", "error"};
     const auto add = [&](std::initializer_list<std::string> words) { command.insert(command.end(), words); };
-    // ProRes takes its tags from the frames.
+    // ProRes takes its tags from the frames; from version 7 on ffmpeg does so for all codecs.
     constexpr const char* kTagged = ",setparams=colorspace=bt709:color_primaries=bt709:color_trc=bt709:range=tv";
     const AlphaCodec* const alpha = options.alpha ? alphaCodecNamed(options.codec) : nullptr;
     add({"-f", "rawvideo", "-pix_fmt", alpha ? "rgba" : "rgb24"});
@@ -152,7 +152,7 @@ std::vector<std::string> commandOf(const VideoWriterOptions& options, const std:
         add({"-vf",
              std::string(
                  "scale=out_color_matrix=bt709:out_range=tv:flags=bicubic+accurate_rnd+full_chroma_int,format=") +
-                 (alpha ? std::string(alpha->pixels) + kTagged : "yuv420p")});
+                 (alpha ? alpha->pixels : "yuv420p") + kTagged});
         add({"-colorspace", "bt709", "-color_range", "tv"});
     }
     add({"-color_primaries", "bt709", "-color_trc", "bt709"});

@@ -251,7 +251,7 @@ TEST(Documentation, ZshCompletesOptionsAndTheirValues)
 TEST(Documentation, ManualIsCleanRoff)
 {
     const std::string file = testing::inSource("cli/droplet-shape.1");
-    const auto formatted = runProgram({"groff", "-man", "-ww", "-Tutf8", file});
+    const auto formatted = runProgram({"groff", "-man", "-ww", "-Tutf8", "-P-cbou", file});
     ASSERT_EQ(formatted.exit_code, 0) << "groff must be installed (Debian: groff-base)";
     EXPECT_EQ(formatted.error, "");
     EXPECT_THAT(formatted.output, HasSubstr("DROPLET-SHAPE(1)"));

@@ -675,6 +675,7 @@ private:
             return;
         }
         const double factor = 1.0 / std::sqrt(area);
+        set(element, "vector-effect", "none");  // librsvg 2.60 knows it, too
         for (const char* name : {"stroke-width", "stroke-dasharray", "stroke-dashoffset"}) {
             const auto value = styles_.inherited(element, name);
             if (!value && std::strcmp(name, "stroke-width") != 0) {
