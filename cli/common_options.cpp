@@ -78,7 +78,8 @@ RunOptions readRun(const CommandLine& line)
     options.verbosity = line.flag("--quiet") ? Verbosity::Quiet
                         : flag("--verbose")  ? Verbosity::Verbose
                                              : Verbosity::Normal;
-    if (const auto progress = line.value("--progress")) {
+    const auto progress = line.knows("--progress") ? line.value("--progress") : std::nullopt;
+    if (progress) {
         options.progress = choice<ProgressMode>(
             *progress, {{"auto", ProgressMode::Auto}, {"none", ProgressMode::None}, {"json", ProgressMode::Json}});
     }

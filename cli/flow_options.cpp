@@ -10,6 +10,7 @@
 #include "droplet/units.h"
 #include "files.h"
 #include "force_options.h"
+#include "object_options.h"
 #include "option_values.h"
 #include "value_list.h"
 #include "video_writer.h"
@@ -21,7 +22,6 @@ using droplet::Dimension;
 using droplet::Vec3;
 
 constexpr Range kVolume{Dimension::Volume, 1e-13, 1e-3, "from 0.1nL to 1L"};
-constexpr Range kSize{Dimension::Length, 1e-4, 1e3, "from 0.1mm to 1000m"};
 constexpr Range kRadius{Dimension::Length, 1e-5, 0.1, "from 0.01mm to 100mm"};
 constexpr Range kRain{Dimension::Rainfall, 0.0, 1000.0 * droplet::kMillimetrePerHour, "from 0mm/h to 1000mm/h"};
 constexpr Range kBump{Dimension::Length, 0.0, 0.1, "from 0mm to 100mm"};
@@ -75,13 +75,7 @@ void declare(CommandLine& line, FlowOptions& options)
     constexpr const char* kObject = "Object";
     line.add(kObject, "--preset", presetNames().c_str(),
              "Named scene with its own object and droplets, instead of OBJECT; other options change it");
-    line.add(kObject, "--scale", "NUMBER", "Factor on the lengths of the file [1]",
-             into(options.reading.scale, NumberRange{1e-9, 1e9, "a number from 1e-9 to 1e9"}));
-    line.add(kObject, "--object-size,--size", "LENGTH", "Longest side of the object; scales it",
-             into(options.reading.size, kSize));
-    line.exclude({"--scale", "--object-size"});
-    line.add(kObject, "--up", "Axis that points up in an .obj, .ply or .stl [y, of .ply z]",
-             into(options.reading.up, {{"y", droplet::UpAxis::Y}, {"z", droplet::UpAxis::Z}}));
+    declareReading(line, kObject, options.reading);
     line.add(kObject, "--spin", "ANGLE/s", "Turn the object, such as 30deg/s");
     line.add(kObject, "--spin-axis", "X,Y,Z", "Axis through the origin that --spin turns it about [0,1,0]");
     line.add(kObject, "--motion", "FILE",
@@ -190,55 +184,6 @@ std::optional<std::string> text(const CommandLine& line, const char* option)
 {
     const auto given = line.value(option);
     return given ? std::optional(given->text) : std::nullopt;
-}
-
-/// A number in SI units, or a quantity.
-double plainOr(const Given& given, const Range& range)
-{
-    if (const auto plain = finiteNumber(given.text)) {
-        if (*plain < range.min || *plain > range.max) {
-            refuse(given, range.allowed);
-        }
-        return *plain;
-    }
-    return quantity(given, range);
-}
-
-std::vector<Given> partsOf(const Given& given)
-{
-    std::vector<Given> parts;
-    std::string_view rest = given.text;
-    for (;;) {
-        const std::size_t comma = rest.find(',');
-        parts.push_back({std::string(rest.substr(0, comma)), given.subject});
-        if (comma == std::string_view::npos) {
-            return parts;
-        }
-        rest.remove_prefix(comma + 1);
-    }
-}
-
-/// A vector of a file's frame, turned to z up.
-Vec3 vector(const Given& given, const Range& range)
-{
-    const std::vector<Given> parts = partsOf(given);
-    if (parts.size() != 3) {
-        refuse(given, "three numbers x,y,z");
-    }
-    const double x = plainOr(parts[0], range);
-    const double y = plainOr(parts[1], range);
-    const double z = plainOr(parts[2], range);
-    return {x, 0.0 - z, y};
-}
-
-Vec3 direction(const Given& given)
-{
-    constexpr Range kNumber{Dimension::Length, -1e6, 1e6, "three numbers x,y,z from -1e6 to 1e6"};
-    const Vec3 d = vector(given, kNumber);
-    if (!(length(d) > 0.0)) {
-        refuse(given, "a direction x,y,z other than 0,0,0");
-    }
-    return (1.0 / length(d)) * d;
 }
 
 /// A quantity per second, minute or hour.

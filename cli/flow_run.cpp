@@ -26,6 +26,7 @@
 #include "film.h"
 #include "flow_files.h"
 #include "flow_plan.h"
+#include "object_options.h"
 #include "option_values.h"
 #include "stage_clock.h"
 #include "surface_files.h"
@@ -117,18 +118,6 @@ private:
 droplet::Format formatOf(const std::string& path)
 {
     return droplet::formatNamed(std::filesystem::path(path).extension().string().substr(1));
-}
-
-/// Turns a surface to the axes of the object's file, for formats that are written z up.
-void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet::FlowObjectOptions& reading)
-{
-    const bool is_z_up_file = format == droplet::Format::Ply || format == droplet::Format::Stl;
-    if (!is_z_up_file || reading.up == droplet::UpAxis::Z) {
-        return;
-    }
-    const auto turn = [](droplet::Vec3& v) { v = {v.x, v.z, 0.0 - v.y}; };
-    std::for_each(surface.vertices.begin(), surface.vertices.end(), turn);
-    std::for_each(surface.normals.begin(), surface.normals.end(), turn);
 }
 
 droplet::StreakRibbonOptions ribbonOptions(const droplet::FlowParameters& parameters)
@@ -333,8 +322,8 @@ void FlowRun::warnOfLostVolume()
     }
     if (count > 0) {
         report_.warnings.push_back(fmt::format(
-            "{}: {} of {} droplets at the end sit where the object bends more than they can follow, and are shown with "
-            "less than 99 % of their volume; smaller droplets, or a smoother object, keep it",
+            "{}: {} of {} droplets at the end sit where the object ends, or bends more than they can follow, and are "
+            "shown with less than 99 % of their volume; smaller droplets keep it",
             report_.input, count, samples.size()));
     }
 }

@@ -2,6 +2,7 @@
 #include <array>
 
 #include "commands.h"
+#include "dew_command.h"
 #include "flow_command.h"
 #include "liquid2d_command.h"
 #include "morph_command.h"
@@ -12,8 +13,11 @@ namespace cli {
 
 std::span<const Command> motionCommands()
 {
-    static constexpr std::array kCommands{Command{"flow", runFlow}, Command{"liquid2d", runLiquid2d},
-                                          Command{"morph", runMorph}, Command{"wind-tunnel", runWindTunnel},
+    static constexpr std::array kCommands{Command{"dew", runDew},
+                                          Command{"flow", runFlow},
+                                          Command{"liquid2d", runLiquid2d},
+                                          Command{"morph", runMorph},
+                                          Command{"wind-tunnel", runWindTunnel},
                                           Command{"windshield", runWindshield}};
     return kCommands;
 }

@@ -16,6 +16,7 @@ const std::vector<std::pair<std::string, std::string>>& programCommands()
         {"animate", "Make animated droplets from frames or a video"},
         {"batch", "Make droplets from many pictures"},
         {"compare", "Measure the difference of two surfaces"},
+        {"dew", "Cover an object with droplets that rest on it"},
         {"flow", "Let droplets run over a mesh"},
         {"glyphs", "Make droplets from type"},
         {"liquid2d", "Draw an animation of liquid in the plane"},

@@ -16,6 +16,7 @@ _droplet_shape()
         animate) options='--volume-mode --fps --contact-sheet --preview --view --camera --preview-size --codec --quality --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --compress --html --json --resume --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         batch) options='--output --recursive --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --by-colour --colours --gap --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --sink --compress --colour-map --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         compare) options='--tolerance --volume-tolerance --normal-tolerance --json --picture --no-clobber --threads --quiet --config --help --version' ;;
+        dew) options='--scale --object-size --up --preset --coverage --smallest --largest --sizes --median --spread --from --mask --seed --hysteresis --gravity-direction --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --material --instancing --droplets-only --compress --droplets --no-clobber --threads --quiet --config --help --version' ;;
         flow) options='--preset --scale --object-size --up --spin --spin-axis --motion --no-animation --drops --volume --radius --volume-spread --from --mask --start --emitter --rain --condensation --dew-spacing --retention --hysteresis --friction --roughness --roughness-map --friction-map --ground --adhesion --gravity-direction --wind-velocity --no-merge --no-wetting --film --bead-spacing --drying --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --fps --seed --shape --material --compress --streaks --maps --map-width --map-thickness --map-age --droplets --json --preview --view --camera --preview-size --turntable --codec --quality --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
         glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --by-colour --palette --text-colour --gap --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --sink --compress --preview --view --camera --preview-size --ground --environment --preview-background --preview-colour --turntable --codec --quality --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         liquid2d) options='--scene --particle-count --walls --gravity --surface-tension --particles --particle-scale --plane --spacing --time --fps --style --tail --tail-slope --max-tail --air --release --max-air --eraser-share --no-crest-gate --smoothing --fairing --resolution --frame-width --look --line-width --masks --codec --quality --alpha --json --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
@@ -25,7 +26,7 @@ _droplet_shape()
         windshield) options='--preset --rain --speed --drive-cycle --wind-model --noise --wiper-period --seed --glass-width --glass-height --glass-radius --slope --surface --hysteresis --still-diameter --film --shape --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --environment --background-blur --frame-size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --map-thickness --droplets --moving-only --animation --animation-method --compress --json --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
         *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --by-colour --colours --gap --mask-out --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --sink --compress --colour-map --preview --view --camera --preview-size --ground --environment --preview-background --preview-colour --turntable --codec --quality --json --html --export-evolver --watch --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
     esac
-    [[ ' animate batch compare flow glyphs liquid2d morph studio wind-tunnel windshield ' == *" $command "* ]] || command=
+    [[ ' animate batch compare dew flow glyphs liquid2d morph studio wind-tunnel windshield ' == *" $command "* ]] || command=
     case $command:$previous in
         *:--width) return ;;
         *:--pixel-size) return ;;
@@ -60,6 +61,7 @@ _droplet_shape()
         *:--triangles) return ;;
         *:--edge) return ;;
         *:--grading) choices='auto 1 2 4 8 16 32 64' ;;
+        dew:--material) return ;;
         flow:--material) return ;;
         *:--material) choices='water ink mercury honey plain' ;;
         *:--unit) choices='m cm mm' ;;
@@ -100,45 +102,54 @@ _droplet_shape()
         *:--volume-tolerance) return ;;
         *:--normal-tolerance) return ;;
         *:--picture) files=1 ;;
-        wind-tunnel:--preset) choices='hashimoto thesis thesis,hashimoto' ;;
-        windshield:--preset) choices='figure-3.10 figure-3.11 figure-3.12' ;;
-        *:--preset) choices='masses viscosities adhesions roughnesses tear forces bottle leaf car' ;;
         *:--scale) return ;;
         *:--object-size) return ;;
         *:--up) choices='y z' ;;
-        *:--spin) return ;;
-        *:--spin-axis) return ;;
-        *:--motion) files=1 ;;
-        *:--drops) return ;;
-        *:--radius) return ;;
-        *:--volume-spread) return ;;
+        flow:--preset) choices='masses viscosities adhesions roughnesses tear forces bottle leaf car' ;;
+        wind-tunnel:--preset) choices='hashimoto thesis thesis,hashimoto' ;;
+        windshield:--preset) choices='figure-3.10 figure-3.11 figure-3.12' ;;
+        *:--preset) choices='dew rain bottle shower mist' ;;
+        *:--coverage) return ;;
+        *:--smallest) return ;;
+        *:--largest) return ;;
+        *:--sizes) choices='condensation lognormal' ;;
+        *:--median) return ;;
+        *:--spread) return ;;
         *:--from) return ;;
         *:--mask) files=1 ;;
-        *:--start) files=1 ;;
-        *:--emitter) return ;;
-        *:--rain) return ;;
-        *:--condensation) return ;;
-        *:--dew-spacing) return ;;
-        *:--retention) choices='capillary paper' ;;
+        *:--seed) return ;;
         *:--hysteresis) return ;;
-        *:--friction) return ;;
-        *:--roughness) return ;;
-        *:--roughness-map) files=1 ;;
-        *:--friction-map) files=1 ;;
-        *:--adhesion) return ;;
         *:--gravity-direction) return ;;
-        *:--wind-velocity) return ;;
-        *:--film) return ;;
-        *:--bead-spacing) return ;;
-        *:--drying) return ;;
         *:--viscosity-factor) choices='artistic wedge' ;;
         *:--kinetic-fraction) return ;;
         *:--drag-coefficient) return ;;
         *:--boundary-layer) return ;;
         *:--profile-exponent) return ;;
         *:--air-density) return ;;
+        *:--instancing) choices='auto none nodes gpu' ;;
+        *:--droplets) files=1 ;;
+        *:--spin) return ;;
+        *:--spin-axis) return ;;
+        *:--motion) files=1 ;;
+        *:--drops) return ;;
+        *:--radius) return ;;
+        *:--volume-spread) return ;;
+        *:--start) files=1 ;;
+        *:--emitter) return ;;
+        *:--rain) return ;;
+        *:--condensation) return ;;
+        *:--dew-spacing) return ;;
+        *:--retention) choices='capillary paper' ;;
+        *:--friction) return ;;
+        *:--roughness) return ;;
+        *:--roughness-map) files=1 ;;
+        *:--friction-map) files=1 ;;
+        *:--adhesion) return ;;
+        *:--wind-velocity) return ;;
+        *:--film) return ;;
+        *:--bead-spacing) return ;;
+        *:--drying) return ;;
         *:--time) return ;;
-        *:--seed) return ;;
         windshield:--shape) choices='capillary capsule' ;;
         *:--shape) choices='capillary springs capsule' ;;
         *:--streaks) files=1 ;;
@@ -146,7 +157,6 @@ _droplet_shape()
         *:--map-width) return ;;
         *:--map-thickness) return ;;
         *:--map-age) return ;;
-        *:--droplets) files=1 ;;
         *:--font) files=1 ;;
         *:--face-index) return ;;
         *:--axis) return ;;
@@ -226,7 +236,7 @@ _droplet_shape()
     else
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
         if ((COMP_CWORD == 1)); then
-            mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W 'animate batch compare flow glyphs liquid2d morph studio wind-tunnel windshield' -- "$word")
+            mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W 'animate batch compare dew flow glyphs liquid2d morph studio wind-tunnel windshield' -- "$word")
         fi
     fi
 }

@@ -19,6 +19,7 @@
 #include "byte_stream.h"
 #include "droplet/error.h"
 #include "droplet/flow_io/droplet_surfaces.h"
+#include "flow_io/object_scene.h"
 #include "flow_io/unit_bodies.h"
 #include "io/droplet_crowd.h"
 #include "require.h"
@@ -32,44 +33,10 @@ std::array<float, 3> floatsOf(Vec3 v)
     return {toFloat(v.x), toFloat(v.y), toFloat(v.z)};
 }
 
-SceneMaterial opaque(const std::string& name, double roughness)
-{
-    Look look;
-    look.name = name;
-    look.roughness = roughness;
-    look.transmission = 0.0;
-    return {.look = std::move(look), .both_sides = true};
-}
-
-/// Adds the object, with a material for each name in its file, and its node; returns the node.
-std::size_t addObject(const FlowObject& object, Scene& scene)
-{
-    SceneMesh mesh{"object"};
-    SceneGeometry& geometry = mesh.geometries.emplace_back();
-    geometry.vertices = sceneVectors(object.vertices);
-    geometry.normals = sceneVectors(object.normals);
-    geometry.uvs = sceneCoordinates(object.uvs);
-    std::vector<std::string> names = object.material_names;
-    names.resize(std::max<std::size_t>(names.size(), 1), "object");
-    std::vector<ScenePart> parts(names.size());
-    for (std::size_t i = 0; i < object.triangles.size(); ++i) {
-        parts.at(object.materials.empty() ? 0 : object.materials[i]).triangles.push_back(object.triangles[i]);
-    }
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (!parts[i].triangles.empty()) {
-            SceneMaterial material = opaque(names[i], 0.6);
-            material.look.colour = {0.6, 0.6, 0.6};
-            parts[i].material = scene.addMaterial(std::move(material));
-            geometry.parts.push_back(std::move(parts[i]));
-        }
-    }
-    return scene.addNode({"object", scene.addMesh(std::move(mesh))});
-}
-
 /// Adds a mesh of streaks on the object.
 void addStreaks(const Surface& streaks, std::size_t object, Scene& scene)
 {
-    SceneMaterial wet = opaque("streaks", 0.05);
+    SceneMaterial wet = opaqueMaterial("streaks", 0.05);
     wet.look.colour = {0.85, 0.92, 1.0};
     wet.opacity = 0.25;
     const DropletMesh mesh{streaks.vertices, streaks.normals, streaks.triangles, streaks.uvs};

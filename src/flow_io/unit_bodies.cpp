@@ -269,6 +269,19 @@ DropletShape seatedBody(const FlowTerrain& terrain, const DropletMesh& mesh, std
     return {std::move(seated.vertices), std::move(seated.normals)};
 }
 
+DropletShape inObject(const DropletShape& shape, const DropletPose& pose)
+{
+    const UnitFrame unit(pose);
+    DropletShape moved = shape;
+    for (Vec3& p : moved.vertices) {
+        p = unit.toObject(p);
+    }
+    for (Vec3& n : moved.normals) {
+        n = unit.normalToObject(n);
+    }
+    return moved;
+}
+
 double rimGap(const FlowTerrain& terrain, const std::vector<Vec3>& vertices, std::size_t rim, const DropletPose& pose)
 {
     const UnitFrame unit(pose);

@@ -38,6 +38,9 @@ DropletFrame frameOf(const DropletPose& pose);
 /// @param rim  BodyDetail::around of the mesh
 DropletShape seatedBody(const FlowTerrain& terrain, const DropletMesh& mesh, std::size_t rim, const DropletPose& pose);
 
+/// A shape in a pose, in the object's frame.
+DropletShape inObject(const DropletShape& shape, const DropletPose& pose);
+
 /// Largest distance of a rim from the ground, over the contact radius.
 /// @param vertices  of a mesh of unitBody(), or of seatedBody()
 /// @param rim       BodyDetail::around of the mesh

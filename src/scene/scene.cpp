@@ -33,6 +33,22 @@ std::size_t Scene::addMaterial(SceneMaterial material)
     return materials.size() - 1;
 }
 
+void Scene::spreadInstances()
+{
+    for (const SceneInstances& one : instances) {
+        SceneCrowd crowd{one.mesh, {}, one.parent};
+        for (std::size_t i = 0; i < one.translations.size(); ++i) {
+            SceneNode node;
+            std::copy(one.translations[i].begin(), one.translations[i].end(), node.translation.begin());
+            std::copy(one.rotations[i].begin(), one.rotations[i].end(), node.rotation.begin());
+            std::copy(one.scales[i].begin(), one.scales[i].end(), node.scale.begin());
+            crowd.nodes.push_back(addNode(std::move(node), one.parent));
+        }
+        crowds.push_back(std::move(crowd));
+    }
+    instances.clear();
+}
+
 std::size_t Scene::addTimes(std::vector<float> keys)
 {
     times.push_back(std::move(keys));

@@ -97,6 +97,15 @@ struct SceneCrowd {
     [[nodiscard]] std::size_t shapeOf(std::size_t copy) const { return shape_of.empty() ? 0 : shape_of[copy]; }
 };
 
+/// Copies of a mesh that stay where they are.
+struct SceneInstances {
+    std::size_t mesh = 0;              ///< with one geometry, without targets; of no node
+    std::size_t parent = 0;            ///< node above all copies
+    std::vector<Float3> translations;  ///< [m]
+    std::vector<Float4> rotations;     ///< quaternions, x first, w last
+    std::vector<Float3> scales;
+};
+
 /// What a track changes.
 enum class SceneChange { Translation, Rotation, Scale, Weights };
 
@@ -123,6 +132,9 @@ struct Scene {
     std::vector<SceneNode> nodes = {};
     std::vector<std::size_t> roots = {};  ///< nodes without a parent
     std::vector<SceneCrowd> crowds = {};
+    std::vector<SceneInstances> instances = {};
+    /// Whether glTF has instances by EXT_mesh_gpu_instancing; otherwise each one is a node.
+    bool gpu_instancing = false;
     std::vector<std::size_t> corners = {};  ///< nodes at corners of a box that holds the crowds at all times
     std::optional<ScenePicture> picture = {};
     std::string animation = {};                  ///< name
@@ -138,6 +150,8 @@ struct Scene {
     std::size_t addMesh(SceneMesh mesh);
     /// Adds a material; returns its index.
     std::size_t addMaterial(SceneMaterial material);
+    /// Makes crowds of all instances, each copy with a node.
+    void spreadInstances();
     /// Adds times of keys; returns their index.
     std::size_t addTimes(std::vector<float> keys);
 };

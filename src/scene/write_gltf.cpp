@@ -252,6 +252,12 @@ public:
         for (const SceneCrowd& crowd : scene.crowds) {
             addCrowd(crowd);
         }
+        for (const SceneInstances& instances : scene.instances) {
+            addInstances(instances);
+        }
+        if (!scene.instances.empty() && scene.gpu_instancing) {
+            require("EXT_mesh_gpu_instancing");
+        }
         addTracks();
         addPicture();
         if (compression_ != Compression::None) {
@@ -278,7 +284,14 @@ private:
         for (const SceneCrowd& crowd : scene_.crowds) {
             crowd_of_[crowd.mesh] = &crowd;
         }
+        is_instanced_.assign(scene_.meshes.size(), false);
+        for (const SceneInstances& instances : scene_.instances) {
+            is_instanced_[instances.mesh] = true;
+        }
     }
+
+    /// Whether a mesh is one of copies, which are scaled, so that it is not in the cube of all meshes.
+    [[nodiscard]] bool isCopied(std::size_t mesh) const { return crowd_of_[mesh] || is_instanced_[mesh]; }
 
     void findCube()
     {
@@ -289,7 +302,7 @@ private:
         double longest = 0.0;
         for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
             for (const SceneGeometry& geometry : scene_.meshes[i].geometries) {
-                if (crowd_of_[i]) {
+                if (isCopied(i)) {
                     continue;
                 }
                 const std::vector<Vec3> own = vectorsOf(geometry.vertices);
@@ -310,7 +323,7 @@ private:
         for (std::size_t i = 0; cube_ && i < scene_.meshes.size(); ++i) {
             for (const SceneGeometry& geometry : scene_.meshes[i].geometries) {
                 for (const ScenePart& part : geometry.parts) {
-                    is_small[part.material] = !crowd_of_[i];
+                    is_small[part.material] = !isCopied(i);
                 }
             }
         }
@@ -351,7 +364,7 @@ private:
                 optimize(copies);
                 shown = &copies.geometry;
             }
-            addPrimitives(*shown, nullptr, cube_, mesh);
+            addPrimitives(*shown, nullptr, is_instanced_[index] ? std::nullopt : cube_, mesh);
         }
         model_.meshes.push_back(std::move(mesh));
     }
@@ -622,6 +635,32 @@ private:
         }
     }
 
+    void addInstances(const SceneInstances& instances)
+    {
+        if (!scene_.gpu_instancing) {
+            for (std::size_t i = 0; i < instances.translations.size(); ++i) {
+                tinygltf::Node node;
+                node.mesh = static_cast<int>(instances.mesh);
+                node.translation.assign(instances.translations[i].begin(), instances.translations[i].end());
+                node.rotation.assign(instances.rotations[i].begin(), instances.rotations[i].end());
+                node.scale.assign(instances.scales[i].begin(), instances.scales[i].end());
+                model_.nodes[instances.parent].children.push_back(static_cast<int>(model_.nodes.size()));
+                model_.nodes.push_back(std::move(node));
+            }
+            return;
+        }
+        tinygltf::Node node;
+        node.name = scene_.meshes[instances.mesh].name;
+        node.mesh = static_cast<int>(instances.mesh);
+        Value::Object attributes;
+        attributes["TRANSLATION"] = Value(buffer_.add(arrayOf(instances.translations), GltfContent::Other));
+        attributes["ROTATION"] = Value(buffer_.add(arrayOf(instances.rotations), GltfContent::Other));
+        attributes["SCALE"] = Value(buffer_.add(arrayOf(instances.scales), GltfContent::Other));
+        node.extensions["EXT_mesh_gpu_instancing"] = Value(Value::Object{{"attributes", Value(std::move(attributes))}});
+        model_.nodes[instances.parent].children.push_back(static_cast<int>(model_.nodes.size()));
+        model_.nodes.push_back(std::move(node));
+    }
+
     /// Numbers of an animation with one size are in one view.
     class TrackArrays {
     public:
@@ -727,7 +766,8 @@ private:
     tinygltf::Model model_;
     GltfBuffer buffer_;
     std::vector<const SceneCrowd*> crowd_of_;  ///< of every mesh, or null
-    std::optional<QuantizationCube> cube_;     ///< of all meshes but those of crowds
+    std::vector<bool> is_instanced_;           ///< of every mesh
+    std::optional<QuantizationCube> cube_;     ///< of all meshes but those of copies
     std::map<std::size_t, QuantizationCube> crowd_cubes_;
     std::deque<Copies> copies_;  ///< what arrays refer to
     std::deque<std::vector<std::array<float, 16>>> matrices_;

@@ -16,6 +16,11 @@ std::uint64_t writeScene(const Scene& scene, std::ostream& out, const AnimatedFi
                     std::string("format = ") + name(file.format) + " holds no animations; glb, gltf, usda and usdz do");
     }
     const bool is_usd = file.format == Format::Usda || file.format == Format::Usdz;
+    if (is_usd && !scene.instances.empty()) {
+        Scene spread = scene;
+        spread.spreadInstances();
+        return writeUsd(spread, out, file);
+    }
     return is_usd ? writeUsd(scene, out, file) : writeGltf(scene, out, file);
 }
 

@@ -16,7 +16,7 @@ constexpr std::uint64_t mix(std::uint64_t z)
 }
 
 /// Purpose of random numbers; streams of different purposes are independent.
-enum class RandomPurpose : std::uint64_t { Raindrop = 1, Fluctuation, Bead, Scatter, Emission, Nucleus, TornPart };
+enum class RandomPurpose : std::uint64_t { Raindrop = 1, Fluctuation, Bead, Scatter, Emission, Nucleus, TornPart, Dew };
 
 /// Random numbers without a state: each is a function of seed, purpose, id and counter.
 class RandomStream {

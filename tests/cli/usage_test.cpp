@@ -58,7 +58,7 @@ TEST_F(UsageTest, HelpAndVersionGoToStandardOutput)
 TEST_F(UsageTest, HelpFitsATerminalOfEightyColumns)
 {
     for (const std::string command :
-         {"", "animate", "batch", "compare", "flow", "glyphs", "liquid2d", "morph", "wind-tunnel", "windshield"}) {
+         {"", "animate", "batch", "compare", "dew", "flow", "glyphs", "liquid2d", "morph", "wind-tunnel", "windshield"}) {
         std::istringstream help(
             run(command.empty() ? std::vector<std::string>{"--help"} : std::vector<std::string>{command, "--help"})
                 .output);
@@ -71,7 +71,7 @@ TEST_F(UsageTest, HelpFitsATerminalOfEightyColumns)
 /// --help=json tells programs what --help tells people.
 TEST_F(UsageTest, HelpForProgramsHasTheOptionsOfTheHelp)
 {
-    for (const std::string command : {"", "animate", "batch", "compare", "flow", "glyphs", "liquid2d", "morph",
+    for (const std::string command : {"", "animate", "batch", "compare", "dew", "flow", "glyphs", "liquid2d", "morph",
                                       "studio", "wind-tunnel", "windshield"}) {
         SCOPED_TRACE(command);
         const auto told = [&](const std::string& form) {

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dew_command.h"
+
+#include <fmt/core.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "dew_options.h"
+#include "droplet/body/droplet_body.h"
+#include "droplet/flow_io/face_properties.h"
+#include "droplet/flow_io/flow_table.h"
+#include "droplet/mask/mask.h"
+#include "files.h"
+#include "object_options.h"
+#include "option_values.h"
+#include "run_command.h"
+#include "run_files.h"
+#include "surface_files.h"
+#include "terminal.h"
+
+namespace cli {
+namespace {
+
+RunFiles filesOf(const DewCommandOptions& options)
+{
+    RunFiles files;
+    files.reads("OBJECT", options.object);
+    files.reads("--mask", options.mask);
+    files.reads("--config", options.run.config);
+    files.writes("OUTPUT", options.output);
+    files.writes("OUTPUT's material", materialFile(options.output, options.file.file.format));
+    files.writes("--droplets", options.droplets);
+    return files;
+}
+
+RunEnd made(const DewCommandOptions& options)
+{
+    const droplet::FlowObject object = droplet::readFlowObject(options.object, options.reading);
+    const droplet::FlowTerrain terrain(
+        forOption(options.object, [&] { return droplet::flowSurface(object.vertices, object.triangles); }));
+    droplet::DewOptions dew = options.dew;
+    std::optional<droplet::Mask> mask;
+    if (options.mask) {
+        mask = droplet::readMask(*options.mask);
+        dew.weight = forOption("--mask", [&] { return droplet::coverageOver(*mask, object, terrain.surface()); });
+    }
+    const droplet::DewDroplets droplets = forOption("--coverage", [&] { return droplet::dewDroplets(terrain, dew); });
+    const droplet::DropletBodies bodies(droplet::BodyShape::Capillary, dew.forces);
+    const droplet::DewModel model(terrain, droplets.samples, bodies, dew.gravity);
+
+    std::vector<droplet::FlowSample> shown;
+    for (const std::size_t i : model.shown()) {
+        shown.push_back(droplets.samples[i]);
+    }
+    std::vector<OutputFile> files;
+    droplet::Surface surface;
+    std::uint64_t bytes = 0;
+    const droplet::Format format = options.file.file.format;
+    if (droplet::isAnimated(format)) {
+        files.push_back({options.output, [&](std::ostream& out) { model.write(object, out, options.file); }});
+    } else {
+        surface = model.surface();
+        turnToFile(surface, format, options.reading);
+        SurfaceTarget target{options.output, format, {}};
+        target.options.material = options.file.material;
+        files = surfaceFiles(surface, target, bytes);
+    }
+    if (options.droplets) {
+        files.push_back({*options.droplets, [&](std::ostream& out) {
+                             const bool is_json = lowerExtension(*options.droplets) == ".json";
+                             droplet::FlowTable table(out,
+                                                      is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv);
+                             table.add(1, 0.0, shown, terrain.surface());
+                             table.finish();
+                         }});
+    }
+    writeTogether(files, options.run.files);
+
+    double volume = 0.0;
+    for (const droplet::FlowSample& sample : shown) {
+        volume += sample.volume;
+    }
+    RunEnd end;
+    end.summary = fmt::format("{} droplets, {:.4g} mL, cover {:.3g} of {:.4g} cm2\n", shown.size(), volume / 1e-6,
+                              droplets.covered / droplets.area, droplets.area / 1e-4) +
+                  fmt::format("{} joined others; {} ran off; {} left out, where the object bends too much\n",
+                              droplets.joined, droplets.run_off, droplets.samples.size() - shown.size()) +
+                  oneLine(options.output) + "\n";
+    end.warnings = object.warnings;
+    return end;
+}
+
+}  // namespace
+
+int runDew(int argc, const char* const* argv)
+{
+    const auto parsed = parseDew(argc, argv);
+    if (const auto* text = std::get_if<std::string>(&parsed)) {
+        print(*text);
+        return 0;
+    }
+    const auto& options = std::get<DewCommandOptions>(parsed);
+    checkFiles(filesOf(options), options.run.files);
+    runAndTell(options.run, [&](ProgressDisplay&) { return made(options); });
+    return 0;
+}
+
+}  // namespace cli

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "droplet/flow/flow.h"
+#include "droplet/flow/flow_terrain.h"
+#include "droplet/vector.h"
+#include "droplet/wind/forces.h"
+
+namespace droplet {
+
+/// How many droplets have which contact radius r.
+enum class DewSizes {
+    /// Droplets that condensed, grew and joined: n(r) ∝ r^(−8/3) (E. J. Le Fevre and J. W. Rose, "A theory of heat
+    /// transfer by dropwise condensation", Proc. 3rd Int. Heat Transfer Conf. 2 (1966) 362).
+    Condensation,
+    LogNormal,  ///< the logarithm of r has a normal distribution: sprayed or rained on
+};
+
+/// Options of dewDroplets.
+struct DewOptions {
+    double coverage = 0.4;     ///< share of the surface below droplets, from 0.001 to 0.7
+    double smallest = 0.2e-3;  ///< contact radius of the smallest droplets [m], > 0
+    double largest = 1.2e-3;   ///< of the largest ones [m], ≥ smallest; larger ones come from joining
+    DewSizes sizes = DewSizes::Condensation;
+    double median = 0.6e-3;                        ///< of the radii, LogNormal [m], > 0
+    double spread = 0.5;                           ///< standard deviation of their logarithm, LogNormal, from 0 to 3
+    ForceModel forces = {};                        ///< liquid, contact angle, and the slopes that hold a droplet
+    Vec3 gravity = {0.0, 0.0, -kStandardGravity};  ///< in the object's frame [m/s²]
+    std::optional<Vec3> from = {};  ///< only where rain from this direction meets the object first; not 0
+    /// Probability, 0 … 1, that a point of the surface may have a droplet; empty: 1.
+    std::function<double(const FlowTerrain::Point&)> weight = {};
+    std::uint64_t seed = 1;  ///< of the random numbers
+
+    /// Checks all fields.
+    /// @throws Error InvalidArgument if a field is out of its range
+    void validate() const;
+};
+
+/// Droplets at rest on an object.
+struct DewDroplets {
+    std::vector<FlowSample> samples;  ///< at rest, from large to small as they were placed; ids count from 0
+    double area = 0.0;                ///< of the surface where droplets may be [m²]
+    double covered = 0.0;             ///< of it, below droplets [m²]
+    std::size_t joined = 0;           ///< droplets that found no room and became part of others
+    std::size_t run_off = 0;          ///< droplets that no place holds
+};
+
+/// Covers an object with droplets at rest.
+///
+/// Droplets are placed at random from large to small. None touches another; one that finds no room in some tries joins
+/// the one that it met, which grows and may meet others. None is larger than its slope holds: contact angle hysteresis,
+/// as for droplets that run.
+///
+/// Guarantees: the same options give the same droplets.
+/// @param terrain  the object
+/// @throws Error   InvalidArgument if an option is out of its range, or the coverage takes over two million droplets;
+///                 InvalidInput if the object has no place for them
+DewDroplets dewDroplets(const FlowTerrain& terrain, const DewOptions& options);
+
+}  // namespace droplet

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Radii are drawn until they cover enough, and placed from large to small, so that small droplets fill what large ones
+// leave (random sequential adsorption). Droplets lie in a grid for each power of two of their radius: a search looks
+// into few cells, however different the sizes are. Volumes of joined droplets add up.
+#include "droplet/flow/dew.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "droplet/error.h"
+#include "flow/places.h"
+#include "require.h"
+#include "wind/random.h"
+
+namespace droplet {
+namespace {
+
+constexpr std::size_t kMost = 2'000'000;
+
+/// Droplet on the surface.
+struct Drop {
+    FlowTerrain::Point point;
+    Vec3 normal;
+    double volume = 0.0;
+    double radius = 0.0;  ///< of contact
+};
+
+/// Droplets by place, with a grid for each power of two of their radius.
+class Grids {
+public:
+    /// @param smallest  radius
+    explicit Grids(double smallest) : smallest_(smallest) {}
+
+    void add(std::size_t k, const Drop& drop) { cellOf(drop).push_back(k); }
+    void remove(std::size_t k, const Drop& drop) { std::erase(cellOf(drop), k); }
+
+    /// A droplet that touches another one; of several, the first that was placed.
+    [[nodiscard]] std::optional<std::size_t> touching(const Drop& drop, const std::vector<Drop>& all) const
+    {
+        std::optional<std::size_t> met;
+        for (const auto& [level, grid] : grids_) {
+            const double side = sideOf(level);
+            const double reach = drop.radius + 0.5 * side;
+            const Cell low = at(drop.point.place - reach * Vec3{1.0, 1.0, 1.0}, side);
+            const Cell high = at(drop.point.place + reach * Vec3{1.0, 1.0, 1.0}, side);
+            for (Cell c = low; c[0] <= high[0]; ++c[0]) {
+                for (c[1] = low[1]; c[1] <= high[1]; ++c[1]) {
+                    for (c[2] = low[2]; c[2] <= high[2]; ++c[2]) {
+                        const auto found = grid.find(c);
+                        if (found == grid.end()) {
+                            continue;
+                        }
+                        for (const std::size_t k : found->second) {
+                            if ((!met || k < *met) && touch(drop, all[k])) {
+                                met = k;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        return met;
+    }
+
+private:
+    using Cell = std::array<std::int64_t, 3>;
+    struct Hash {
+        std::size_t operator()(const Cell& c) const
+        {
+            return static_cast<std::size_t>(
+                mix(mix(mix(static_cast<std::uint64_t>(c[0])) + static_cast<std::uint64_t>(c[1])) +
+                    static_cast<std::uint64_t>(c[2])));
+        }
+    };
+    using Grid = std::unordered_map<Cell, std::vector<std::size_t>, Hash>;
+
+    /// Those on the two sides of a thin part do not touch.
+    static bool touch(const Drop& a, const Drop& b)
+    {
+        return length(a.point.place - b.point.place) < a.radius + b.radius && dot(a.normal, b.normal) > -0.5;
+    }
+
+    [[nodiscard]] double sideOf(int level) const { return 2.0 * std::ldexp(smallest_, level); }
+
+    static Cell at(Vec3 p, double side)
+    {
+        return {static_cast<std::int64_t>(std::floor(p.x / side)), static_cast<std::int64_t>(std::floor(p.y / side)),
+                static_cast<std::int64_t>(std::floor(p.z / side))};
+    }
+
+    std::vector<std::size_t>& cellOf(const Drop& drop)
+    {
+        int level = 0;
+        while (std::ldexp(smallest_, level) < drop.radius) {
+            ++level;
+        }
+        return grids_[level][at(drop.point.place, sideOf(level))];
+    }
+
+    double smallest_;
+    std::map<int, Grid> grids_;  ///< cells are as wide as their largest droplets
+};
+
+/// Places droplets.
+class Dew {
+public:
+    Dew(const FlowTerrain& terrain, const DewOptions& options)
+        : terrain_(terrain), options_(options), places_{terrain, options.from, options.weight}, grids_(options.smallest)
+    {
+    }
+
+    DewDroplets make()
+    {
+        constexpr std::uint64_t kPoints = 65536;
+        const bool takes_all = !options_.from && !options_.weight;
+        result_.area = terrain_.area() * (takes_all ? 1.0 : places_.share(options_.seed, kPoints));
+        if (!(result_.area > 0.0)) {
+            refuseObject();
+        }
+        const std::vector<double> radii = drawn();
+        for (std::size_t k = 0; k < radii.size(); ++k) {
+            place(k, radii[k]);
+        }
+        for (std::size_t k = 0; k < drops_.size(); ++k) {
+            const Drop& drop = drops_[k];
+            if (drop.volume > 0.0) {
+                FlowSample sample;
+                sample.id = result_.samples.size();
+                sample.contact = FlowContact::Still;
+                sample.face = drop.point.face;
+                sample.place = drop.point.place;
+                sample.normal = drop.normal;
+                sample.volume = drop.volume;
+                result_.samples.push_back(sample);
+                result_.covered += std::numbers::pi * drop.radius * drop.radius;
+            }
+        }
+        return std::move(result_);
+    }
+
+private:
+    [[noreturn]] static void refuseObject()
+    {
+        throw Error(ErrorCode::InvalidInput,
+                    "the object has no place for droplets: nothing of it faces the rain, or is in the mask");
+    }
+
+    /// Radii that cover the surface as asked, from large to small.
+    [[nodiscard]] std::vector<double> drawn() const
+    {
+        std::vector<double> radii;
+        const double wanted = options_.coverage * result_.area;
+        double covered = 0.0;
+        for (std::size_t k = 0; covered < wanted; ++k) {
+            if (k == kMost) {
+                throw Error(ErrorCode::InvalidArgument,
+                            "a coverage of " + std::to_string(options_.coverage) + " takes more than " +
+                                std::to_string(kMost) +
+                                " droplets of this size; ask for larger droplets, or for less coverage");
+            }
+            radii.push_back(radiusOf(k));
+            covered += std::numbers::pi * radii.back() * radii.back();
+        }
+        std::sort(radii.begin(), radii.end(), std::greater<>());
+        return radii;
+    }
+
+    [[nodiscard]] double radiusOf(std::size_t k) const
+    {
+        const RandomStream random(options_.seed, RandomPurpose::Dew, 2 * k);
+        if (options_.sizes == DewSizes::LogNormal) {
+            for (std::uint64_t i = 0;; i += 2) {
+                // G. E. P. Box and M. E. Muller, Ann. Math. Stat. 29 (1958) 610.
+                const double normal =
+                    std::sqrt(2.0 * random.exponential(i)) * std::cos(2.0 * std::numbers::pi * random.uniform(i + 1));
+                const double radius = options_.median * std::exp(options_.spread * normal);
+                constexpr std::uint64_t kTries = 2000;
+                if ((radius >= options_.smallest && radius <= options_.largest) || i >= kTries) {
+                    return std::clamp(radius, options_.smallest, options_.largest);
+                }
+            }
+        }
+        // The inverse of the cumulated distribution.
+        constexpr double kPower = -5.0 / 3.0;
+        const double low = std::pow(options_.smallest, kPower);
+        const double high = std::pow(options_.largest, kPower);
+        return std::pow(low + random.uniform(0) * (high - low), 1.0 / kPower);
+    }
+
+    [[nodiscard]] Drop dropAt(const FlowTerrain::Point& point, double volume) const
+    {
+        return {point, terrain_.surface().faces[point.face].normal, volume,
+                capOf(volume, options_.forces.wetting.contact_angle).contact_radius};
+    }
+
+    /// Whether a droplet stays where it is.
+    [[nodiscard]] bool isHeld(const Drop& drop) const
+    {
+        const DropletForces forces = forcesOn(options_.forces, drop.volume);
+        const Vec3 along = options_.gravity - dot(options_.gravity, drop.normal) * drop.normal;
+        return forces.mass * length(along) <= forces.retention;
+    }
+
+    void place(std::size_t k, double radius)
+    {
+        constexpr int kRoomTries = 100;
+        constexpr int kSlopeTries = 200;
+        const RandomStream random(options_.seed, RandomPurpose::Dew, 2 * k + 1);
+        const double volume = capVolume(radius, options_.forces.wetting.contact_angle);
+        std::optional<std::size_t> met;
+        std::uint64_t counter = 0;
+        for (int room = 0, slope = 0; room < kRoomTries && slope < kSlopeTries;) {
+            const std::optional<FlowTerrain::Point> point = places_.pointOf(random, counter);
+            if (!point) {
+                refuseObject();
+            }
+            Drop drop = dropAt(*point, volume);
+            if (!isHeld(drop)) {
+                ++slope;
+                continue;
+            }
+            met = grids_.touching(drop, drops_);
+            if (!met) {
+                grids_.add(drops_.size(), drop);
+                drops_.push_back(std::move(drop));
+                return;
+            }
+            ++room;
+        }
+        if (!met) {
+            ++result_.run_off;
+            return;
+        }
+        ++result_.joined;
+        Drop grown = take(*met);
+        grown = dropAt(grown.point, grown.volume + volume);
+        settle(*met, grown);
+    }
+
+    /// Takes a droplet off the surface.
+    Drop take(std::size_t k)
+    {
+        grids_.remove(k, drops_[k]);
+        return std::exchange(drops_[k], {});
+    }
+
+    /// Puts a droplet that has grown back; it joins those that it touches. One that is too large runs off.
+    void settle(std::size_t k, Drop drop)
+    {
+        while (const auto other = grids_.touching(drop, drops_)) {
+            const Drop second = take(*other);
+            const double volume = drop.volume + second.volume;
+            const Vec3 middle = (1.0 / volume) * (drop.volume * drop.point.place + second.volume * second.point.place);
+            drop = dropAt(terrain_.nearest(middle), volume);
+            ++result_.joined;
+        }
+        if (isHeld(drop)) {
+            grids_.add(k, drop);
+            drops_[k] = drop;
+        } else {
+            ++result_.run_off;
+        }
+    }
+
+    const FlowTerrain& terrain_;
+    const DewOptions& options_;
+    Places places_;
+    Grids grids_;
+    std::vector<Drop> drops_;  ///< without volume: joined another one
+    DewDroplets result_;
+};
+
+}  // namespace
+
+void DewOptions::validate() const
+{
+    constexpr double kLeast = 1e-3;
+    constexpr double kMostCoverage = 0.7;  // small droplets find no room in more
+    require(coverage >= kLeast && coverage <= kMostCoverage, "coverage", coverage, "from 0.001 to 0.7");
+    require(smallest > 0.0 && std::isfinite(smallest), "smallest", smallest, "finite and more than 0");
+    require(largest >= smallest && std::isfinite(largest), "largest", largest, "finite and not below smallest");
+    require(median > 0.0 && std::isfinite(median), "median", median, "finite and more than 0");
+    require(spread >= 0.0 && spread <= 3.0, "spread", spread, "from 0 to 3");
+    require(std::isfinite(length(gravity)), "gravity", length(gravity), "finite");
+    forces.validate();
+    if (from) {
+        const double size = length(*from);
+        require(size > 0.0 && std::isfinite(size), "from", size, "a direction that is not 0");
+    }
+}
+
+DewDroplets dewDroplets(const FlowTerrain& terrain, const DewOptions& options)
+{
+    options.validate();
+    return Dew(terrain, options).make();
+}
+
+}  // namespace droplet

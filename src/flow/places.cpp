@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flow/places.h"
+
+#include <limits>
+
+namespace droplet {
+
+std::optional<FlowTerrain::Point> Places::pointOf(const RandomStream& random, std::uint64_t& counter) const
+{
+    for (std::uint64_t tries = 0; tries < kMaxTries; ++tries) {
+        const std::uint64_t i = counter++;
+        const FlowTerrain::Point point = terrain.pointAt(random.uniform(2 + 3 * i), random.uniform(3 + 3 * i));
+        if (takes(point, random.uniform(4 + 3 * i))) {
+            return point;
+        }
+    }
+    return std::nullopt;
+}
+
+double Places::share(std::uint64_t seed, std::uint64_t points) const
+{
+    const RandomStream random(seed, RandomPurpose::Scatter, std::numeric_limits<std::uint64_t>::max());
+    std::uint64_t taken = 0;
+    for (std::uint64_t i = 0; i < points; ++i) {
+        const FlowTerrain::Point point = terrain.pointAt(random.uniform(3 * i), random.uniform(3 * i + 1));
+        taken += takes(point, random.uniform(3 * i + 2)) ? 1 : 0;
+    }
+    return static_cast<double>(taken) / static_cast<double>(points);
+}
+
+bool Places::takes(const FlowTerrain::Point& point, double u) const
+{
+    return (!coverage || u < coverage(point)) && isMet(point);
+}
+
+/// Whether rain meets a point first.
+bool Places::isMet(const FlowTerrain::Point& point) const
+{
+    if (!from) {
+        return true;
+    }
+    const Vec3 up = (1.0 / length(*from)) * *from;
+    if (!(dot(terrain.surface().faces[point.face].normal, up) > 0.0)) {
+        return false;
+    }
+    const double size = terrain.diameter();
+    const std::optional<FlowTerrain::Point> met = terrain.firstAlong(point.place + 2.0 * size * up, -1.0 * up);
+    constexpr double kNear = 1e-6;  // the search works with floats
+    return met && (met->face == point.face || length(met->place - point.place) <= kNear * size);
+}
+
+}  // namespace droplet

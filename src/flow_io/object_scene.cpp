@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flow_io/object_scene.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace droplet {
+
+SceneMaterial opaqueMaterial(const std::string& name, double roughness)
+{
+    Look look;
+    look.name = name;
+    look.roughness = roughness;
+    look.transmission = 0.0;
+    return {.look = std::move(look), .both_sides = true};
+}
+
+std::size_t addObject(const FlowObject& object, Scene& scene)
+{
+    SceneMesh mesh{"object"};
+    SceneGeometry& geometry = mesh.geometries.emplace_back();
+    geometry.vertices = sceneVectors(object.vertices);
+    geometry.normals = sceneVectors(object.normals);
+    geometry.uvs = sceneCoordinates(object.uvs);
+    std::vector<std::string> names = object.material_names;
+    names.resize(std::max<std::size_t>(names.size(), 1), "object");
+    std::vector<ScenePart> parts(names.size());
+    for (std::size_t i = 0; i < object.triangles.size(); ++i) {
+        parts.at(object.materials.empty() ? 0 : object.materials[i]).triangles.push_back(object.triangles[i]);
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (!parts[i].triangles.empty()) {
+            SceneMaterial material = opaqueMaterial(names[i], 0.6);
+            material.look.colour = {0.6, 0.6, 0.6};
+            parts[i].material = scene.addMaterial(std::move(material));
+            geometry.parts.push_back(std::move(parts[i]));
+        }
+    }
+    return scene.addNode({"object", scene.addMesh(std::move(mesh))});
+}
+
+}  // namespace droplet

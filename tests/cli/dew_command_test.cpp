@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `droplet-shape dew`: its files, presets and refusals.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/in_process.h"
+#include "droplet/io/read_surface.h"
+#include "support/command.h"
+#include "support/paths.h"
+
+namespace droplet {
+namespace {
+
+using testing::CommandResult;
+using ::testing::HasSubstr;
+using testing::readFile;
+using testing::runDroplet;
+
+// A square of 4 cm on the ground with uvs, in millimetres.
+constexpr const char* kPlate =
+    "v 0 0 0\nv 40 0 0\nv 40 0 -40\nv 0 0 -40\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+
+class DewCommand : public ::testing::Test {
+protected:
+    DewCommand() { testing::writeFile(path("plate.obj"), kPlate); }
+
+    [[nodiscard]] std::string path(const std::string& name) const { return (scratch_.path() / name).string(); }
+
+    [[nodiscard]] CommandResult dew(const std::string& output, const std::vector<std::string>& more = {}) const
+    {
+        std::vector<std::string> arguments{"dew", path("plate.obj"), path(output)};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runDroplet(arguments);
+    }
+
+    void expectRefused(const std::string& output, const std::vector<std::string>& more, int exit_code,
+                       const std::string& message) const
+    {
+        const CommandResult result = dew(output, more);
+        EXPECT_EQ(result.exit_code, exit_code) << result.error;
+        EXPECT_THAT(result.error, HasSubstr(message));
+        EXPECT_FALSE(std::filesystem::exists(path(output)));
+    }
+
+    testing::ScratchDirectory scratch_;
+};
+
+TEST_F(DewCommand, WritesEveryFormat)
+{
+    for (const char* output : {"a.glb", "a.gltf", "a.usda", "a.usdz", "a.obj", "a.ply", "a.stl"}) {
+        const CommandResult result = dew(output, {"--coverage", "0.1"});
+        EXPECT_EQ(result.exit_code, 0) << result.error;
+        EXPECT_THAT(result.error, HasSubstr("droplets, ")) << output;
+        EXPECT_GT(readFile(path(output)).size(), 1000U);
+    }
+    // Where the object is: droplets lie on y = 0 of the file, between its corners.
+    const Surface surface = readSurface(path("a.obj")).surface;
+    EXPECT_TRUE(isClosed(surface));
+    double low = 1.0;
+    for (const Vec3& p : surface.vertices) {
+        low = std::min(low, p.z);
+        EXPECT_GT(p.x, -2e-3);
+        EXPECT_LT(p.x, 42e-3);
+    }
+    EXPECT_NEAR(low, 0.0, 1e-9);
+    EXPECT_NEAR(enclosedVolume(readSurface(path("a.stl")).surface) / enclosedVolume(surface), 1.0, 1e-3);
+}
+
+TEST_F(DewCommand, PresetsDiffer)
+{
+    std::vector<std::string> files;
+    for (const char* preset : {"dew", "rain", "bottle", "shower", "mist"}) {
+        EXPECT_EQ(dew("one.glb", {"--preset", preset, "--coverage", "0.1", "-q"}).exit_code, 0);
+        for (const std::string& other : files) {
+            EXPECT_NE(other, readFile(path("one.glb")));
+        }
+        files.push_back(readFile(path("one.glb")));
+    }
+    EXPECT_EQ(dew("two.glb", {"--coverage", "0.1", "-q"}).exit_code, 0);
+    EXPECT_EQ(readFile(path("two.glb")), files.front()) << "dew is the default";
+    EXPECT_EQ(dew("two.glb", {"--coverage", "0.1", "-q", "-j", "1"}).exit_code, 0);
+    EXPECT_EQ(readFile(path("two.glb")), files.front()) << "at any number of threads";
+}
+
+TEST_F(DewCommand, DropletsAreWhereTheMaskIs)
+{
+    testing::writeFile(path("left.pgm"), "P5\n2 1\n255\n" + std::string("\xff\0", 2));
+    ASSERT_EQ(dew("left.obj", {"--mask", path("left.pgm"), "-q"}).exit_code, 0);
+    for (const Vec3& p : readSurface(path("left.obj")).surface.vertices) {
+        EXPECT_LT(p.x, 22e-3);
+    }
+}
+
+TEST_F(DewCommand, ItsTableStartsAFlow)
+{
+    ASSERT_EQ(dew("wet.glb", {"--droplets", path("drops.csv"), "--coverage", "0.05"}).exit_code, 0);
+    const std::string table = readFile(path("drops.csv"));
+    const auto rows = static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')) - 1;
+    const CommandResult flow = runDroplet({"flow", path("plate.obj"), path("run.glb"), "--start", path("drops.csv"),
+                                           "--time", "40ms", "--fps", "25", "--no-merge"});
+    EXPECT_EQ(flow.exit_code, 0) << flow.error;
+    EXPECT_THAT(flow.error, HasSubstr(std::to_string(rows) + " rest"));
+}
+
+TEST_F(DewCommand, ReadsAConfiguration)
+{
+    testing::writeFile(path("dew.toml"), "preset = \"mist\"\ncoverage = 0.05\nquiet = true\n");
+    const CommandResult result = dew("mist.glb", {"--config", path("dew.toml")});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
+    EXPECT_EQ(result.error, "");
+}
+
+TEST_F(DewCommand, RefusesWhatCannotBe)
+{
+    expectRefused("x.dwg", {}, 2, "OUTPUT");
+    expectRefused("x.glb", {"--preset", "fog"}, 2, "dew|rain|bottle|shower|mist");
+    expectRefused("x.glb", {"--coverage", "0.9"}, 2, "from 0.001 to 0.7");
+    expectRefused("x.glb", {"--median", "1mm"}, 2, "--median needs --sizes lognormal");
+    expectRefused("x.glb", {"--smallest", "2mm", "--largest", "1mm"}, 2, "--largest must not be less than --smallest");
+    expectRefused("x.glb", {"--sizes", "equal"}, 2, "condensation or lognormal");
+    expectRefused("x.obj", {"--instancing", "gpu"}, 2, "--instancing needs a .glb");
+    expectRefused("x.usda", {"--instancing", "gpu"}, 2, "--instancing gpu needs a .glb or .gltf");
+    expectRefused("x.obj", {"--droplets-only"}, 2, "--droplets-only needs a .glb");
+    expectRefused("x.obj", {"--compress", "meshopt"}, 2, "--compress");
+    expectRefused("x.glb", {"--droplets", path("x.txt")}, 2, ".csv or .json");
+    expectRefused("x.glb", {"--smallest", "0.01mm", "--largest", "0.01mm"}, 2, "more than 2000000 droplets");
+    expectRefused("x.glb", {"--from", "0,-1,0"}, 3, "faces the rain");
+    expectRefused("x.glb", {"--object-size", "1cm", "--scale", "2"}, 2, "--scale");
+    expectRefused("x.glb", {"--mask", path("none.png")}, 3, "none.png");
+    const CommandResult same = runDroplet({"dew", path("plate.obj"), path("plate.obj")});
+    EXPECT_EQ(same.exit_code, 2) << same.error;
+    EXPECT_EQ(readFile(path("plate.obj")), kPlate);
+}
+
+}  // namespace
+}  // namespace droplet

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Droplets at rest that cover an object: how many, how large, none on another, none that its slope does not hold.
+#include "droplet/flow/dew.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/units.h"
+#include "support/objects.h"
+
+namespace droplet {
+namespace {
+
+/// Rectangle through the origin.
+/// @param slope  from the horizontal, down to −x [rad]
+FlowTerrain plane(double width, double height, double slope = 0.0)
+{
+    testing::Sheet sheet;
+    sheet.place = [&](Vec2 uv) {
+        const double along = height * (uv.y - 0.5);
+        return Vec3{along * std::cos(slope), width * (uv.x - 0.5), along * std::sin(slope)};
+    };
+    const TexturedMesh mesh = testing::meshOf(sheet);
+    return FlowTerrain(flowSurface(mesh.vertices, mesh.triangles));
+}
+
+double radiusOf(const FlowSample& sample, const DewOptions& options)
+{
+    return capOf(sample.volume, options.forces.wetting.contact_angle).contact_radius;
+}
+
+void expectApart(const DewDroplets& dew, const DewOptions& options)
+{
+    for (std::size_t i = 0; i < dew.samples.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            ASSERT_GE(length(dew.samples[i].place - dew.samples[k].place),
+                      radiusOf(dew.samples[i], options) + radiusOf(dew.samples[k], options) - 1e-12);
+        }
+    }
+}
+
+TEST(Dew, CoversTheShareThatIsAskedFor)
+{
+    const FlowTerrain terrain = plane(0.1, 0.1);
+    for (const double coverage : {0.05, 0.4, 0.6}) {
+        DewOptions options;
+        options.coverage = coverage;
+        const DewDroplets dew = dewDroplets(terrain, options);
+        EXPECT_NEAR(dew.area, 0.01, 1e-12);
+        // One droplet may exceed it; liquid of droplets that join covers less than before.
+        EXPECT_NEAR(dew.covered / dew.area, coverage, 0.01) << dew.joined << " joined";
+        double covered = 0.0;
+        for (const FlowSample& sample : dew.samples) {
+            covered += std::numbers::pi * std::pow(radiusOf(sample, options), 2);
+        }
+        EXPECT_NEAR(dew.covered / covered, 1.0, 1e-9);
+        EXPECT_EQ(dew.run_off, 0U) << "the ground is level";
+    }
+}
+
+TEST(Dew, DropletsDoNotTouch)
+{
+    const FlowTerrain terrain = plane(0.04, 0.04);
+    for (const DewSizes sizes : {DewSizes::Condensation, DewSizes::LogNormal}) {
+        DewOptions options;
+        options.sizes = sizes;
+        options.coverage = 0.6;
+        options.smallest = 0.1e-3;
+        const DewDroplets dew = dewDroplets(terrain, options);
+        ASSERT_GT(dew.samples.size(), 500U);
+        expectApart(dew, options);
+    }
+}
+
+TEST(Dew, FullSurfacesMakeDropletsJoin)
+{
+    const FlowTerrain terrain = plane(0.03, 0.03);
+    DewOptions options;
+    options.coverage = 0.7;
+    options.smallest = 0.9e-3;
+    options.largest = 1e-3;
+    const DewDroplets dew = dewDroplets(terrain, options);
+    EXPECT_GT(dew.joined, 10U) << "discs of one size find no room beyond 0.55";
+    double most = 0.0;
+    for (const FlowSample& sample : dew.samples) {
+        most = std::max(most, radiusOf(sample, options));
+    }
+    EXPECT_GT(most, 1.1e-3);
+    expectApart(dew, options);
+}
+
+/// Largest difference of the cumulated distribution of radii from a law: Kolmogorov and Smirnov.
+template <typename Law>
+double differenceFrom(const DewDroplets& dew, const DewOptions& options, const Law& law)
+{
+    std::vector<double> radii;
+    for (const FlowSample& sample : dew.samples) {
+        radii.push_back(radiusOf(sample, options));
+    }
+    std::sort(radii.begin(), radii.end());
+    double most = 0.0;
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        most = std::max(most,
+                        std::abs(law(radii[i]) - (static_cast<double>(i) + 0.5) / static_cast<double>(radii.size())));
+    }
+    return most * std::sqrt(static_cast<double>(radii.size()));
+}
+
+constexpr double kOneInAThousand = 1.95;  // exceeded so often by chance
+
+TEST(Dew, RadiiOfCondensationFollowRosesLaw)
+{
+    DewOptions options;
+    options.coverage = 0.2;  // few join
+    const DewDroplets dew = dewDroplets(plane(0.2, 0.2), options);
+    ASSERT_GT(dew.samples.size(), 5000U);
+    const double low = std::pow(options.smallest, -5.0 / 3.0);
+    const double high = std::pow(options.largest, -5.0 / 3.0);
+    EXPECT_LT(differenceFrom(dew, options, [&](double r) { return (low - std::pow(r, -5.0 / 3.0)) / (low - high); }),
+              kOneInAThousand);
+}
+
+TEST(Dew, RadiiOfRainAreLogNormal)
+{
+    DewOptions options;
+    options.sizes = DewSizes::LogNormal;
+    options.coverage = 0.1;
+    options.smallest = 1e-5;
+    options.largest = 0.1;
+    options.median = 0.5e-3;
+    options.spread = 0.4;
+    const DewDroplets dew = dewDroplets(plane(0.3, 0.3), options);
+    ASSERT_GT(dew.samples.size(), 5000U);
+    EXPECT_LT(differenceFrom(dew, options,
+                             [&](double r) {
+                                 return 0.5 *
+                                        std::erfc(-std::log(r / options.median) / (options.spread * std::sqrt(2.0)));
+                             }),
+              kOneInAThousand);
+}
+
+TEST(Dew, SlopesHoldEveryDroplet)
+{
+    const FlowTerrain wall = plane(0.1, 0.1, 90.0 * kDegree);
+    DewOptions options;
+    options.sizes = DewSizes::LogNormal;
+    options.smallest = 0.1e-3;
+    options.median = 1e-3;
+    options.largest = 6e-3;
+    options.spread = 0.8;
+    const DewDroplets dew = dewDroplets(wall, options);
+    EXPECT_GT(dew.run_off, 0U);
+    double most = 0.0;
+    for (const FlowSample& sample : dew.samples) {
+        const DropletForces forces = forcesOn(options.forces, sample.volume);
+        most = std::max(most, forces.weight / forces.retention);
+    }
+    EXPECT_LE(most, 1.0);
+    EXPECT_GT(most, 0.8) << "some are nearly as large as may be";
+    options.forces.wetting.hysteresis = 2.0;
+    EXPECT_LT(dewDroplets(wall, options).run_off, dew.run_off) << "more hysteresis holds more";
+}
+
+TEST(Dew, RainWetsOnlyWhatItMeets)
+{
+    testing::Sheet sheet;
+    sheet.columns = 60;
+    sheet.rows = 30;
+    sheet.place = [](Vec2 uv) {
+        const double turn = 2.0 * std::numbers::pi * uv.x;
+        const double tilt = std::numbers::pi * std::clamp(uv.y, 1e-3, 1.0 - 1e-3);
+        return 0.02 * Vec3{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
+    };
+    const TexturedMesh mesh = testing::meshOf(sheet);
+    const FlowTerrain ball(flowSurface(mesh.vertices, mesh.triangles));
+    DewOptions options;
+    options.largest = 0.6e-3;
+    const DewDroplets all = dewDroplets(ball, options);
+    EXPECT_TRUE(std::any_of(all.samples.begin(), all.samples.end(),
+                            [](const FlowSample& sample) { return sample.place.z < -0.01; }));
+    options.from = Vec3{0.0, 0.0, 1.0};
+    const DewDroplets rain = dewDroplets(ball, options);
+    ASSERT_GT(rain.samples.size(), 100U);
+    EXPECT_NEAR(rain.area / (0.5 * ball.area()), 1.0, 0.05);
+    for (const FlowSample& sample : rain.samples) {
+        EXPECT_GT(sample.place.z, -1e-3);
+        EXPECT_EQ(sample.contact, FlowContact::Still);
+    }
+}
+
+TEST(Dew, TwoSidesOfAThinSheetDoNotTouch)
+{
+    // Two sheets of 4 cm, a tenth of a millimetre apart, which face away from each other.
+    testing::Sheet sheet;
+    sheet.place = [](Vec2 uv) { return Vec3{0.04 * uv.x, 0.04 * uv.y, 5e-5}; };
+    testing::Sheet below = sheet;
+    below.place = [](Vec2 uv) { return Vec3{0.04 * uv.x, 0.04 * uv.y, -5e-5}; };
+    below.turned = true;
+    const TexturedMesh mesh = testing::together(testing::meshOf(sheet), testing::meshOf(below));
+    DewOptions options;
+    options.coverage = 0.6;
+    const DewDroplets dew = dewDroplets(FlowTerrain(flowSurface(mesh.vertices, mesh.triangles)), options);
+    EXPECT_NEAR(dew.covered / dew.area, 0.6, 0.01) << "each side as if it were alone";
+}
+
+TEST(Dew, DependsOnTheSeedAlone)
+{
+    const FlowTerrain terrain = plane(0.03, 0.03);
+    DewOptions options;
+    const auto places = [&] {
+        std::vector<Vec3> all;
+        for (const FlowSample& sample : dewDroplets(terrain, options).samples) {
+            all.push_back(sample.place);
+        }
+        return all;
+    };
+    const std::vector<Vec3> first = places();
+    EXPECT_EQ(places(), first);
+    options.seed = 2;
+    EXPECT_NE(places(), first);
+}
+
+TEST(Dew, RefusesWhatCannotBe)
+{
+    const FlowTerrain terrain = plane(0.1, 0.1);
+    const auto refused = [&](const auto& change) {
+        DewOptions options;
+        change(options);
+        try {
+            dewDroplets(terrain, options);
+        } catch (const Error& error) {
+            return error.code();
+        }
+        return ErrorCode::NoSuchDroplet;  // it was not refused
+    };
+    EXPECT_EQ(refused([](DewOptions& o) { o.coverage = 0.71; }), ErrorCode::InvalidArgument);
+    EXPECT_EQ(refused([](DewOptions& o) { o.coverage = 0.0; }), ErrorCode::InvalidArgument);
+    EXPECT_EQ(refused([](DewOptions& o) { o.largest = 0.1e-3; }), ErrorCode::InvalidArgument);
+    EXPECT_EQ(refused([](DewOptions& o) { o.spread = -1.0; }), ErrorCode::InvalidArgument);
+    EXPECT_EQ(refused([](DewOptions& o) { o.from = Vec3{}; }), ErrorCode::InvalidArgument);
+    EXPECT_EQ(refused([](DewOptions& o) { o.smallest = o.largest = 1e-6; }), ErrorCode::InvalidArgument) << "too many";
+    EXPECT_EQ(refused([](DewOptions& o) { o.from = Vec3{0.0, 0.0, -1.0}; }), ErrorCode::InvalidInput);
+    EXPECT_EQ(refused([](DewOptions& o) { o.weight = [](const FlowTerrain::Point&) { return 0.0; }; }),
+              ErrorCode::InvalidInput);
+}
+
+}  // namespace
+}  // namespace droplet

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files of many droplets at rest: what instances, nodes and one mesh show is the same.
+#include "droplet/flow_io/dew_model.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <numeric>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/flow/dew.h"
+#include "support/command.h"
+#include "support/objects.h"
+#include "support/paths.h"
+
+namespace droplet {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::runProgram;
+
+/// Ball of 2 cm with edges of 15°.
+FlowObject ball()
+{
+    testing::Sheet sheet;
+    sheet.columns = 24;
+    sheet.rows = 12;
+    sheet.normal = [](Vec2 uv) {
+        const double turn = 2.0 * std::numbers::pi * uv.x;
+        const double tilt = std::numbers::pi * std::clamp(uv.y, 1e-3, 1.0 - 1e-3);
+        return Vec3{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
+    };
+    sheet.place = [&](Vec2 uv) { return 0.02 * sheet.normal(uv); };
+    const TexturedMesh mesh = testing::meshOf(sheet);
+    FlowObject object;
+    object.vertices = mesh.vertices;
+    object.normals = mesh.normals;
+    object.uvs = mesh.uvs;
+    object.triangles = mesh.triangles;
+    return object;
+}
+
+struct Wet {
+    FlowObject object = ball();
+    FlowTerrain terrain{flowSurface(object.vertices, object.triangles)};
+    DewOptions options;
+    DropletBodies bodies{BodyShape::Capillary};
+    DewDroplets dew = dewDroplets(terrain, options);
+    DewModel model{terrain, dew.samples, bodies, options.gravity};
+
+    [[nodiscard]] std::string file(const DewFile& form) const
+    {
+        std::ostringstream out;
+        const std::uint64_t bytes = model.write(object, out, form);
+        EXPECT_EQ(bytes, out.str().size());
+        return out.str();
+    }
+};
+
+const Wet& wet()
+{
+    static const Wet made;
+    return made;
+}
+
+nlohmann::json jsonOf(const std::string& glb)
+{
+    std::uint32_t length = 0;
+    std::memcpy(&length, glb.data() + 12, 4);
+    return nlohmann::json::parse(glb.substr(20, length));
+}
+
+TEST(DewModel, DropletsAreClosedHaveTheirVolumesAndSit)
+{
+    const Surface surface = wet().model.surface();
+    surface.validate();
+    EXPECT_TRUE(isClosed(surface));
+    const std::size_t shown = wet().model.shown().size();
+    EXPECT_EQ(topology(surface).components, shown);
+    EXPECT_GE(static_cast<double>(shown), 0.97 * static_cast<double>(wet().dew.samples.size())) << "few are left out";
+    double volume = 0.0;
+    for (const std::size_t i : wet().model.shown()) {
+        volume += wet().dew.samples[i].volume;
+    }
+    EXPECT_NEAR(enclosedVolume(surface) / volume, 1.0, 0.01);
+    // The weld of a rim has two vertices: those lie on the object.
+    std::vector<int> count(surface.vertices.size());
+    for (const std::uint32_t first : surface.weld) {
+        ++count[first];
+    }
+    std::vector<double> gaps;
+    for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+        if (count[v] == 2) {
+            gaps.push_back(length(surface.vertices[v] - wet().terrain.nearest(surface.vertices[v]).place));
+        }
+    }
+    ASSERT_GT(gaps.size(), 8 * shown - 1);
+    std::sort(gaps.begin(), gaps.end());
+    EXPECT_LE(gaps[gaps.size() * 99 / 100], 0.05 * wet().options.largest);
+    EXPECT_LE(gaps[gaps.size() / 2], 0.05 * wet().options.smallest);
+}
+
+TEST(DewModel, EveryFormShowsAllDroplets)
+{
+    const std::size_t shown = wet().model.shown().size();
+    const nlohmann::json gpu = jsonOf(wet().file({.instancing = Instancing::Gpu}));
+    EXPECT_THAT(gpu.at("extensionsRequired"), ::testing::Contains("EXT_mesh_gpu_instancing"));
+    std::size_t instances = 0;
+    std::size_t bent = 0;
+    for (const auto& node : gpu.at("nodes")) {
+        if (node.contains("extensions")) {
+            const auto& attributes = node.at("extensions").at("EXT_mesh_gpu_instancing").at("attributes");
+            for (const auto& accessor : attributes) {
+                EXPECT_EQ(gpu.at("accessors").at(accessor.get<std::size_t>()).at("count"),
+                          gpu.at("accessors").at(attributes.at("SCALE").get<std::size_t>()).at("count"));
+            }
+            instances +=
+                gpu.at("accessors").at(attributes.at("SCALE").get<std::size_t>()).at("count").get<std::size_t>();
+        } else {
+            bent += node.value("name", "") == "droplets on bends" ? 1U : 0U;
+        }
+    }
+    EXPECT_GT(instances, 0U);
+    EXPECT_LT(instances, shown) << "those on edges have meshes of their own";
+    EXPECT_EQ(bent, 1U);
+    const nlohmann::json nodes = jsonOf(wet().file({.instancing = Instancing::Nodes}));
+    EXPECT_FALSE(nodes.contains("extensionsRequired"));
+    EXPECT_EQ(nodes.at("nodes").size(), instances + 2) << "a node for each, the object, and those on bends";
+    const nlohmann::json none = jsonOf(wet().file({}));
+    EXPECT_EQ(none.at("nodes").size(), 2U);
+    const nlohmann::json alone = jsonOf(wet().file({.has_object = false}));
+    EXPECT_EQ(alone.at("meshes").size(), 1U);
+}
+
+TEST(DewModel, PassesTheValidator)
+{
+    const testing::ScratchDirectory scratch;
+    std::vector<std::string> command{"node", testing::kValidator};
+    for (const Instancing instancing : {Instancing::None, Instancing::Nodes, Instancing::Gpu}) {
+        for (const Compression compression : {Compression::None, Compression::Quantize, Compression::Meshopt}) {
+            const std::string path =
+                (scratch.path() / (std::to_string(static_cast<int>(instancing)) + name(compression) + ".glb")).string();
+            testing::writeFile(path, wet().file({.file = {.compression = compression}, .instancing = instancing}));
+            command.push_back(path);
+        }
+    }
+    const auto verdict = runProgram(command);
+    EXPECT_EQ(verdict.exit_code, 0) << verdict.output << verdict.error;
+}
+
+TEST(DewModel, UsdHasACopyForEachDroplet)
+{
+    const std::string text = wet().file({.file = {.format = Format::Usda}, .instancing = Instancing::Nodes});
+    std::size_t copies = 0;
+    for (std::size_t at = 0; (at = text.find("instanceable = true", at)) != std::string::npos; ++at) {
+        ++copies;
+    }
+    EXPECT_EQ(copies + 2, jsonOf(wet().file({.instancing = Instancing::Nodes})).at("nodes").size());
+    std::ostringstream out;
+    EXPECT_THROW(
+        wet().model.write(wet().object, out, {.file = {.format = Format::Usda}, .instancing = Instancing::Gpu}), Error);
+}
+
+TEST(DewModel, IsTheSameWithAnyNumberOfThreads)
+{
+    const std::string many = wet().file({.instancing = Instancing::Gpu});
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const DewModel again(wet().terrain, wet().dew.samples, wet().bodies, wet().options.gravity);
+    std::ostringstream out;
+    again.write(wet().object, out, {.instancing = Instancing::Gpu});
+    EXPECT_EQ(out.str(), many);
+}
+
+TEST(DewModel, WithoutDropletsThereIsTheObjectAlone)
+{
+    const DewModel nothing(wet().terrain, {}, wet().bodies, wet().options.gravity);
+    EXPECT_TRUE(nothing.surface().vertices.empty());
+    std::ostringstream out;
+    nothing.write(wet().object, out, {.instancing = Instancing::Gpu});
+    EXPECT_EQ(jsonOf(out.str()).at("nodes").size(), 1U);
+}
+
+}  // namespace
+}  // namespace droplet
