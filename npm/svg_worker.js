@@ -3,12 +3,11 @@
 import fs from 'node:fs';
 import { createRequire } from 'node:module';
 import { workerData } from 'node:worker_threads';
-import { initWasm, Resvg } from '@resvg/resvg-wasm';
 import { fontsFor } from './fonts.js';
 import { decoded, lackingIn, withFontParts, withPage } from './svg_text.js';
 
 const { port, answers } = workerData;
-const wasm = createRequire(import.meta.url).resolve('@resvg/resvg-wasm/index_bg.wasm');
+let Resvg;
 let text;
 let font;
 
@@ -40,7 +39,17 @@ function drawn(width, height) {
     return { pixels };
 }
 
-const ready = initWasm(fs.readFileSync(wasm));
+/** Loads resvg here, where a failure becomes an answer. */
+async function load() {
+    const resvg = await import('@resvg/resvg-wasm').catch((error) => {
+        throw error.code === 'ERR_MODULE_NOT_FOUND' ? new Error('cannot be drawn: the npm package @resvg/resvg-wasm is not installed') : error;
+    });
+    await resvg.initWasm(fs.readFileSync(createRequire(import.meta.url).resolve('@resvg/resvg-wasm/index_bg.wasm')));
+    Resvg = resvg.Resvg;
+}
+
+const ready = load();
+ready.catch(() => {});  // the first question tells it
 port.on('message', async (question) => {
     let answer;
     try {
@@ -51,7 +60,7 @@ port.on('message', async (question) => {
             answer = drawn(question.width, question.height);
         }
     } catch (error) {
-        answer = { is_damaged: true, problem: String(error?.message ?? error) };
+        answer = { is_damaged: Resvg !== undefined, problem: String(error?.message ?? error) };
     }
     port.postMessage(answer);
     Atomics.add(answers, 0, 1);
