@@ -40,7 +40,11 @@ RunFiles filesOf(const FlowOptions& options)
         files.writes("OUTPUT", options.output);
     }
     files.writes("--droplets", options.droplets);
-    files.writes("--streaks", options.streaks);
+    if (options.streak_files) {
+        files.writesFrames("--streaks", *options.streak_files, numbers);
+    } else {
+        files.writes("--streaks", options.streaks);
+    }
     files.writes("--json", options.json);
     for (const char* map : kFlowMaps) {
         if (options.maps) {

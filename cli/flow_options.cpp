@@ -159,7 +159,8 @@ void declare(CommandLine& line, FlowOptions& options)
     declareTurntable(line);
     declareCompression(line, kOut);
     line.add(kOut, "--streaks", "FILE",
-             "Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animation has them too");
+             "Write the streaks at the end as a mesh, .glb, .obj, .ply or .stl, or those of every frame, such as "
+             "wet/%04d.obj; an animation then has them too, as they grow");
     line.add(kOut, "--maps", "PATH",
              "Textures of the water in the object's uv, such as maps/%05d.png or .exr: four files per frame, -normal, "
              "-thickness, -age and -wet, which tells where the age counts");
@@ -437,6 +438,9 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     };
     options.streaks = ending_in("--streaks", {".glb", ".gltf", ".obj", ".ply", ".stl"},
                                 "a file that ends in .glb, .gltf, .obj, .ply or .stl");
+    if (options.streaks) {
+        options.streak_files = NumberedPath::of(*options.streaks, "--streaks");
+    }
     if (const auto maps = line.value("--maps")) {
         options.maps = NumberedPath::of(maps->text, "--maps");
         const std::string ending = std::filesystem::path(maps->text).extension().string();

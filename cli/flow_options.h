@@ -63,6 +63,7 @@ struct FlowOptions {
     double full_thickness = 5e-3;  ///< of white in PNG maps [m]
     double full_age = 10.0;        ///< of white in PNG maps [s]
     std::optional<std::string> streaks;
+    std::optional<NumberedPath> streak_files;  ///< set if every frame gets a file of streaks
     std::optional<std::string> droplets;
     std::optional<std::string> json;
     std::optional<double> duration;  ///< [s]; empty: the preset's, or 5 s

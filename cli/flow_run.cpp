@@ -42,6 +42,7 @@ struct Moment {
     double time = 0.0;       ///< [s]
     std::vector<droplet::FlowSample> samples;
     std::vector<std::vector<droplet::FlowTrack>> tracks = {};  ///< of every advance
+    droplet::Surface streaks = {};                             ///< if every frame has a file of them
 };
 
 /// Run that can be resumed, if every frame has a file.
@@ -86,6 +87,8 @@ private:
     /// Draws a frame, and writes it unless it is the picture of the last one.
     void drawPicture(const Moment& moment);
     void writeMaps(const Moment& moment);
+    /// Writes a surface in the axes of the object's file.
+    void writeSurface(droplet::Surface surface, const std::string& path, droplet::Compression compression) const;
     /// Warns of droplets that are shown smaller than they are.
     void warnOfLostVolume();
     /// Writes the droplets of a frame.
@@ -108,7 +111,8 @@ private:
     Moment shown_;              ///< of the preview
     std::optional<droplet::FlowTable> table_;
     droplet::StreakRibbons ribbons_;
-    droplet::Surface streaks_;  ///< at the end
+    droplet::StreakRibbons undried_;  ///< for an animation, whose streaks vanish
+    droplet::Surface streaks_;        ///< at the end
     droplet::FlowState state_;
     std::vector<std::vector<droplet::FlowTrack>> tracks_;  ///< since the last frame, if something is wetted
     std::size_t done_ = 0;                                 ///< number of frames that an interrupted run simulated
@@ -222,7 +226,7 @@ droplet::FlowReport FlowRun::execute()
     }
     files.insert(files.end(), previews.begin(), previews.end());
     std::uint64_t bytes = 0;
-    if (options_.streaks) {
+    if (options_.streaks && !options_.streak_files) {
         SurfaceTarget target{*options_.streaks, formatOf(*options_.streaks), {}};
         target.options.material = material_;
         for (OutputFile& file : surfaceFiles(streaks_, target, bytes)) {
@@ -280,6 +284,9 @@ std::function<void()> FlowRun::frame(std::size_t number)
     if (animation_) {
         animation_->add(moment.time, moment.samples);
     }
+    if (options_.streak_files) {
+        moment.streaks = ribbons_.mesh(state_.time).surface;
+    }
     return [this, moment = std::move(moment)] { draw(moment); };
 }
 
@@ -303,9 +310,10 @@ void FlowRun::run(std::ostream* table)
     report_.counts = state_.counts;
     report_.time = state_.time;
     if (options_.streaks) {
-        streaks_ = ribbons_.surface(state_.time);
+        streaks_ = ribbons_.mesh(state_.time).surface;
         if (animation_) {
-            animation_->setStreaks(streaks_);
+            animation_->setStreaks(undried_.mesh(state_.time, 1.0 / options_.frames_per_second),
+                                   plan_.parameters.drying);
         }
         turnToFile(streaks_, formatOf(*options_.streaks), options_.reading);
     }
@@ -348,6 +356,9 @@ void FlowRun::advance(double until)
         state_ = droplet::advanceFlow(std::move(state_), plan_.terrain, plan_.parameters, time);
         if (options_.streaks) {
             ribbons_.add(state_.tracks, plan_.terrain.surface());
+            if (animation_) {
+                undried_.add(state_.tracks, plan_.terrain.surface());
+            }
         }
         if (painter_ || mapper_) {
             tracks_.push_back(std::move(state_.tracks));
@@ -373,6 +384,9 @@ void FlowRun::draw(const Moment& moment)
         if (mapper_) {
             mapper_->add(tracks);
         }
+    }
+    if (options_.streak_files) {
+        writeSurface(moment.streaks, options_.streak_files->at(moment.number), droplet::Compression::None);
     }
     if (film_.isWritten(moment.number)) {
         return;
@@ -463,10 +477,15 @@ void FlowRun::writeMaps(const Moment& moment)
 
 void FlowRun::writeMesh(const Moment& moment) const
 {
-    droplet::Surface surface = droplet::seatedDroplets(plan_.terrain, moment.samples, bodies_, gravityAt(moment.time));
-    SurfaceTarget target{options_.files->at(moment.number), options_.file.format, {}};
+    writeSurface(droplet::seatedDroplets(plan_.terrain, moment.samples, bodies_, gravityAt(moment.time)),
+                 options_.files->at(moment.number), options_.file.compression);
+}
+
+void FlowRun::writeSurface(droplet::Surface surface, const std::string& path, droplet::Compression compression) const
+{
+    SurfaceTarget target{path, formatOf(path), {}};
     target.options.material = material_;
-    target.options.compression = options_.file.compression;
+    target.options.compression = compression;
     turnToFile(surface, target.format, options_.reading);
     std::uint64_t bytes = 0;
     writeTogether(surfaceFiles(surface, target, bytes), options_.run.files);

@@ -163,7 +163,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l drying -x -d 
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow liquid2d' -l time -x -d 'Time to show'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l fps -x -d 'Frames per second; they do not change the paths'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l shape -x -a 'capillary springs capsule' -d 'Shape of the droplets: capillary has least energy, springs is the paper\'s, capsule a cut capsule'
-complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l streaks -r -F -d 'Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animation has them too'
+complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l streaks -r -F -d 'Write the streaks at the end as a mesh, .glb, .obj, .ply or .stl, or those of every frame, such as wet/%04d.obj; an animation then has them too, as they grow'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l maps -r -F -d 'Textures of the water in the object\'s uv, such as maps/%05d.png or .exr: four files per frame, -normal, -thickness, -age and -wet, which tells where the age counts'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l map-width -x -d 'Width and height of the textures in pixels'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow windshield' -l map-thickness -x -d 'Thickness of the water that is white in a PNG'

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes many droplets on many machines by Dask, in shares that go on where they were interrupted, and one manifest.
 
-    farm.py --out out --shares 16 glyphs --font Serif.ttf --all -o 'out/{index}.glb' --triangles 5k
+    farm.py --out out --shares 16 glyphs --font Serif.ttf --all -o 'out/{gid}.glb' --triangles 5k
 
 The rest of the command line is that of `batch` or `glyphs` without `--shard`; the folder of all outputs holds the manifest. It
 takes a cluster's scheduler by `--scheduler tcp://host:8786`; without it, two workers run here. All machines need the folder.

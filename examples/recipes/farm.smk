@@ -2,7 +2,7 @@
 # Makes many droplets on many machines by Snakemake, in shares that go on where they were interrupted, and one manifest:
 #
 #   snakemake --snakefile farm.smk --cores 2 --config \
-#       job="glyphs --font Serif.ttf --all -o out/{index}.glb --triangles 5k" out=out shares=16
+#       job="glyphs --font Serif.ttf --all -o out/{gid}.glb --triangles 5k" out=out shares=16
 #
 # `job` is a command line of `batch` or `glyphs` without `--shard`; `out` is the folder of all outputs, which holds the manifest.
 # Snakemake starts the shares on a cluster as it is configured, with `--cluster` or a profile; all machines need the folder.

@@ -1134,7 +1134,8 @@ def flow(
       material: Look of the droplets: water, ink, mercury, honey or plain (default: by liquid)
       compress: none, quantize, meshopt: Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three
         quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size (default: none)
-      streaks: Write the streaks at the end as a mesh: .glb, .obj, .ply or .stl; an animation has them too
+      streaks: Write the streaks at the end as a mesh, .glb, .obj, .ply or .stl, or those of every frame, such as
+        wet/%04d.obj; an animation then has them too, as they grow
       maps: Textures of the water in the object's uv, such as maps/%05d.png or .exr: four files per frame, -normal,
         -thickness, -age and -wet, which tells where the age counts
       map_width: Width and height of the textures in pixels (default: 1024)

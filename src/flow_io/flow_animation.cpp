@@ -33,15 +33,72 @@ std::array<float, 3> floatsOf(Vec3 v)
     return {toFloat(v.x), toFloat(v.y), toFloat(v.z)};
 }
 
-/// Adds a mesh of streaks on the object.
-void addStreaks(const Surface& streaks, std::size_t object, Scene& scene)
+/// Streaks, and when they vanish.
+struct WetStreaks {
+    StreakMesh mesh;
+    std::optional<double> drying;  ///< [s]
+};
+
+/// Vertices of some triangles.
+DropletMesh partOf(const Surface& surface, const std::vector<Triangle>& triangles)
+{
+    DropletMesh part;
+    std::map<std::uint32_t, std::uint32_t> numbers;
+    for (const Triangle& t : triangles) {
+        Triangle own{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [number, is_new] = numbers.try_emplace(t[k], static_cast<std::uint32_t>(part.vertices.size()));
+            if (is_new) {
+                part.vertices.push_back(surface.vertices[t[k]]);
+                part.normals.push_back(surface.normals[t[k]]);
+                part.uvs.push_back(surface.uvs[t[k]]);
+            }
+            own[k] = number->second;
+        }
+        part.triangles.push_back(own);
+    }
+    return part;
+}
+
+/// Adds streaks on the object: a node for what is wetted until each frame, which appears then.
+void addStreaks(const WetStreaks& streaks, std::size_t object, std::uint32_t frames, Scene& scene)
 {
     SceneMaterial wet = opaqueMaterial("streaks", 0.05);
     wet.look.colour = {0.85, 0.92, 1.0};
     wet.opacity = 0.25;
-    const DropletMesh mesh{streaks.vertices, streaks.normals, streaks.triangles, streaks.uvs};
     const std::size_t material = scene.addMaterial(std::move(wet));
-    scene.addNode({"streaks", scene.addMesh(sceneMesh(mesh, "streaks", material))}, object);
+    const std::size_t all = scene.addNode({"streaks"}, object);
+    std::map<std::uint32_t, std::vector<Triangle>> by_frame;
+    const double rate = scene.frames_per_second;
+    for (std::size_t i = 0; i < streaks.mesh.wetted.size(); ++i) {
+        constexpr double kRounding = 1e-6;
+        const double frame = std::ceil(streaks.mesh.wetted[i] * rate - kRounding);
+        by_frame[static_cast<std::uint32_t>(std::max(frame, 0.0))].push_back(streaks.mesh.surface.triangles[i]);
+    }
+    for (const auto& [frame, triangles] : by_frame) {
+        const std::string name = "streaks of frame " + std::to_string(frame);
+        SceneNode node{name, scene.addMesh(sceneMesh(partOf(streaks.mesh.surface, triangles), name, material))};
+        std::vector<float> times;
+        std::vector<float> scales;
+        const auto key = [&](double at, float scale) {
+            times.push_back(toFloat(at / rate));
+            scales.insert(scales.end(), 3, scale);
+        };
+        if (frame > 0) {
+            node.scale = {0.0, 0.0, 0.0};
+            key(0.0, 0.0F);
+        }
+        key(frame, 1.0F);
+        const double dry = streaks.drying ? std::ceil(frame + *streaks.drying * rate) : frames;
+        if (dry < frames) {
+            key(dry, 0.0F);
+        }
+        const std::size_t added = scene.addNode(std::move(node), all);
+        if (times.size() > 1) {
+            const std::size_t keys = scene.addTimes(std::move(times));
+            scene.tracks.push_back({added, SceneChange::Scale, true, keys, std::move(scales)});
+        }
+    }
 }
 
 }  // namespace
@@ -68,7 +125,7 @@ struct FlowAnimation::Content {
     std::uint64_t volumes = 0;                         ///< their number
     std::map<std::uint64_t, DropletPose> shaped = {};  ///< with which droplets got their last shape, by id
     std::size_t shapes = 0;                            ///< about the number that the file will have
-    std::optional<Surface> streaks = {};
+    std::optional<WetStreaks> streaks = {};
 
     [[nodiscard]] DropletPose poseOf(const FlowSample& sample, Vec3 gravity) const
     {
@@ -174,9 +231,9 @@ void FlowAnimation::add(double time, std::span<const FlowSample> samples)
     checkCrowd(content.histories, content.shapes, "fewer droplets");
 }
 
-void FlowAnimation::setStreaks(Surface streaks)
+void FlowAnimation::setStreaks(StreakMesh streaks, std::optional<double> drying)
 {
-    content_->streaks = std::move(streaks);
+    content_->streaks = WetStreaks{std::move(streaks), drying};
 }
 
 std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) const
@@ -198,8 +255,8 @@ std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) 
     scene.frames_per_second = content.options.frames_per_second;
     CrowdOptions droplets;
     droplets.ground = addObject(content.object, scene);
-    if (content.streaks && !content.streaks->triangles.empty()) {
-        addStreaks(*content.streaks, droplets.ground, scene);
+    if (content.streaks && !content.streaks->mesh.surface.triangles.empty()) {
+        addStreaks(*content.streaks, droplets.ground, content.histories.frames(), scene);
     }
     droplets.material = content.options.material;
     droplets.animation = "flow";

@@ -36,19 +36,25 @@ struct Station {
     Vec3 normal;
     Vec3 left;
     double half_width = 0.0;
-    double along = 0.0;  ///< distance from the begin [m]
+    double along = 0.0;   ///< distance from the begin [m]
+    double wetted = 0.0;  ///< [s]
 };
 
 Station between(const Station& a, const Station& b, double along)
 {
     const double share = (along - a.along) / (b.along - a.along);
     const auto mixed = [share](Vec3 from, Vec3 to) { return from + share * (to - from); };
-    return {mixed(a.place, b.place), unit(mixed(a.normal, b.normal)), unit(mixed(a.left, b.left)),
-            a.half_width + share * (b.half_width - a.half_width), along};
+    return {mixed(a.place, b.place),
+            unit(mixed(a.normal, b.normal)),
+            unit(mixed(a.left, b.left)),
+            a.half_width + share * (b.half_width - a.half_width),
+            along,
+            a.wetted + share * (b.wetted - a.wetted)};
 }
 
-void append(const std::vector<Station>& stations, double thickness, Surface& surface)
+void append(const std::vector<Station>& stations, double thickness, StreakMesh& mesh)
 {
+    Surface& surface = mesh.surface;
     constexpr std::uint32_t kAcross = 3;
     double width = 0.0;
     for (const Station& station : stations) {
@@ -72,6 +78,7 @@ void append(const std::vector<Station>& stations, double thickness, Surface& sur
             const std::uint32_t a = first + kAcross * i + k;
             surface.triangles.push_back({a, a + 1, a + kAcross + 1});
             surface.triangles.push_back({a, a + kAcross + 1, a + kAcross});
+            mesh.wetted.insert(mesh.wetted.end(), 2, stations[i + 1].wetted);
         }
     }
 }
@@ -154,9 +161,10 @@ StreakRibbons::Ribbon StreakRibbons::wetPart(const Ribbon& ribbon, double time) 
     return part;
 }
 
-Surface StreakRibbons::surface(double time) const
+StreakMesh StreakRibbons::mesh(double time, std::optional<double> step) const
 {
-    Surface surface;
+    StreakMesh mesh;
+    Surface& surface = mesh.surface;
     surface.mean_height = options_.thickness;
     for (const auto& [id, ribbons] : ribbons_) {
         for (const Ribbon& ribbon : ribbons) {
@@ -166,12 +174,12 @@ Surface StreakRibbons::surface(double time) const
                 const Vec3 before = i > 0 ? unit(part[i].place - part[i - 1].place) : Vec3{};
                 const Vec3 after = i + 1 < part.size() ? unit(part[i + 1].place - part[i].place) : Vec3{};
                 const Vec3 left = unit(cross(part[i].normal, before + after));
-                const double step = i > 0 ? length(part[i].place - part[i - 1].place) : 0.0;
-                if (left == Vec3{} || (i > 0 && step == 0.0)) {
+                const double way = i > 0 ? length(part[i].place - part[i - 1].place) : 0.0;
+                if (left == Vec3{} || (i > 0 && way == 0.0)) {
                     continue;
                 }
-                const double along = knots.empty() ? 0.0 : knots.back().along + step;
-                knots.push_back({part[i].place, part[i].normal, left, 0.5 * part[i].width, along});
+                const double along = knots.empty() ? 0.0 : knots.back().along + way;
+                knots.push_back({part[i].place, part[i].normal, left, 0.5 * part[i].width, along, part[i].time});
             }
             if (knots.size() < 2 || knots.back().along < 2.0 * kShortest * knots.back().half_width) {
                 continue;
@@ -181,6 +189,13 @@ Surface StreakRibbons::surface(double time) const
             stations.reserve(knots.size() + 2 * std::size(kRoundEnd));
             for (const Station& knot : knots) {
                 stations.push_back(knot.along);
+            }
+            for (std::size_t i = 0; step && i + 1 < knots.size(); ++i) {
+                const Station& a = knots[i];
+                const Station& b = knots[i + 1];
+                for (double cut = *step * (std::floor(a.wetted / *step) + 1.0); cut < b.wetted; cut += *step) {
+                    stations.push_back(a.along + (cut - a.wetted) / (b.wetted - a.wetted) * (b.along - a.along));
+                }
             }
             for (const double share : kRoundEnd) {
                 stations.push_back(std::min(share * knots.front().half_width, whole));
@@ -196,12 +211,12 @@ Surface StreakRibbons::surface(double time) const
                 }
                 all.push_back(between(knots[knot], knots[knot + 1], along));
             }
-            append(all, options_.thickness, surface);
+            append(all, options_.thickness, mesh);
         }
     }
     surface.weld.resize(surface.vertices.size());
     std::iota(surface.weld.begin(), surface.weld.end(), std::uint32_t{0});
-    return surface;
+    return mesh;
 }
 
 }  // namespace droplet

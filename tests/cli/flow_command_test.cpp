@@ -341,5 +341,25 @@ TEST_F(FlowCommand, RefusesWhatItCannotUse)
     expectRefused({"--emitter", "0.01,0.01,0.01,5uL/s"}, 2, "inside", "tent.obj");
 }
 
+TEST_F(FlowCommand, StreaksOfEveryFrameGrow)
+{
+    const CommandResult run = flow("wet.glb", {"--drops", "20", "--volume", "100uL", "--time", "0.5s", "--fps", "10",
+                                               "--streaks", path("streaks-%02d.obj")});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_EQ(readFile(path("streaks-01.obj")).find("\nf "), std::string::npos) << "nothing has run";
+    const auto area_of = [&](const char* name) {
+        const Surface surface = readSurface(path(name)).surface;
+        double area = 0.0;
+        for (const auto& [a, b, c] : surface.triangles) {
+            const Vec3 origin = surface.vertices[a];
+            area += 0.5 * length(cross(surface.vertices[b] - origin, surface.vertices[c] - origin));
+        }
+        return area;
+    };
+    EXPECT_GT(area_of("streaks-05.obj"), 1.5 * area_of("streaks-03.obj"));
+    EXPECT_THAT(readFile(path("wet.glb")), HasSubstr("streaks of frame "));
+    EXPECT_EQ(flow("wet.glb", {"--drops", "1", "--streaks", path("a%d%d.obj")}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace droplet

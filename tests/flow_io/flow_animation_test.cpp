@@ -216,6 +216,79 @@ TEST(FlowAnimation, DropletsSitOnTheObject)
     EXPECT_LE(scene.pool(), 5 * run.max) << "shapes are used again where they fit";
 }
 
+TEST(FlowAnimation, StreaksGrowAndDry)
+{
+    const Sequence& run = theRun();
+    FlowParameters parameters;
+    parameters.adhesion = 30.0;
+    std::vector<FlowStart> starts;
+    for (int k = 0; k < 12; ++k) {
+        starts.push_back({run.terrain.nearest({0.01 * std::cos(k), 0.01 * std::sin(k), 0.05}).place, 60e-9, {}});
+    }
+    FlowState state = startFlow(run.terrain, parameters, starts);
+    FlowAnimation made(run.object, run.terrain, bodies());
+    StreakRibbons ribbons;
+    std::vector<double> areas;  // of the streaks at every frame
+    const auto area_of = [](const Surface& surface) {
+        double area = 0.0;
+        for (const auto& [a, b, c] : surface.triangles) {
+            area += 0.5 *
+                    length(cross(surface.vertices[b] - surface.vertices[a], surface.vertices[c] - surface.vertices[a]));
+        }
+        return area;
+    };
+    for (int frame = 0; frame < 12; ++frame) {
+        state = advanceFlow(std::move(state), run.terrain, parameters, frame / kRate);
+        ribbons.add(state.tracks, run.terrain.surface());
+        made.add(frame / kRate, sampleFlow(state, run.terrain, parameters));
+        areas.push_back(area_of(ribbons.mesh(frame / kRate).surface));
+    }
+    ASSERT_GT(areas[9], 1.5 * areas[5]);
+    ASSERT_GT(areas[5], 0.0);
+    const StreakMesh streaks = ribbons.mesh(11 / kRate, 1.0 / kRate);
+    EXPECT_NEAR(area_of(streaks.surface) / areas.back(), 1.0, 0.01) << "more cuts";
+    const auto shown = [&](const std::optional<double>& drying, int frame) {
+        made.setStreaks(streaks, drying);
+        std::ostringstream out;
+        made.write(out);
+        const AnimatedScene scene(out.str());
+        double area = 0.0;
+        for (std::size_t i = 0; i < scene.model().at("nodes").size(); ++i) {
+            const nlohmann::json& node = scene.model().at("nodes")[i];
+            if (node.value("name", "").starts_with("streaks of frame ") &&
+                scene.at(i, "scale", (frame + 1e-3) / kRate)[0] > 0.0) {
+                const auto [vertices, triangles] = scene.meshOf(node.at("mesh").get<std::size_t>());
+                Surface surface;
+                surface.vertices = vertices;
+                for (const auto& [a, b, c] : triangles) {
+                    surface.triangles.push_back(
+                        {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(c)});
+                }
+                area += area_of(surface);
+            }
+        }
+        return area;
+    };
+    const auto wetted = [&](int from, int to) {
+        double area = 0.0;
+        for (std::size_t i = 0; i < streaks.wetted.size(); ++i) {
+            const auto frame = static_cast<int>(std::ceil(streaks.wetted[i] * kRate - 1e-6));
+            const auto& [a, b, c] = streaks.surface.triangles[i];
+            const Vec3 origin = streaks.surface.vertices[a];
+            const double size =
+                0.5 * length(cross(streaks.surface.vertices[b] - origin, streaks.surface.vertices[c] - origin));
+            area += frame >= from && frame <= to ? size : 0.0;
+        }
+        return area;
+    };
+    for (const int frame : {0, 5, 9, 11}) {
+        EXPECT_NEAR(shown({}, frame), wetted(0, frame), 1e-9) << frame;
+    }
+    EXPECT_NEAR(shown(3 / kRate, 11), wetted(9, 11), 1e-9) << "what is older is dry";
+    // A streak that grows ends square; that of its time has a round end.
+    EXPECT_NEAR(wetted(0, 9) / areas[9], 1.0, 0.2);
+}
+
 TEST(FlowAnimation, OnFlatGroundDropletsShareOneShape)
 {
     FlowObject plate;
@@ -343,7 +416,9 @@ TEST(FlowAnimation, PassesTheValidator)
     FlowAnimation dry(plain, theRun().terrain, bodies());
     dry.add(0.0, {});
     dry.add(0.1, {});
-    dry.setStreaks(dropletSurfaces(theRun().frames.front(), bodies(), {}));
+    StreakMesh streaks{dropletSurfaces(theRun().frames.front(), bodies(), {}), {}};
+    streaks.wetted.resize(streaks.surface.triangles.size(), 0.01);
+    dry.setStreaks(streaks, 0.02);
     std::ostringstream out;
     dry.write(out);
     store("dry.glb", out.str());

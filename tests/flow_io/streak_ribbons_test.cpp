@@ -62,7 +62,7 @@ TEST(StreakRibbons, CoverThePathOfADroplet)
     const FlowSurface surface = roof(0.5);
     StreakRibbons ribbons({.thickness = 1e-5});
     ribbons.add(levelRun(surface, 200), surface);
-    const Surface made = ribbons.surface(0.9);
+    const Surface made = ribbons.mesh(0.9).surface;
     made.validate();
     EXPECT_EQ(topology(made).components, 1U);
     const double exact = kWidth * (0.09 - kWidth) + 0.25 * std::numbers::pi * kWidth * kWidth;
@@ -89,13 +89,13 @@ TEST(StreakRibbons, JoinPiecesOverAnEdgeButNotOverAFlight)
     StreakRibbons ribbons;
     ribbons.add(levelRun(surface, 20), surface);
     ribbons.add(std::vector<FlowTrack>{{1, faceOf(surface, 2), edge, edge + 0.05 * down, kWidth, 1.2}}, surface);
-    const Surface joined = ribbons.surface(1.2);
+    const Surface joined = ribbons.mesh(1.2).surface;
     EXPECT_EQ(topology(joined).components, 1U);
     areaOf(joined);
     ribbons.add(std::vector<FlowTrack>{{1, faceOf(surface, 2), edge + 0.06 * down, edge + 0.09 * down, kWidth, 1.5},
                                        {2, faceOf(surface, 2), edge, edge + 0.0001 * down, kWidth, 1.5}},
                 surface);
-    EXPECT_EQ(topology(ribbons.surface(1.5)).components, 2U) << "the second droplet hardly moved";
+    EXPECT_EQ(topology(ribbons.mesh(1.5).surface).components, 2U) << "the second droplet hardly moved";
 }
 
 TEST(StreakRibbons, StayWholeWhereDropletsMerge)
@@ -108,7 +108,7 @@ TEST(StreakRibbons, StayWholeWhereDropletsMerge)
     }
     StreakRibbons ribbons;
     ribbons.add(tracks, surface);
-    EXPECT_EQ(topology(ribbons.surface(0.9)).components, 1U);
+    EXPECT_EQ(topology(ribbons.mesh(0.9).surface).components, 1U);
 }
 
 TEST(StreakRibbons, DryFromTheirBegin)
@@ -117,7 +117,7 @@ TEST(StreakRibbons, DryFromTheirBegin)
     StreakRibbons ribbons({.drying = 0.3});
     ribbons.add(levelRun(surface, 90), surface);
     const auto shortest = [&](double time) {
-        const Surface made = ribbons.surface(time);
+        const Surface made = ribbons.mesh(time).surface;
         double x = 1.0;
         for (const Vec3& p : made.vertices) {
             x = std::min(x, p.x);
@@ -126,8 +126,8 @@ TEST(StreakRibbons, DryFromTheirBegin)
     };
     EXPECT_NEAR(shortest(0.9), 0.01 + 0.1 * 0.6, 1e-3);
     EXPECT_NEAR(shortest(1.0), 0.01 + 0.1 * 0.7, 1e-3);
-    EXPECT_TRUE(ribbons.surface(1.3).triangles.empty());
-    EXPECT_TRUE(ribbons.surface(1.3).vertices.empty());
+    EXPECT_TRUE(ribbons.mesh(1.3).surface.triangles.empty());
+    EXPECT_TRUE(ribbons.mesh(1.3).surface.vertices.empty());
 }
 
 TEST(StreakRibbons, RejectOptionsOutOfRange)

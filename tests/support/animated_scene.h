@@ -91,11 +91,52 @@ public:
         return all;
     }
 
+    /// Translation, rotation or scale of a node.
+    [[nodiscard]] std::vector<double> at(std::size_t node, const std::string& path, double time) const
+    {
+        const auto found = tracks_.find({node, path});
+        if (found == tracks_.end()) {
+            const std::vector<double> otherwise = path == "scale"      ? std::vector<double>{1, 1, 1}
+                                                  : path == "rotation" ? std::vector<double>{0, 0, 0, 1}
+                                                                       : std::vector<double>{0, 0, 0};
+            return json_.at("nodes").at(node).value(path, otherwise);
+        }
+        const Track& track = found->second;
+        std::size_t key = 0;
+        while (key + 1 < track.times.size() && track.times[key + 1][0] <= time) {
+            ++key;
+        }
+        std::vector<double> value = track.values[key];
+        if (!track.steps && key + 1 < track.times.size() && time > track.times[key][0]) {
+            const double share = (time - track.times[key][0]) / (track.times[key + 1][0] - track.times[key][0]);
+            for (std::size_t i = 0; i < value.size(); ++i) {
+                value[i] += share * (track.values[key + 1][i] - value[i]);
+            }
+        }
+        return value;
+    }
+
     /// A droplet's mesh in its own frame, without compression.
     struct Shape {
         std::vector<Vec3> vertices;
         std::vector<std::array<std::size_t, 3>> triangles;
     };
+    /// A mesh that is not one of droplets.
+    [[nodiscard]] Shape meshOf(std::size_t mesh) const
+    {
+        Shape shape;
+        const nlohmann::json& primitive = json_.at("meshes").at(mesh).at("primitives").at(0);
+        for (const std::vector<double>& p : array(primitive.at("attributes").at("POSITION"))) {
+            shape.vertices.push_back({p[0], p[1], p[2]});
+        }
+        const auto corners = array(primitive.at("indices"));
+        for (std::size_t c = 0; c + 2 < corners.size(); c += 3) {
+            const auto at = [&](std::size_t k) { return static_cast<std::size_t>(corners[c + k][0]); };
+            shape.triangles.push_back({at(0), at(1), at(2)});
+        }
+        return shape;
+    }
+
     /// Shapes of all slots.
     [[nodiscard]] std::vector<Shape> shapes() const
     {
@@ -173,30 +214,6 @@ private:
             }
         }
         return rows;
-    }
-
-    [[nodiscard]] std::vector<double> at(std::size_t node, const std::string& path, double time) const
-    {
-        const auto found = tracks_.find({node, path});
-        if (found == tracks_.end()) {
-            const std::vector<double> otherwise = path == "scale"      ? std::vector<double>{1, 1, 1}
-                                                  : path == "rotation" ? std::vector<double>{0, 0, 0, 1}
-                                                                       : std::vector<double>{0, 0, 0};
-            return json_.at("nodes").at(node).value(path, otherwise);
-        }
-        const Track& track = found->second;
-        std::size_t key = 0;
-        while (key + 1 < track.times.size() && track.times[key + 1][0] <= time) {
-            ++key;
-        }
-        std::vector<double> value = track.values[key];
-        if (!track.steps && key + 1 < track.times.size() && time > track.times[key][0]) {
-            const double share = (time - track.times[key][0]) / (track.times[key + 1][0] - track.times[key][0]);
-            for (std::size_t i = 0; i < value.size(); ++i) {
-                value[i] += share * (track.values[key + 1][i] - value[i]);
-            }
-        }
-        return value;
     }
 
     static void turn(Shown& one, const std::vector<double>& q, bool with_place)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "droplet/body/droplet_body.h"
@@ -11,9 +12,9 @@
 #include "droplet/flow/flow_terrain.h"
 #include "droplet/flow/object_motion.h"
 #include "droplet/flow_io/flow_object.h"
+#include "droplet/flow_io/streak_ribbons.h"
 #include "droplet/scene/format.h"
 #include "droplet/surface/material.h"
-#include "droplet/surface/surface.h"
 #include "droplet/units.h"
 #include "droplet/vector.h"
 
@@ -61,8 +62,10 @@ public:
     /// @throws Error   InvalidArgument if the file would exceed 128 MiB
     void add(double time, std::span<const FlowSample> samples);
 
-    /// Sets the streaks: a mesh that does not change, on the object.
-    void setStreaks(Surface streaks);
+    /// Sets the streaks: they appear frame by frame as they are wetted.
+    /// @param streaks  of the whole animation, none of them dry
+    /// @param drying   time after which they vanish [s]; empty: they stay
+    void setStreaks(StreakMesh streaks, std::optional<double> drying = {});
 
     /// Writes the file.
     ///

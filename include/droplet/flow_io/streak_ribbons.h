@@ -24,6 +24,12 @@ struct StreakRibbonOptions {
     void validate() const;
 };
 
+/// Ribbons at a time.
+struct StreakMesh {
+    Surface surface;             ///< without triangles if there are no streaks
+    std::vector<double> wetted;  ///< when each triangle was wetted [s]
+};
+
 /// Mesh of the streaks behind droplets: a ribbon along the path of each droplet, from face to face. Where a droplet has
 /// flown over more than its width, one ribbon ends and another begins.
 class StreakRibbons {
@@ -41,8 +47,8 @@ public:
     /// its middle is raised by the thickness and its sides by a fifth of it. uv: u from 0 to 1 across it, v the
     /// distance along it over its mean width. It is open below.
     /// @param time  [s]; not before the last track
-    /// @return      surface without triangles if there are no streaks
-    [[nodiscard]] Surface surface(double time) const;
+    /// @param step  if given, no triangle is wetted over the multiples of this time, such as that of a frame [s], > 0
+    [[nodiscard]] StreakMesh mesh(double time, std::optional<double> step = {}) const;
 
 private:
     struct Point {
