@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -433,8 +434,32 @@ private:
         if (options_.seating) {
             crowd.shapes = shapes.sceneShapes();
             crowd.shape_of = std::move(copies.shapes);
+            sortByShape(crowd);
         }
         scene_.crowds.push_back(std::move(crowd));
+    }
+
+    /// Copies of one shape follow one another, those of many copies first: a file's meshes hold a number of copies, and
+    /// meshes with the same shapes are one.
+    static void sortByShape(SceneCrowd& crowd)
+    {
+        std::map<std::size_t, std::size_t> counts;
+        for (const std::size_t shape : crowd.shape_of) {
+            ++counts[shape];
+        }
+        std::vector<std::size_t> order(crowd.nodes.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            const std::size_t one = crowd.shape_of[a];
+            const std::size_t other = crowd.shape_of[b];
+            return std::pair(counts[other], one) < std::pair(counts[one], other);
+        });
+        SceneCrowd sorted = crowd;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            sorted.nodes[i] = crowd.nodes[order[i]];
+            sorted.shape_of[i] = crowd.shape_of[order[i]];
+        }
+        crowd = std::move(sorted);
     }
 
     /// Splits pieces where their shapes do not fit any more.
