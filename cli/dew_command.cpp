@@ -50,7 +50,7 @@ RunEnd made(const DewCommandOptions& options)
     }
     const droplet::DewDroplets droplets = forOption("--coverage", [&] { return droplet::dewDroplets(terrain, dew); });
     const droplet::DropletBodies bodies(droplet::BodyShape::Capillary, dew.forces);
-    const droplet::DewModel model(terrain, droplets.samples, bodies, dew.gravity);
+    const droplet::DewModel model(terrain, droplets.samples, bodies, dew.gravity, options.detail);
 
     std::vector<droplet::FlowSample> shown;
     for (const std::size_t i : model.shown()) {

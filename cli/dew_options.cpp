@@ -105,6 +105,10 @@ void declare(CommandLine& line, DewCommandOptions& options)
     line.add(kHold, "--gravity-direction", "X,Y,Z", "Direction of gravity [0,-1,0]");
     declareForces(line, dew.forces);
     constexpr const char* kOut = "Output";
+    line.add(kOut, "--detail", "Triangles of droplets: medium has 64 of small ones to 352 of large ones",
+             into(options.detail, {{"low", droplet::DewDetail::Low},
+                                   {"medium", droplet::DewDetail::Medium},
+                                   {"high", droplet::DewDetail::High}}));
     line.add(kOut, "--material", "NAME", "Look of the droplets: water, ink, mercury, honey or plain [by liquid]");
     line.add(
         kOut, "--instancing",

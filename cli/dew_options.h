@@ -20,6 +20,7 @@ struct DewCommandOptions {
     droplet::FlowObjectOptions reading;
     droplet::DewOptions dew;  ///< without the content of files
     droplet::DewFile file;    ///< of any format
+    droplet::DewDetail detail = droplet::DewDetail::Medium;
     std::optional<std::string> mask;
     std::optional<std::string> droplets;  ///< path of a table
     RunOptions run;

@@ -70,12 +70,13 @@ def forget():
     _last = (None, None)
 
 
-def run(program, timeout, arguments, inputs, onto=None):
+def run(program, timeout, arguments, inputs, onto=None, has_report=True):
     """Runs the command.
 
-    arguments: the subcommand, if there is one, in arguments[0]; then options
-    inputs:    footprints, in order
-    onto:      object to lay the droplets on
+    arguments:  the subcommand, if there is one, in arguments[0]; then options
+    inputs:     footprints, or the object, in order
+    onto:       object to lay the droplets on
+    has_report: whether the subcommand writes one; otherwise it is empty
     Raises DropletError with the command's own message.
     """
     global _last
@@ -89,7 +90,8 @@ def run(program, timeout, arguments, inputs, onto=None):
         line += arguments[len(subcommand):]
         if onto is not None:
             line += ["--onto", onto.placed(folder)]
-        line += ["--json", str(report), "--progress", "none", "--quiet"]
+        line += ["--json", str(report), "--progress", "none"] if has_report else []
+        line += ["--quiet"]
         try:
             done = subprocess.run(line, stdin=subprocess.DEVNULL, capture_output=True, timeout=timeout, cwd=folder)
         except subprocess.TimeoutExpired:
@@ -98,10 +100,10 @@ def run(program, timeout, arguments, inputs, onto=None):
             raise DropletError(f"{program} does not start: {error.strerror}")
         if done.returncode != 0:
             raise DropletError(_message(done, folder))
-        if not (output.exists() and report.exists()):
+        if not (output.exists() and report.exists() == has_report):
             raise DropletError("droplet-shape wrote no droplet")
         try:
-            result = Result(glb.read(output.read_bytes()), json.loads(report.read_bytes()))
+            result = Result(glb.read(output.read_bytes()), json.loads(report.read_bytes()) if has_report else {})
         except (OSError, ValueError, KeyError, IndexError, TypeError) as error:
             raise DropletError(f"droplet-shape wrote a file that cannot be read: {error!r}")
     _last = (key, result)

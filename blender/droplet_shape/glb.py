@@ -37,7 +37,7 @@ class Part:
     name: str
     positions: np.ndarray  # (n, 3)
     normals: np.ndarray  # (n, 3)
-    uvs: np.ndarray  # (n, 2)
+    uvs: np.ndarray | None  # (n, 2)
     contact_angles: np.ndarray | None  # (n), degrees, 0 beside the rim
     triangles: np.ndarray  # (m, 3)
     targets: list = field(default_factory=list)  # (name, displacements (n, 3))
@@ -110,7 +110,7 @@ def read(data):
             name=node.get("name", "droplet"),
             positions=_z_up(array(attributes["POSITION"])),
             normals=_z_up(array(attributes["NORMAL"])),
-            uvs=_flipped(array(attributes["TEXCOORD_0"])),
+            uvs=_flipped(array(attributes["TEXCOORD_0"])) if "TEXCOORD_0" in attributes else None,
             contact_angles=array(attributes["_CONTACT_ANGLE"]) if "_CONTACT_ANGLE" in attributes else None,
             triangles=array(primitive["indices"]).astype(np.int32).reshape(-1, 3),
             targets=targets,

@@ -24,7 +24,8 @@ def make_mesh(part, welded, name):
     if bpy.app.version < (4, 1, 0):  # later versions derive it
         mesh.polygons.foreach_set("loop_total", np.full(count, 3, np.int32))
     mesh.polygons.foreach_set("use_smooth", np.ones(count, bool))
-    mesh.uv_layers.new(name="UVMap", do_init=False).data.foreach_set("uv", _flat(part.uvs[corners]))
+    if part.uvs is not None:
+        mesh.uv_layers.new(name="UVMap", do_init=False).data.foreach_set("uv", _flat(part.uvs[corners]))
     mesh.update(calc_edges=True)
 
     if part.contact_angles is not None:

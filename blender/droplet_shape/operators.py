@@ -24,6 +24,9 @@ _MODELS = {
 }
 
 
+_KINDS_OF_DEW = {"dew": "Dew", "rain": "Fresh Rain", "bottle": "Cold Bottle", "shower": "After a Shower", "mist": "Mist"}
+
+
 class DropletSettings(AddObjectHelper):
     """The parameters of the liquid, as they appear in the redo panel."""
 
@@ -240,7 +243,7 @@ class MESH_OT_droplet_add(bpy.types.Operator, DropletSettings):
             face = places.selected_face(target, self.spin)
             frame = face.frame
         elif self.place == "ONTO":
-            ground = places.textured_object(target, context, self.scale)
+            ground = places.shown_object(target, context, self.scale, needs_uv=True)
             frame = ground.frame
         elif footprint.frame is not None:
             frame = places.unscaled(footprint.frame)
@@ -386,6 +389,97 @@ class MESH_OT_droplet_sequence_add(bpy.types.Operator, DropletSettings):
         self.tell(result.report)
 
 
+class MESH_OT_droplet_dew_add(bpy.types.Operator):
+    """Cover the active mesh with droplets that rest on it: dew, rain, a cold bottle"""
+
+    bl_idname = "mesh.droplet_dew_add"
+    bl_label = "Dew"
+    bl_options = {"REGISTER", "UNDO"}
+
+    preset: EnumProperty(name="Kind", items=[(name, label, "") for name, label in _KINDS_OF_DEW.items()])
+    scale: FloatProperty(
+        name="Scale", description="Units of the scene in a metre: at 100, an object of 2 units is 2 cm large. Droplets "
+        "have the sizes of real ones", default=20, min=1e-3, soft_max=10000)
+    coverage: FloatProperty(
+        name="Coverage", description="Share of the surface below droplets; 0: of the kind", default=0, min=0,
+        max=0.7)
+    smallest: FloatProperty(
+        name="Smallest (mm)", description="Contact radius of the smallest droplets; 0: of the kind", default=0, min=0, max=20)
+    largest: FloatProperty(
+        name="Largest (mm)", description="Contact radius of the largest droplets; 0: of the kind", default=0, min=0, max=20)
+    contact_angle: FloatProperty(
+        name="Contact Angle", description="30° is clean glass, 105° wax or plastic", subtype="ANGLE",
+        default=math.radians(105), min=math.radians(1), max=math.radians(179))
+    hysteresis: FloatProperty(
+        name="Hysteresis", description="More of it holds larger droplets on walls", default=0.2, min=0, max=2)
+    seed: IntProperty(name="Seed", default=1, min=0)
+    detail: EnumProperty(name="Detail", items=(
+        ("low", "Low", "64 triangles for most droplets: quick, to find the other settings"),
+        ("medium", "Medium", "Up to 352 triangles"), ("high", "High", "Up to 608 triangles")))
+    use_gravity: BoolProperty(
+        name="World Gravity", description="Droplets sag, and large ones run off slopes", default=True)
+    options: StringProperty(
+        name="Options", description="More options of droplet-shape dew, such as --from 1,1,0 --liquid honey")
+
+    @classmethod
+    def poll(cls, context):
+        return context.mode == "OBJECT"
+
+    def draw(self, context):
+        self.layout.use_property_split = True
+        for name in ("preset", "scale", "coverage", "smallest", "largest", "contact_angle", "hysteresis", "seed",
+                     "detail", "use_gravity", "options"):
+            self.layout.prop(self, name)
+
+    def execute(self, context):
+        try:
+            self.make(context)
+        except DropletError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+    def make(self, context):
+        target = _target(context)
+        ground = places.shown_object(target, context, self.scale, needs_uv=False)
+        arguments = ["dew", "--preset", self.preset, "--seed", str(self.seed), "--hysteresis", f"{self.hysteresis:.7g}",
+                     "--contact-angle", f"{math.degrees(self.contact_angle):.7g}deg", "--droplets-only", "--instancing", "none",
+                     "--detail", self.detail]
+        if self.coverage > 0:
+            arguments += ["--coverage", f"{max(self.coverage, 1e-3):.7g}"]
+        for option, radius in (("--smallest", self.smallest), ("--largest", self.largest)):
+            if radius > 0:
+                arguments += [option, f"{radius:.7g}mm"]
+        down = ground.frame.to_3x3().inverted() @ Vector((0, 0, -1))
+        down = down.x, down.z, -down.y  # +Y up in the file
+        if self.use_gravity:
+            arguments += [f"--gravity-direction={down[0]:.7g},{down[1]:.7g},{down[2]:.7g}"]
+        else:
+            arguments += ["--gravity", "0m/s2"]
+        if self.preset == "rain" and "--from" not in self.options:
+            arguments += [f"--from={-down[0]:.7g},{-down[1]:.7g},{-down[2]:.7g}"]
+        try:
+            arguments += shlex.split(self.options)
+        except ValueError as error:
+            raise DropletError(f"options: {error}")
+        settings = preferences(context)
+        result = command.run(
+            command.find_program(settings.program), settings.timeout, arguments, (ground.file,), has_report=False)
+        if not result.model.parts:
+            raise DropletError("no droplet fits on the object")
+        (part,) = result.model.parts
+        mesh = meshes.make_mesh(part, glb.weld(part), "Dew")
+        mesh.materials.append(materials.make_material(result.model.look, self.scale))
+        materials.prepare_eevee(context.scene, result.model.look)
+        dew = _add_droplet(context, mesh, result.model.look)
+        dew.matrix_world = ground.frame @ Matrix.Scale(self.scale, 4)
+        dew.parent = target
+        dew.matrix_parent_inverse = target.matrix_world.inverted()
+        _select(context, dew)
+        context.view_layer.objects.active = target  # the redo panel covers it again
+        self.report({"INFO"}, f"{len(mesh.polygons)} triangles of droplets")
+
+
 class VIEW3D_MT_droplet_add(bpy.types.Menu):
     bl_idname = "VIEW3D_MT_droplet_add"
     bl_label = "Droplet"
@@ -408,6 +502,7 @@ class VIEW3D_MT_droplet_add(bpy.types.Menu):
                 continue
             entry = layout.operator(MESH_OT_droplet_add.bl_idname, text=text)
             entry.source, entry.place = source, place
+        layout.operator(MESH_OT_droplet_dew_add.bl_idname, text="Dew or Rain on Object")
         layout.separator()
         layout.operator(MESH_OT_droplet_sequence_add.bl_idname, text="Sequence...")
 
@@ -416,7 +511,7 @@ def _menu(self, context):
     self.layout.menu(VIEW3D_MT_droplet_add.bl_idname, icon="META_BALL")
 
 
-_CLASSES = (MESH_OT_droplet_add, MESH_OT_droplet_sequence_add, VIEW3D_MT_droplet_add)
+_CLASSES = (MESH_OT_droplet_add, MESH_OT_droplet_dew_add, MESH_OT_droplet_sequence_add, VIEW3D_MT_droplet_add)
 
 
 def register():

@@ -88,20 +88,25 @@ def _face(corners, spin):
 
 @dataclass(frozen=True)
 class Ground:
-    """An object that droplets are laid on by its texture coordinates."""
+    """An object that droplets are laid on."""
 
     frame: Matrix
     file: Input  # in the frame, in metres
 
 
-def textured_object(item, context, scale):
-    """The object as it is shown, with its modifiers. scale: units of the scene in a metre."""
+def shown_object(item, context, scale, needs_uv):
+    """The object as it is shown, with its modifiers.
+
+    scale:    units of the scene in a metre
+    needs_uv: whether droplets are laid on it by its texture coordinates
+    """
     place = unscaled(item.matrix_world)
     shape = Matrix.Scale(1 / scale, 4) @ place.inverted() @ item.matrix_world
     shown = item.evaluated_get(context.evaluated_depsgraph_get())
     mesh = shown.to_mesh()
     try:
-        if mesh.uv_layers.active is None:
+        has_uv = mesh.uv_layers.active is not None
+        if needs_uv and not has_uv:
             raise DropletError(f"{item.name!r} has no texture coordinates; unwrap it first")
         mesh.transform(shape, shape_keys=False)
         if hasattr(mesh, "calc_normals_split"):  # before 4.1
@@ -120,7 +125,8 @@ def textured_object(item, context, scale):
         rows = np.concatenate((
             column(mesh.vertices, "co", 3, np.float32)[corner_vertices[:, 0]],
             column(*normals, 3, np.float32),
-            column(mesh.uv_layers.active.data, "uv", 2, np.float32),
+            column(mesh.uv_layers.active.data, "uv", 2, np.float32) if has_uv
+            else np.zeros((len(corner_vertices), 2), np.float32),
         ), axis=1)
         triangles = column(mesh.loop_triangles, "loops", 3, np.int32)
     finally:

@@ -49,11 +49,21 @@ constexpr double kVolumeStep = 1.4;  // ratio of a class's volumes
 constexpr double kSlopeStep = std::numbers::pi / 12;
 constexpr double kLeastVolume = 2e-10;  // water flattens a droplet of 0.5 mm by under 1 % [m³]
 
-Kind kindOf(const FlowSample& sample, Vec3 gravity)
+BodyDetail detailOf(double volume, DewDetail detail)
 {
-    const double size = std::cbrt(sample.volume);
+    constexpr std::array<BodyDetail, 4> kDetails{{{8, 2}, {14, 4}, {22, 6}, {32, 8}}};
+    const double size = std::cbrt(volume);
+    if (detail == DewDetail::Low) {
+        return kDetails[size < 2.5e-3 ? 0 : 1];
+    }
+    const std::size_t step = size < 0.4e-3 ? 0 : size < 1.2e-3 ? 1 : 2;
+    return kDetails[detail == DewDetail::High ? step + 1 : step];
+}
+
+Kind kindOf(const FlowSample& sample, Vec3 gravity, DewDetail detail)
+{
     Kind kind;
-    kind.detail = size < 0.4e-3 ? BodyDetail{8, 2} : size < 1.2e-3 ? BodyDetail{14, 4} : BodyDetail{22, 6};
+    kind.detail = detailOf(sample.volume, detail);
     if (sample.volume <= kLeastVolume || length(gravity) == 0.0) {
         return kind;
     }
@@ -151,14 +161,14 @@ struct DewModel::Content {
 };
 
 DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletBodies& bodies,
-                   Vec3 gravity)
+                   Vec3 gravity, DewDetail detail)
     : content_(std::make_unique<Content>())
 {
     Content& content = *content_;
     const double unit = unitVolume(bodies);
     content.unit_volume = unit;
     for (const FlowSample& sample : samples) {
-        content.shared.try_emplace(kindOf(sample, gravity));
+        content.shared.try_emplace(kindOf(sample, gravity, detail));
     }
     std::vector<std::pair<const Kind, SharedMesh>*> all;
     for (auto& entry : content.shared) {
@@ -175,7 +185,7 @@ DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> sampl
     std::vector<char> sits(samples.size(), 1);
     tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
         const FlowSample& sample = samples[i];
-        const auto* const kind = &*content.shared.find(kindOf(sample, gravity));
+        const auto* const kind = &*content.shared.find(kindOf(sample, gravity, detail));
         const double factor = std::cbrt(sample.volume / kind->second.volume);
         const Vec2 half = factor * kind->second.half;
         const DropletFrame frame = droplet::frameOf(sample, gravity);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 
 #include "require.h"
@@ -193,8 +194,10 @@ StreakMesh StreakRibbons::mesh(double time, std::optional<double> step) const
             for (std::size_t i = 0; step && i + 1 < knots.size(); ++i) {
                 const Station& a = knots[i];
                 const Station& b = knots[i + 1];
-                for (double cut = *step * (std::floor(a.wetted / *step) + 1.0); cut < b.wetted; cut += *step) {
-                    stations.push_back(a.along + (cut - a.wetted) / (b.wetted - a.wetted) * (b.along - a.along));
+                const auto last = static_cast<std::int64_t>(std::ceil(b.wetted / *step));
+                for (auto k = static_cast<std::int64_t>(std::floor(a.wetted / *step)) + 1; k < last; ++k) {
+                    const double share = (*step * static_cast<double>(k) - a.wetted) / (b.wetted - a.wetted);
+                    stations.push_back(a.along + share * (b.along - a.along));
                 }
             }
             for (const double share : kRoundEnd) {

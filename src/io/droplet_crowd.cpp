@@ -652,6 +652,7 @@ private:
         }
         const auto as_shown = [](const Piece& piece) {
             std::vector<Change> shown;
+            shown.reserve(piece.end - piece.begin);
             for (std::uint32_t frame = piece.begin; frame < piece.end; ++frame) {
                 DropletPose pose = partOf(piece.changes, frame, frame + 1).front().pose;
                 const Vec3 place = partOf(piece.path, frame, frame).front().place;

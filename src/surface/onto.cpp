@@ -46,8 +46,10 @@ void addWarnings(OntoReport& report)
     }
     constexpr double kNoticeable = 1.5;
     if (report.max_scale > kNoticeable || report.min_scale < 1.0 / kNoticeable) {
-        report.warnings.push_back("the object is " + rounded(report.min_scale) + " to " + rounded(report.max_scale) +
-                                  " times as large as the picture; gravity was computed for the size of the picture");
+        report.warnings.push_back(
+            "the object is " + rounded(report.min_scale) + " to " + rounded(report.max_scale) +
+            " times as large as the picture; gravity was computed for the size of the picture. The command "
+            "dew covers an object with round droplets, and needs no uv");
     }
 }
 

@@ -174,6 +174,81 @@ class AddonTest(unittest.TestCase):
         return len(item.data.vertices) - len(item.data.edges) + len(item.data.polygons)
 
 
+class Dew(AddonTest):
+    def cover(self, item, **given):
+        for other in bpy.context.selected_objects:
+            other.select_set(False)
+        item.select_set(True)
+        bpy.context.view_layer.objects.active = item
+        settings = {**defaults(bpy.ops.mesh.droplet_dew_add), "scale": 20.0, **given}
+        self.assertEqual(bpy.ops.mesh.droplet_dew_add(**settings), {"FINISHED"})
+        (dew,) = (other for other in bpy.data.objects if other.name.startswith("Dew") and other.select_get())
+        return dew
+
+    def monkey(self):
+        bpy.ops.mesh.primitive_monkey_add(size=2, location=(1, 2, 3), rotation=(0.3, 0.2, 0.5))
+        return bpy.context.active_object
+
+    def test_droplets_sit_on_the_object_and_are_closed(self):
+        monkey = self.monkey()
+        dew = self.cover(monkey, coverage=0.2, largest=1.5, smallest=0.5)
+        self.assertEqual(dew.parent, monkey)
+        shape = solid(dew)
+        self.assertTrue(all(edge.is_manifold for edge in shape.edges))
+        shape.free()
+        self.assertGreater(volume_of(dew), 0)
+        tree = BVHTree.FromObject(monkey, bpy.context.evaluated_depsgraph_get())
+        inverse = monkey.matrix_world.inverted()
+        away = [tree.find_nearest(inverse @ Vector(point))[3] for point in world_points(dew)]
+        # Units of the scene: a droplet of 1.5 mm is 0.03 units wide at the scale 20, and at most as high as wide.
+        self.assertLess(max(away), 0.08)
+        self.assertLess(np.quantile(away, 0.2), 1.5e-3, "bases and rims are on the object")
+        (material,) = dew.data.materials
+        self.assertIn("water", material.name)
+
+    def test_rain_comes_from_above_in_the_world(self):
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=1, location=(5, 0, 0), rotation=(2, 1, 0))
+        ball = bpy.context.active_object
+        self.assertGreater(world_points(self.cover(ball, preset="rain", coverage=0.1))[:, 2].min(), -0.15)
+        above = self.cover(ball, preset="rain", coverage=0.1, use_gravity=False)
+        self.assertGreater(world_points(above)[:, 2].min(), -0.15)
+
+    def test_size_of_droplets_is_real(self):
+        bpy.ops.mesh.primitive_plane_add(size=2)
+        plane = bpy.context.active_object
+        small = self.cover(plane, coverage=0.1, smallest=1, largest=1, scale=20)
+        large = self.cover(plane, coverage=0.1, smallest=1, largest=1, scale=40)
+        # At the scale 20 the plane is 10 cm wide.
+        one = 20**3 * math.pi * 1e-9  # of the order of a droplet of 1 mm
+        count = lambda item: volume_of(item) * item.matrix_world.to_scale()[0]**3
+        self.assertGreater(count(small) / one, 50)
+        self.assertLess(count(small) / count(large), 0.8, "fewer and larger ones, seen from afar")
+
+    def test_messages(self):
+        monkey = self.monkey()
+        with self.assertRaisesRegex(RuntimeError, "--coverage|more than 2000000"):
+            self.cover(monkey, smallest=0.011, largest=0.011, scale=0.1)
+        with self.assertRaisesRegex(RuntimeError, "unknown option --wet"):
+            self.cover(monkey, options="--wet")
+        bpy.ops.object.select_all(action="DESELECT")
+        bpy.context.view_layer.objects.active = None
+        with self.assertRaisesRegex(RuntimeError, "select the mesh"):
+            bpy.ops.mesh.droplet_dew_add()
+
+    def test_kinds_are_those_of_the_command(self):
+        told = json.loads(subprocess.run([PROGRAM, "dew", "--help=json"], check=True, capture_output=True).stdout)
+        (preset,) = (option for option in told["options"] if option["name"] == "--preset")
+        kinds = bpy.ops.mesh.droplet_dew_add.get_rna_type().properties["preset"].enum_items.keys()
+        self.assertEqual(list(kinds), preset["words"])
+
+    def test_speed(self):
+        monkey = self.monkey()
+        self.cover(monkey, coverage=0.25, smallest=0.7, largest=1.5)
+        begin = time.perf_counter()
+        dew = self.cover(monkey, coverage=0.25, smallest=0.7, largest=1.5, seed=2)
+        print(f"dew: {len(dew.data.polygons)} triangles in {time.perf_counter() - begin:.2f} s")
+
+
 class Mesh(AddonTest):
     def test_dimensions_and_volume_are_those_of_the_report(self):
         for model in ("linear", "exact", "auto"):

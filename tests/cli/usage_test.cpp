@@ -57,8 +57,8 @@ TEST_F(UsageTest, HelpAndVersionGoToStandardOutput)
 
 TEST_F(UsageTest, HelpFitsATerminalOfEightyColumns)
 {
-    for (const std::string command :
-         {"", "animate", "batch", "compare", "dew", "flow", "glyphs", "liquid2d", "morph", "wind-tunnel", "windshield"}) {
+    for (const std::string command : {"", "animate", "batch", "compare", "dew", "flow", "glyphs", "liquid2d", "morph",
+                                      "wind-tunnel", "windshield"}) {
         std::istringstream help(
             run(command.empty() ? std::vector<std::string>{"--help"} : std::vector<std::string>{command, "--help"})
                 .output);

@@ -157,6 +157,19 @@ TEST(DewModel, PassesTheValidator)
     EXPECT_EQ(verdict.exit_code, 0) << verdict.output << verdict.error;
 }
 
+TEST(DewModel, DetailIsInTheNumberOfTriangles)
+{
+    const auto triangles = [](DewDetail detail) {
+        const DewModel model(wet().terrain, wet().dew.samples, wet().bodies, wet().options.gravity, detail);
+        const Surface surface = model.surface();
+        EXPECT_TRUE(isClosed(surface));
+        return surface.triangles.size() / model.shown().size();
+    };
+    EXPECT_EQ(triangles(DewDetail::Low), 64U);
+    EXPECT_GT(triangles(DewDetail::Medium), 64U);
+    EXPECT_GT(triangles(DewDetail::High), 1.5 * static_cast<double>(triangles(DewDetail::Medium)));
+}
+
 TEST(DewModel, UsdHasACopyForEachDroplet)
 {
     const std::string text = wet().file({.file = {.format = Format::Usda}, .instancing = Instancing::Nodes});

@@ -24,13 +24,13 @@ enum class DewSizes {
 
 /// Options of dewDroplets.
 struct DewOptions {
-    double coverage = 0.4;     ///< share of the surface below droplets, from 0.001 to 0.7
-    double smallest = 0.2e-3;  ///< contact radius of the smallest droplets [m], > 0
-    double largest = 1.2e-3;   ///< of the largest ones [m], ≥ smallest; larger ones come from joining
-    DewSizes sizes = DewSizes::Condensation;
-    double median = 0.6e-3;                        ///< of the radii, LogNormal [m], > 0
-    double spread = 0.5;                           ///< standard deviation of their logarithm, LogNormal, from 0 to 3
-    ForceModel forces = {};                        ///< liquid, contact angle, and the slopes that hold a droplet
+    double coverage = 0.4;                    ///< share of the surface below droplets, from 0.001 to 0.7
+    double smallest = 0.2e-3;                 ///< contact radius of the smallest droplets [m], > 0
+    double largest = 1.2e-3;                  ///< of the largest ones [m], ≥ smallest; larger ones come from joining
+    DewSizes sizes = DewSizes::Condensation;  ///< how many have which radius
+    double median = 0.6e-3;                   ///< of the radii, LogNormal [m], > 0
+    double spread = 0.5;                      ///< standard deviation of their logarithm, LogNormal, from 0 to 3
+    ForceModel forces = {};                   ///< liquid, contact angle, and the slopes that hold a droplet
     Vec3 gravity = {0.0, 0.0, -kStandardGravity};  ///< in the object's frame [m/s²]
     std::optional<Vec3> from = {};  ///< only where rain from this direction meets the object first; not 0
     /// Probability, 0 … 1, that a point of the surface may have a droplet; empty: 1.
@@ -59,6 +59,7 @@ struct DewDroplets {
 ///
 /// Guarantees: the same options give the same droplets.
 /// @param terrain  the object
+/// @param options  share, sizes, place, what holds droplets
 /// @throws Error   InvalidArgument if an option is out of its range, or the coverage takes over two million droplets;
 ///                 InvalidInput if the object has no place for them
 DewDroplets dewDroplets(const FlowTerrain& terrain, const DewOptions& options);

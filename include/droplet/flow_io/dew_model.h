@@ -27,12 +27,19 @@ enum class Instancing {
     Gpu,    ///< glTF's EXT_mesh_gpu_instancing, which three.js and Blender from 3.6 on read
 };
 
+/// Triangles of droplets: from 64 of small ones to 352 of large ones in Medium.
+enum class DewDetail {
+    Low,     ///< 64, of those over 2.5 mm 208
+    Medium,  ///< 64 below 0.4 mm, 168 below 1.2 mm, else 352: the cube root of the volume counts
+    High,    ///< a step more
+};
+
 /// Form of a file of droplets on an object.
 struct DewFile {
-    AnimatedFile file = {};               ///< glTF or USD
-    Material material = Material::Water;  ///< of the droplets
-    Instancing instancing = Instancing::Auto;
-    bool has_object = true;  ///< whether the file has the object, too
+    AnimatedFile file = {};                    ///< glTF or USD
+    Material material = Material::Water;       ///< of the droplets
+    Instancing instancing = Instancing::Auto;  ///< how droplets share meshes
+    bool has_object = true;                    ///< whether the file has the object, too
 };
 
 /// Meshes of droplets at rest on an object.
@@ -48,8 +55,9 @@ public:
     /// @param samples  droplets at rest on it
     /// @param bodies   their shapes
     /// @param gravity  in the object's frame [m/s²]
-    DewModel(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletBodies& bodies,
-             Vec3 gravity);
+    /// @param detail   of the meshes
+    DewModel(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletBodies& bodies, Vec3 gravity,
+             DewDetail detail = DewDetail::Medium);
     ~DewModel();
     DewModel(DewModel&&) noexcept;             ///< Moves the meshes.
     DewModel& operator=(DewModel&&) noexcept;  ///< Moves the meshes.
