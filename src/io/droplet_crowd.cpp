@@ -502,6 +502,7 @@ private:
         for (const auto& [shape, same] : by_shape) {
             for (const std::vector<std::size_t>& slot : assignSlots(same, pause)) {
                 std::vector<Piece> shown;
+                shown.reserve(slot.size());
                 for (const std::size_t number : slot) {
                     shown.push_back(same[number]);
                 }
