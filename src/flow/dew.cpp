@@ -129,8 +129,7 @@ public:
         for (std::size_t k = 0; k < radii.size(); ++k) {
             place(k, radii[k]);
         }
-        for (std::size_t k = 0; k < drops_.size(); ++k) {
-            const Drop& drop = drops_[k];
+        for (const Drop& drop : drops_) {
             if (drop.volume > 0.0) {
                 FlowSample sample;
                 sample.id = result_.samples.size();
@@ -230,7 +229,7 @@ private:
             met = grids_.touching(drop, drops_);
             if (!met) {
                 grids_.add(drops_.size(), drop);
-                drops_.push_back(std::move(drop));
+                drops_.push_back(drop);
                 return;
             }
             ++room;
