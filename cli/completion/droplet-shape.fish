@@ -125,6 +125,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from dew flow wind-tunnel w
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew flow wind-tunnel windshield' -l profile-exponent -x -d 'Exponent of the wind\'s growth with height in that layer; 0.143 for a turbulent one'
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew flow wind-tunnel windshield' -l air-density -x -d 'Density of the air'
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew flow wind-tunnel windshield' -l gravity -x -d 'Gravity, downwards'
+complete -c droplet-shape -n '__fish_seen_subcommand_from dew' -l detail -x -a 'low medium high' -d 'Triangles of droplets: medium has 64 of small ones to 352 of large ones'
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew flow' -l material -x -d 'Look of the droplets: water, ink, mercury, honey or plain'
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew' -l instancing -x -a 'auto none nodes gpu' -d 'auto is one mesh up to 20000 droplets; none one mesh; nodes a node for each droplet, with shared meshes; gpu EXT_mesh_gpu_instancing, for glTF'
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew' -l droplets-only -d 'Leave the object out of a .glb, .gltf, .usda or .usdz'
