@@ -3,7 +3,10 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -11,6 +14,7 @@
 
 #include "dew_options.h"
 #include "droplet/body/droplet_body.h"
+#include "droplet/error.h"
 #include "droplet/flow_io/face_properties.h"
 #include "droplet/flow_io/flow_table.h"
 #include "droplet/mask/mask.h"
@@ -37,6 +41,18 @@ RunFiles filesOf(const DewCommandOptions& options)
     return files;
 }
 
+droplet::DewDroplets placed(const droplet::FlowTerrain& terrain, const droplet::DewOptions& dew,
+                            const std::string& object)
+{
+    try {
+        return droplet::dewDroplets(terrain, dew);
+    } catch (const droplet::Error& error) {
+        const bool is_of_object = error.code() == droplet::ErrorCode::InvalidInput;
+        throw droplet::Error(error.code(),
+                             (is_of_object ? object : "--coverage, --smallest, --largest") + ": " + error.what());
+    }
+}
+
 RunEnd made(const DewCommandOptions& options)
 {
     const droplet::FlowObject object = droplet::readFlowObject(options.object, options.reading);
@@ -48,13 +64,20 @@ RunEnd made(const DewCommandOptions& options)
         mask = droplet::readMask(*options.mask);
         dew.weight = forOption("--mask", [&] { return droplet::coverageOver(*mask, object, terrain.surface()); });
     }
-    const droplet::DewDroplets droplets = forOption("--coverage", [&] { return droplet::dewDroplets(terrain, dew); });
+    const droplet::DewDroplets droplets = placed(terrain, dew, options.object);
     const droplet::DropletBodies bodies(droplet::BodyShape::Capillary, dew.forces);
     const droplet::DewModel model(terrain, droplets.samples, bodies, dew.gravity, options.detail);
 
     std::vector<droplet::FlowSample> shown;
     for (const std::size_t i : model.shown()) {
         shown.push_back(droplets.samples[i]);
+    }
+    const std::string lost = fmt::format("{} joined others; {} ran off; {} left out, where the object bends too much",
+                                         droplets.joined, droplets.run_off, droplets.samples.size() - shown.size());
+    if (shown.empty()) {
+        throw droplet::Error(droplet::ErrorCode::InvalidInput,
+                             options.object + ": no droplet of this size rests on it: " + lost +
+                                 "; give smaller droplets, more --hysteresis, or the object its real size");
     }
     std::vector<OutputFile> files;
     droplet::Surface surface;
@@ -81,15 +104,16 @@ RunEnd made(const DewCommandOptions& options)
     writeTogether(files, options.run.files);
 
     double volume = 0.0;
+    double covered = 0.0;
     for (const droplet::FlowSample& sample : shown) {
         volume += sample.volume;
+        covered += std::numbers::pi * std::pow(droplet::dewRadius(sample.volume, dew.forces.wetting.contact_angle), 2);
     }
     RunEnd end;
-    end.summary = fmt::format("{} droplets, {:.4g} mL, cover {:.3g} of {:.4g} cm2\n", shown.size(), volume / 1e-6,
-                              droplets.covered / droplets.area, droplets.area / 1e-4) +
-                  fmt::format("{} joined others; {} ran off; {} left out, where the object bends too much\n",
-                              droplets.joined, droplets.run_off, droplets.samples.size() - shown.size()) +
-                  oneLine(options.output) + "\n";
+    end.summary =
+        fmt::format("{} droplet{}, {:.4g} mL, cover {:.3g} of {:.4g} cm2\n{}\n", shown.size(),
+                    shown.size() == 1 ? "" : "s", volume / 1e-6, covered / droplets.area, droplets.area / 1e-4, lost) +
+        oneLine(options.output) + "\n";
     end.warnings = object.warnings;
     return end;
 }

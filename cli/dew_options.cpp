@@ -51,9 +51,9 @@ const CommandText& commandText()
                                   "\n"
                                   "Examples:\n"
                                   "  droplet-shape dew leaf.glb wet.glb\n"
-                                  "  droplet-shape dew can.obj cold.glb --preset bottle --object-size 12cm\n"
+                                  "  droplet-shape dew bottle.glb cold.glb --preset bottle --object-size 12cm\n"
                                   "  droplet-shape dew leaf.glb rain.obj --preset rain --coverage 0.3 --largest 2mm\n"
-                                  "  droplet-shape dew leaf.glb wet.usdz --mask painted.png --droplets drops.csv\n"
+                                  "  droplet-shape dew leaf.glb wet.usdz --mask mask.png --droplets drops.csv\n"
                                   "\n"
                                   "Exit codes:\n"
                                   "  0 done; 1 internal error; 2 usage; 3 input unreadable, or no place for\n"
@@ -84,9 +84,10 @@ void declare(CommandLine& line, DewCommandOptions& options)
              "options of this group change it [dew]");
     line.add(kDroplets, "--coverage", "SHARE", "Share of the surface below droplets, 0.001 to 0.7 [by preset]",
              within(1e-3, 0.7));
-    line.add(kDroplets, "--smallest", "LENGTH", "Contact radius of the smallest droplets [by preset]", within(kRadius));
-    line.add(kDroplets, "--largest", "LENGTH", "Contact radius of the largest droplets, before some join [by preset]",
+    line.add(kDroplets, "--smallest", "LENGTH", "Radius of the smallest droplets seen from above [by preset]",
              within(kRadius));
+    line.add(kDroplets, "--largest", "LENGTH",
+             "Radius of the largest droplets seen from above, before some join [by preset]", within(kRadius));
     line.add(kDroplets, "--sizes", "condensation|lognormal",
              "Numbers of droplets by radius r: condensation is r to the power of -8/3, lognormal has a median and a "
              "spread [by preset]");

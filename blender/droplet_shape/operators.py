@@ -404,9 +404,9 @@ class MESH_OT_droplet_dew_add(bpy.types.Operator):
         name="Coverage", description="Share of the surface below droplets; 0: of the kind", default=0, min=0,
         max=0.7)
     smallest: FloatProperty(
-        name="Smallest (mm)", description="Contact radius of the smallest droplets; 0: of the kind", default=0, min=0, max=20)
+        name="Smallest (mm)", description="Radius of the smallest droplets, seen from above; 0: of the kind", default=0, min=0, max=20)
     largest: FloatProperty(
-        name="Largest (mm)", description="Contact radius of the largest droplets; 0: of the kind", default=0, min=0, max=20)
+        name="Largest (mm)", description="Radius of the largest droplets, seen from above; 0: of the kind", default=0, min=0, max=20)
     contact_angle: FloatProperty(
         name="Contact Angle", description="30° is clean glass, 105° wax or plastic", subtype="ANGLE",
         default=math.radians(105), min=math.radians(1), max=math.radians(179))

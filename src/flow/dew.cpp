@@ -23,14 +23,16 @@
 namespace droplet {
 namespace {
 
-constexpr std::size_t kMost = 2'000'000;
+constexpr double kRight = 0.5 * std::numbers::pi;
+constexpr std::size_t kMost = 1'000'000;
 
 /// Droplet on the surface.
 struct Drop {
     FlowTerrain::Point point;
     Vec3 normal;
     double volume = 0.0;
-    double radius = 0.0;  ///< of contact
+    double radius = 0.0;  ///< seen from above
+    Vec3 centre;          ///< of a ball that it fills as far as it leans out; below 90° its place
 };
 
 /// Droplets by place, with a grid for each power of two of their radius.
@@ -49,8 +51,8 @@ public:
         for (const auto& [level, grid] : grids_) {
             const double side = sideOf(level);
             const double reach = drop.radius + 0.5 * side;
-            const Cell low = at(drop.point.place - reach * Vec3{1.0, 1.0, 1.0}, side);
-            const Cell high = at(drop.point.place + reach * Vec3{1.0, 1.0, 1.0}, side);
+            const Cell low = at(drop.centre - reach * Vec3{1.0, 1.0, 1.0}, side);
+            const Cell high = at(drop.centre + reach * Vec3{1.0, 1.0, 1.0}, side);
             for (Cell c = low; c[0] <= high[0]; ++c[0]) {
                 for (c[1] = low[1]; c[1] <= high[1]; ++c[1]) {
                     for (c[2] = low[2]; c[2] <= high[2]; ++c[2]) {
@@ -85,7 +87,7 @@ private:
     /// Those on the two sides of a thin part do not touch.
     static bool touch(const Drop& a, const Drop& b)
     {
-        return length(a.point.place - b.point.place) < a.radius + b.radius && dot(a.normal, b.normal) > -0.5;
+        return length(a.centre - b.centre) < a.radius + b.radius && dot(a.normal, b.normal) > -0.5;
     }
 
     [[nodiscard]] double sideOf(int level) const { return 2.0 * std::ldexp(smallest_, level); }
@@ -102,7 +104,7 @@ private:
         while (std::ldexp(smallest_, level) < drop.radius) {
             ++level;
         }
-        return grids_[level][at(drop.point.place, sideOf(level))];
+        return grids_[level][at(drop.centre, sideOf(level))];
     }
 
     double smallest_;
@@ -160,10 +162,10 @@ private:
         double covered = 0.0;
         for (std::size_t k = 0; covered < wanted; ++k) {
             if (k == kMost) {
-                throw Error(ErrorCode::InvalidArgument,
-                            "a coverage of " + std::to_string(options_.coverage) + " takes more than " +
-                                std::to_string(kMost) +
-                                " droplets of this size; ask for larger droplets, or for less coverage");
+                throw Error(
+                    ErrorCode::InvalidArgument,
+                    "the coverage takes more than " + std::to_string(kMost) +
+                        " droplets of this size; ask for larger ones, for less coverage, or for a smaller object");
             }
             radii.push_back(radiusOf(k));
             covered += std::numbers::pi * radii.back() * radii.back();
@@ -196,16 +198,30 @@ private:
 
     [[nodiscard]] Drop dropAt(const FlowTerrain::Point& point, double volume) const
     {
-        return {point, terrain_.surface().faces[point.face].normal, volume,
-                capOf(volume, options_.forces.wetting.contact_angle).contact_radius};
+        const double angle = options_.forces.wetting.contact_angle;
+        const Vec3 normal = terrain_.surface().faces[point.face].normal;
+        const double rise = angle > kRight ? -std::cos(angle) * capOf(volume, angle).radius : 0.0;
+        return {point, normal, volume, dewRadius(volume, angle), point.place + rise * normal};
+    }
+
+    /// Volume of a droplet with a radius seen from above.
+    [[nodiscard]] double volumeOf(double radius) const
+    {
+        const double angle = options_.forces.wetting.contact_angle;
+        return capVolume(angle > kRight ? radius * std::sin(angle) : radius, angle);
     }
 
     /// Whether a droplet stays where it is.
     [[nodiscard]] bool isHeld(const Drop& drop) const
     {
         const DropletForces forces = forcesOn(options_.forces, drop.volume);
-        const Vec3 along = options_.gravity - dot(options_.gravity, drop.normal) * drop.normal;
-        return forces.mass * length(along) <= forces.retention;
+        const double off = dot(options_.gravity, drop.normal);
+        const Vec3 along = options_.gravity - off * drop.normal;
+        const double angle = options_.forces.wetting.contact_angle;
+        // As FlowParameters::adhesion has it: 2 σ sin θ / r over the contact circle.
+        const double adhesion = 2.0 * std::numbers::pi * capOf(drop.volume, angle).contact_radius *
+                                options_.forces.liquid.surface_tension * std::sin(angle);
+        return forces.mass * length(along) <= forces.retention && forces.mass * off <= adhesion;
     }
 
     void place(std::size_t k, double radius)
@@ -213,7 +229,7 @@ private:
         constexpr int kRoomTries = 100;
         constexpr int kSlopeTries = 200;
         const RandomStream random(options_.seed, RandomPurpose::Dew, 2 * k + 1);
-        const double volume = capVolume(radius, options_.forces.wetting.contact_angle);
+        const double volume = volumeOf(radius);
         std::optional<std::size_t> met;
         std::uint64_t counter = 0;
         for (int room = 0, slope = 0; room < kRoomTries && slope < kSlopeTries;) {
@@ -294,6 +310,12 @@ void DewOptions::validate() const
         const double size = length(*from);
         require(size > 0.0 && std::isfinite(size), "from", size, "a direction that is not 0");
     }
+}
+
+double dewRadius(double volume, double contact_angle)
+{
+    const CapSize cap = capOf(volume, contact_angle);
+    return contact_angle > kRight ? cap.radius : cap.contact_radius;
 }
 
 DewDroplets dewDroplets(const FlowTerrain& terrain, const DewOptions& options)

@@ -226,7 +226,7 @@ class Dew(AddonTest):
 
     def test_messages(self):
         monkey = self.monkey()
-        with self.assertRaisesRegex(RuntimeError, "--coverage|more than 2000000"):
+        with self.assertRaisesRegex(RuntimeError, "--coverage|more than 1000000"):
             self.cover(monkey, smallest=0.011, largest=0.011, scale=0.1)
         with self.assertRaisesRegex(RuntimeError, "unknown option --wet"):
             self.cover(monkey, options="--wet")

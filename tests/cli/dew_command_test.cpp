@@ -128,8 +128,10 @@ TEST_F(DewCommand, RefusesWhatCannotBe)
     expectRefused("x.obj", {"--droplets-only"}, 2, "--droplets-only needs a .glb");
     expectRefused("x.obj", {"--compress", "meshopt"}, 2, "--compress");
     expectRefused("x.glb", {"--droplets", path("x.txt")}, 2, ".csv or .json");
-    expectRefused("x.glb", {"--smallest", "0.01mm", "--largest", "0.01mm"}, 2, "more than 2000000 droplets");
-    expectRefused("x.glb", {"--from", "0,-1,0"}, 3, "faces the rain");
+    expectRefused("x.glb", {"--smallest", "0.01mm", "--largest", "0.01mm"}, 2, "more than 1000000 droplets");
+    expectRefused("x.glb", {"--from", "0,-1,0"}, 3, "plate.obj: the object has no place");
+    expectRefused("x.glb", {"--smallest", "15mm", "--largest", "20mm", "--gravity-direction", "1,0,0"}, 3,
+                  "plate.obj: no droplet of this size rests on it");
     expectRefused("x.glb", {"--object-size", "1cm", "--scale", "2"}, 2, "--scale");
     expectRefused("x.glb", {"--mask", path("none.png")}, 3, "none.png");
     const CommandResult same = runDroplet({"dew", path("plate.obj"), path("plate.obj")});

@@ -31,14 +31,19 @@ FlowTerrain plane(double width, double height, double slope = 0.0)
 
 double radiusOf(const FlowSample& sample, const DewOptions& options)
 {
-    return capOf(sample.volume, options.forces.wetting.contact_angle).contact_radius;
+    return dewRadius(sample.volume, options.forces.wetting.contact_angle);
 }
 
+/// Balls of droplets, as far as they lean out, do not meet.
 void expectApart(const DewDroplets& dew, const DewOptions& options)
 {
+    const double angle = options.forces.wetting.contact_angle;
+    const auto centre = [&](const FlowSample& sample) {
+        return sample.place + std::max(0.0, -std::cos(angle)) * capOf(sample.volume, angle).radius * sample.normal;
+    };
     for (std::size_t i = 0; i < dew.samples.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-            ASSERT_GE(length(dew.samples[i].place - dew.samples[k].place),
+            ASSERT_GE(length(centre(dew.samples[i]) - centre(dew.samples[k])),
                       radiusOf(dew.samples[i], options) + radiusOf(dew.samples[k], options) - 1e-12);
         }
     }
@@ -164,6 +169,45 @@ TEST(Dew, SlopesHoldEveryDroplet)
     EXPECT_GT(most, 0.8) << "some are nearly as large as may be";
     options.forces.wetting.hysteresis = 2.0;
     EXPECT_LT(dewDroplets(wall, options).run_off, dew.run_off) << "more hysteresis holds more";
+}
+
+TEST(Dew, SteepDropletsKeepTheDistanceOfTheirEquators)
+{
+    DewOptions options;
+    options.forces.wetting.contact_angle = 150.0 * kDegree;
+    const DewDroplets dew = dewDroplets(plane(0.03, 0.03), options);
+    EXPECT_NEAR(dew.covered / dew.area, options.coverage, 0.01);
+    for (const FlowSample& sample : dew.samples) {
+        const CapSize cap = capOf(sample.volume, options.forces.wetting.contact_angle);
+        EXPECT_DOUBLE_EQ(radiusOf(sample, options), cap.radius);
+        EXPECT_LE(cap.radius, 1.5 * options.largest) << "sizes are those seen from above";
+    }
+    expectApart(dew, options);
+}
+
+TEST(Dew, CeilingsHoldOnlySmallDroplets)
+{
+    DewOptions options;
+    options.sizes = DewSizes::LogNormal;
+    options.smallest = 0.3e-3;
+    options.median = 3e-3;
+    options.largest = 8e-3;
+    options.gravity = {0.0, 0.0, kStandardGravity};
+    const FlowTerrain ceiling = plane(0.1, 0.1);
+    const DewDroplets dew = dewDroplets(ceiling, options);
+    EXPECT_GT(dew.run_off, 0U);
+    // As flow judges: none of them falls.
+    FlowParameters parameters;
+    parameters.gravity = options.gravity;
+    parameters.merges = false;
+    std::vector<FlowStart> starts;
+    for (const FlowSample& sample : dew.samples) {
+        starts.push_back({sample.place, sample.volume, {}});
+    }
+    FlowState state = startFlow(ceiling, parameters, starts);
+    state = advanceFlow(std::move(state), ceiling, parameters, 0.2);
+    EXPECT_EQ(sampleFlow(state, ceiling, parameters).size(), starts.size());
+    EXPECT_EQ(balanceOf(state).left, 0.0);
 }
 
 TEST(Dew, RainWetsOnlyWhatItMeets)

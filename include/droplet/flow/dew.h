@@ -14,7 +14,7 @@
 
 namespace droplet {
 
-/// How many droplets have which contact radius r.
+/// How many droplets have which radius r.
 enum class DewSizes {
     /// Droplets that condensed, grew and joined: n(r) ∝ r^(−8/3) (E. J. Le Fevre and J. W. Rose, "A theory of heat
     /// transfer by dropwise condensation", Proc. 3rd Int. Heat Transfer Conf. 2 (1966) 362).
@@ -25,7 +25,7 @@ enum class DewSizes {
 /// Options of dewDroplets.
 struct DewOptions {
     double coverage = 0.4;                    ///< share of the surface below droplets, from 0.001 to 0.7
-    double smallest = 0.2e-3;                 ///< contact radius of the smallest droplets [m], > 0
+    double smallest = 0.2e-3;                 ///< radius of the smallest droplets seen from above: dewRadius() [m], > 0
     double largest = 1.2e-3;                  ///< of the largest ones [m], ≥ smallest; larger ones come from joining
     DewSizes sizes = DewSizes::Condensation;  ///< how many have which radius
     double median = 0.6e-3;                   ///< of the radii, LogNormal [m], > 0
@@ -51,16 +51,21 @@ struct DewDroplets {
     std::size_t run_off = 0;          ///< droplets that no place holds
 };
 
+/// Radius of a droplet seen from above, without gravity: that of its contact circle, or beyond 90° of its equator [m].
+/// @param volume         [m³], > 0
+/// @param contact_angle  [rad], in (0, π)
+double dewRadius(double volume, double contact_angle);
+
 /// Covers an object with droplets at rest.
 ///
 /// Droplets are placed at random from large to small. None touches another; one that finds no room in some tries joins
-/// the one that it met, which grows and may meet others. None is larger than its slope holds: contact angle hysteresis,
-/// as for droplets that run.
+/// the one that it met, which grows and may meet others. None is larger than its slope holds, by contact angle
+/// hysteresis, or surface tension below an overhang, as for droplets that run.
 ///
 /// Guarantees: the same options give the same droplets.
 /// @param terrain  the object
 /// @param options  share, sizes, place, what holds droplets
-/// @throws Error   InvalidArgument if an option is out of its range, or the coverage takes over two million droplets;
+/// @throws Error   InvalidArgument if an option is out of its range, or the coverage takes over a million droplets;
 ///                 InvalidInput if the object has no place for them
 DewDroplets dewDroplets(const FlowTerrain& terrain, const DewOptions& options);
 
