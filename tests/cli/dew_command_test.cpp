@@ -47,6 +47,7 @@ protected:
         EXPECT_FALSE(std::filesystem::exists(path(output)));
     }
 
+private:
     testing::ScratchDirectory scratch_;
 };
 
