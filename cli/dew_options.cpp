@@ -53,7 +53,7 @@ const CommandText& commandText()
                                   "  droplet-shape dew leaf.glb wet.glb\n"
                                   "  droplet-shape dew bottle.glb cold.glb --preset bottle --object-size 12cm\n"
                                   "  droplet-shape dew leaf.glb rain.obj --preset rain --coverage 0.3 --largest 2mm\n"
-                                  "  droplet-shape dew leaf.glb wet.usdz --mask mask.png --droplets drops.csv\n"
+                                  "  droplet-shape dew leaf.glb wet.usdz --preset mist --droplets drops.csv\n"
                                   "\n"
                                   "Exit codes:\n"
                                   "  0 done; 1 internal error; 2 usage; 3 input unreadable, or no place for\n"

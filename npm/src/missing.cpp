@@ -78,7 +78,7 @@ bool isThreadShortage(const std::exception&)
     return false;
 }
 
-Started start(const std::vector<std::string>& command, Piped, std::FILE*)
+Started start(const std::vector<std::string>& command, Piped, const SharedFile*)
 {
     refuse("this needs the program " + command[0] + kElsewhere);
 }
@@ -88,10 +88,8 @@ std::FILE* temporaryFile()
     return nullptr;
 }
 
-std::string inheritedName(std::FILE*)
-{
-    return {};
-}
+SharedFile::SharedFile() = default;
+SharedFile::~SharedFile() = default;
 
 void limitMemory(ProcessId, std::size_t) {}
 
