@@ -27,7 +27,19 @@ _MODELS = {
 _KINDS_OF_DEW = {"dew": "Dew", "rain": "Fresh Rain", "bottle": "Cold Bottle", "shower": "After a Shower", "mist": "Mist"}
 
 
-class DropletSettings(AddObjectHelper):
+class Maker:
+    """An operator whose make(context) may find that something is wrong."""
+
+    def execute(self, context):
+        try:
+            self.make(context)
+        except DropletError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class DropletSettings(Maker, AddObjectHelper):
     """The parameters of the liquid, as they appear in the redo panel."""
 
     width: FloatProperty(
@@ -107,14 +119,6 @@ class DropletSettings(AddObjectHelper):
     def draw_place(self, layout):
         for name in ("align", "location", "rotation"):
             layout.prop(self, name)
-
-    def execute(self, context):
-        try:
-            self.make(context)
-        except DropletError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
 
     def tell(self, report):
         for warning in report.get("warnings", []):
@@ -389,7 +393,7 @@ class MESH_OT_droplet_sequence_add(bpy.types.Operator, DropletSettings):
         self.tell(result.report)
 
 
-class MESH_OT_droplet_dew_add(bpy.types.Operator):
+class MESH_OT_droplet_dew_add(bpy.types.Operator, Maker):
     """Cover the active mesh with droplets that rest on it: dew, rain, a cold bottle"""
 
     bl_idname = "mesh.droplet_dew_add"
@@ -430,14 +434,6 @@ class MESH_OT_droplet_dew_add(bpy.types.Operator):
         for name in ("preset", "scale", "coverage", "smallest", "largest", "contact_angle", "hysteresis", "seed",
                      "detail", "use_gravity", "options"):
             self.layout.prop(self, name)
-
-    def execute(self, context):
-        try:
-            self.make(context)
-        except DropletError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return {"FINISHED"}
 
     def make(self, context):
         target = _target(context)
