@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -111,8 +112,8 @@ private:
     Moment shown_;              ///< of the preview
     std::optional<droplet::FlowTable> table_;
     droplet::StreakRibbons ribbons_;
-    droplet::StreakRibbons undried_;  ///< for an animation, whose streaks vanish
-    droplet::Surface streaks_;        ///< at the end
+    std::optional<droplet::StreakRibbons> undried_;  ///< for an animation whose streaks dry
+    droplet::Surface streaks_;                       ///< at the end
     droplet::FlowState state_;
     std::vector<std::vector<droplet::FlowTrack>> tracks_;  ///< since the last frame, if something is wetted
     std::size_t done_ = 0;                                 ///< number of frames that an interrupted run simulated
@@ -148,6 +149,9 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
         animation.gravity = plan_.parameters.gravity;
         animation.motion = plan_.parameters.motion;
         animation_.emplace(plan_.object, plan_.terrain, bodies_, animation);
+        if (plan_.parameters.drying) {
+            undried_.emplace();
+        }
     }
     if (isPicture() || options_.has_preview) {
         preparePainter();
@@ -312,8 +316,9 @@ void FlowRun::run(std::ostream* table)
     if (options_.streaks) {
         streaks_ = ribbons_.mesh(state_.time).surface;
         if (animation_) {
-            animation_->setStreaks(undried_.mesh(state_.time, 1.0 / options_.frames_per_second),
-                                   plan_.parameters.drying);
+            animation_->setStreaks(
+                (undried_ ? *undried_ : ribbons_).mesh(state_.time, 1.0 / options_.frames_per_second),
+                plan_.parameters.drying);
         }
         turnToFile(streaks_, formatOf(*options_.streaks), options_.reading);
     }
@@ -321,12 +326,16 @@ void FlowRun::run(std::ostream* table)
 
 void FlowRun::warnOfLostVolume()
 {
+    constexpr std::size_t kAtOnce = 1000;  // whose meshes are in memory
     const std::vector<droplet::FlowSample> samples = droplet::sampleFlow(state_, plan_.terrain, plan_.parameters);
-    const std::vector<double> volumes = droplet::seatedVolumes(
-        droplet::seatedDroplets(plan_.terrain, samples, bodies_, gravityAt(state_.time)), samples.size(), bodies_);
     std::size_t count = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        count += volumes[i] < 0.99 * samples[i].volume ? 1U : 0U;
+    for (std::size_t first = 0; first < samples.size(); first += kAtOnce) {
+        const auto some = std::span(samples).subspan(first, std::min(kAtOnce, samples.size() - first));
+        const std::vector<double> volumes = droplet::seatedVolumes(
+            droplet::seatedDroplets(plan_.terrain, some, bodies_, gravityAt(state_.time)), some.size(), bodies_);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            count += volumes[i] < 0.99 * some[i].volume ? 1U : 0U;
+        }
     }
     if (count > 0) {
         report_.warnings.push_back(fmt::format(
@@ -356,8 +365,8 @@ void FlowRun::advance(double until)
         state_ = droplet::advanceFlow(std::move(state_), plan_.terrain, plan_.parameters, time);
         if (options_.streaks) {
             ribbons_.add(state_.tracks, plan_.terrain.surface());
-            if (animation_) {
-                undried_.add(state_.tracks, plan_.terrain.surface());
+            if (undried_) {
+                undried_->add(state_.tracks, plan_.terrain.surface());
             }
         }
         if (painter_ || mapper_) {

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -179,10 +178,8 @@ private:
         const RandomStream random(options_.seed, RandomPurpose::Dew, 2 * k);
         if (options_.sizes == DewSizes::LogNormal) {
             for (std::uint64_t i = 0;; i += 2) {
-                // G. E. P. Box and M. E. Muller, Ann. Math. Stat. 29 (1958) 610.
-                const double normal =
-                    std::sqrt(2.0 * random.exponential(i)) * std::cos(2.0 * std::numbers::pi * random.uniform(i + 1));
-                const double radius = options_.median * std::exp(options_.spread * normal);
+                const double radius =
+                    options_.median * std::exp(options_.spread * normal(random.uniform(i), random.uniform(i + 1)));
                 constexpr std::uint64_t kTries = 2000;
                 if ((radius >= options_.smallest && radius <= options_.largest) || i >= kTries) {
                     return std::clamp(radius, options_.smallest, options_.largest);

@@ -2,10 +2,10 @@
 #include "droplet/flow/flow_parameters.h"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include "require.h"
+#include "wind/random.h"
 
 namespace droplet {
 namespace {
@@ -37,9 +37,7 @@ void requireFaces(const std::vector<Value>& values, std::size_t faces, const cha
 
 double VolumeDistribution::at(double u, double v) const
 {
-    // G. E. P. Box, M. E. Muller, Ann. Math. Stat. 29 (1958) 610.
-    const double normal = std::sqrt(-2.0 * std::log1p(-u)) * std::cos(2.0 * std::numbers::pi * v);
-    return median * std::exp(spread * normal);
+    return median * std::exp(spread * normal(u, v));
 }
 
 void VolumeDistribution::validate() const

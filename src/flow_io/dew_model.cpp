@@ -16,13 +16,12 @@
 #include <utility>
 #include <vector>
 
-#include "axes.h"
 #include "byte_stream.h"
 #include "droplet/error.h"
 #include "droplet/flow_io/droplet_surfaces.h"
 #include "flow_io/object_scene.h"
+#include "flow_io/seat.h"
 #include "flow_io/unit_bodies.h"
-#include "io/droplet_histories.h"
 #include "io/droplet_meshes.h"
 #include "scene/write_scene.h"
 
@@ -94,17 +93,9 @@ bool isLike(const DropletMesh& mesh, const DropletShape& shape, double volume)
 {
     constexpr double kTaller = 1.6;
     constexpr double kLost = 0.01;
-    double seated = 0.0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        seated += dot(shape.vertices[a], cross(shape.vertices[b], shape.vertices[c])) / 6.0;
-    }
+    const double seated = volumeUnder(shape.vertices, mesh.triangles);
     const auto height = [](const std::vector<Vec3>& vertices) { return cornersOf(vertices)[1].z; };
     return std::abs(seated / volume - 1.0) <= kLost && height(shape.vertices) <= kTaller * height(mesh.vertices);
-}
-
-Float3 floatsOf(Vec3 v)
-{
-    return {toFloat(v.x), toFloat(v.y), toFloat(v.z)};
 }
 
 void append(const DropletShape& shape, const std::vector<Triangle>& triangles, DropletMesh& to)
@@ -120,7 +111,6 @@ void append(const DropletShape& shape, const std::vector<Triangle>& triangles, D
 }  // namespace
 
 struct DewModel::Content {
-    double unit_volume = 0.0;
     std::map<Kind, SharedMesh> shared = {};
     std::vector<const std::pair<const Kind, SharedMesh>*> kinds = {};  ///< of every droplet
     std::vector<DropletPose> poses = {};                               ///< of every droplet
@@ -166,7 +156,6 @@ DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> sampl
 {
     Content& content = *content_;
     const double unit = unitVolume(bodies);
-    content.unit_volume = unit;
     for (const FlowSample& sample : samples) {
         content.shared.try_emplace(kindOf(sample, gravity, detail));
     }
@@ -188,12 +177,9 @@ DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> sampl
         const auto* const kind = &*content.shared.find(kindOf(sample, gravity, detail));
         const double factor = std::cbrt(sample.volume / kind->second.volume);
         const Vec2 half = factor * kind->second.half;
-        const DropletFrame frame = droplet::frameOf(sample, gravity);
         DropletPose& pose = content.poses[i];
-        pose.place = floatsOf(yUp(sample.place));
-        const Vec3 x = yUp(frame.ahead);
-        const Vec3 y = yUp(frame.normal);
-        pose.turn = turnTo(x, y, cross(x, y));
+        pose.place = sceneVector(sample.place);
+        pose.turn = turnOf(droplet::frameOf(sample, gravity));
         pose.along = toFloat(half.x);
         pose.across = toFloat(half.y);
         pose.up = toFloat(sample.volume / (unit * half.x * half.y));

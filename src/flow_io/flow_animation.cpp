@@ -28,11 +28,6 @@
 namespace droplet {
 namespace {
 
-std::array<float, 3> floatsOf(Vec3 v)
-{
-    return {toFloat(v.x), toFloat(v.y), toFloat(v.z)};
-}
-
 /// Streaks, and when they vanish.
 struct WetStreaks {
     StreakMesh mesh;
@@ -132,7 +127,7 @@ struct FlowAnimation::Content {
         const DropletPose* const last = histories.last(sample.id);
         const DropletFrame frame = frameOf(sample, gravity);
         DropletPose pose;
-        pose.place = floatsOf(yUp(sample.place));
+        pose.place = sceneVector(sample.place);
         pose.airborne = sample.contact == FlowContact::Air;
         pose.along = toFloat(std::cbrt(sample.volume / unit_volume));
         pose.across = pose.along;
@@ -141,9 +136,7 @@ struct FlowAnimation::Content {
             return pose;
         }
         pose.moves = sample.velocity != Vec3{};
-        const Vec3 x = yUp(frame.ahead);
-        const Vec3 y = yUp(frame.normal);
-        pose.turn = turnTo(x, y, cross(x, y));
+        pose.turn = turnOf(frame);
         if (pose.moves) {
             const Vec2 half = halfSizes(bodies, conditionsOf(sample, gravity));
             pose.along = toFloat(half.x);
@@ -216,7 +209,7 @@ void FlowAnimation::add(double time, std::span<const FlowSample> samples)
     content.include(at);
     if (!content.options.motion.rests()) {
         const Vec3 axis = yUp(at.axis);
-        CrowdPose pose{floatsOf(yUp(at.place)), {toFloat(axis.x), toFloat(axis.y), toFloat(axis.z), toFloat(at.real)}};
+        CrowdPose pose{sceneVector(at.place), {toFloat(axis.x), toFloat(axis.y), toFloat(axis.z), toFloat(at.real)}};
         if (!content.poses.empty()) {
             const auto& last = content.poses.back().turn;
             if (std::inner_product(last.begin(), last.end(), pose.turn.begin(), 0.0F) < 0.0F) {

@@ -255,6 +255,8 @@ Vec3 unit(Vec3 v)
     return size > 0.0 ? (1.0 / size) * v : v;
 }
 
+}  // namespace
+
 double volumeUnder(std::span<const Vec3> vertices, std::span<const Triangle> triangles, Vec3 origin)
 {
     double volume = 0.0;
@@ -263,8 +265,6 @@ double volumeUnder(std::span<const Vec3> vertices, std::span<const Triangle> tri
     }
     return volume;
 }
-
-}  // namespace
 
 std::vector<Triangle> baseTriangles(std::size_t rim)
 {

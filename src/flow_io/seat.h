@@ -24,6 +24,9 @@ constexpr std::size_t baseVertices(std::size_t rim)
 /// @param rim  number of vertices on the rim
 std::vector<Triangle> baseTriangles(std::size_t rim);
 
+/// Signed volume between triangles and a point [m³]; of a closed mesh the volume that it encloses.
+double volumeUnder(std::span<const Vec3> vertices, std::span<const Triangle> triangles, Vec3 origin = {});
+
 /// A droplet on flat ground, in space.
 struct FlatDroplet {
     std::span<Vec3> vertices;             ///< those of the rim first, in order, counter-clockwise seen from above

@@ -68,15 +68,6 @@ double farthestOnRim(const std::vector<Vec3>& vertices, std::size_t rim, Vec2 di
     return best;
 }
 
-double volumeOf(const DropletMesh& mesh)
-{
-    double volume = 0.0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        volume += dot(mesh.vertices[a], cross(mesh.vertices[b], mesh.vertices[c])) / 6.0;
-    }
-    return volume;
-}
-
 /// A seated base may have triangles without area.
 Vec3 unit(Vec3 v)
 {
@@ -210,7 +201,8 @@ DropletMesh unitBody(const DropletBodies& bodies, const BodyConditions& conditio
     addRings(mesh, 0, detail);
     const Vec3 by = half(mesh.vertices);
     scale(mesh.vertices, {by.x, by.y, 1.0});
-    scale(mesh.vertices, {1.0, 1.0, volume / volumeOf(mesh)});  // the base at z = 0 adds nothing
+    scale(mesh.vertices,
+          {1.0, 1.0, volume / volumeUnder(mesh.vertices, mesh.triangles)});  // the base at z = 0 adds nothing
     setNormals(mesh);
     // The base on the ground.
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -232,6 +224,13 @@ DropletFrame frameOf(const DropletPose& pose)
 {
     return {zUp(vectorOf(pose.place)), zUp(turnedBy(pose.turn, {1.0, 0.0, 0.0})),
             zUp(turnedBy(pose.turn, {0.0, 0.0, -1.0})), zUp(pose.normal())};
+}
+
+std::array<float, 4> turnOf(const DropletFrame& frame)
+{
+    const Vec3 x = yUp(frame.ahead);
+    const Vec3 y = yUp(frame.normal);
+    return turnTo(x, y, cross(x, y));
 }
 
 DropletShape seatedBody(const FlowTerrain& terrain, const DropletMesh& mesh, std::size_t rim, const DropletPose& pose)
@@ -312,7 +311,7 @@ DropletMesh unitBall(const BodyDetail& detail, double volume)
         mesh.triangles.push_back({last, last - detail.around + (k + 1) % detail.around, last - detail.around + k});
     }
     setNormals(mesh);
-    const double size = std::cbrt(volume / volumeOf(mesh));
+    const double size = std::cbrt(volume / volumeUnder(mesh.vertices, mesh.triangles));
     for (Vec3& p : mesh.vertices) {
         p = size * p;
     }

@@ -2,6 +2,7 @@
 // Small meshes of droplets, to be scaled.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "droplet/body/droplet_body.h"
@@ -33,6 +34,9 @@ DropletMesh unitBody(const DropletBodies& bodies, const BodyConditions& conditio
 
 /// Frame of a droplet with a pose, whose file has +Y up.
 DropletFrame frameOf(const DropletPose& pose);
+
+/// Turn of a pose with such a frame.
+std::array<float, 4> turnOf(const DropletFrame& frame);
 
 /// A mesh of unitBody() as it sits on the ground in a pose.
 /// @param rim  BodyDetail::around of the mesh

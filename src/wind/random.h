@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace droplet {
 
@@ -17,6 +18,14 @@ constexpr std::uint64_t mix(std::uint64_t z)
 
 /// Purpose of random numbers; streams of different purposes are independent.
 enum class RandomPurpose : std::uint64_t { Raindrop = 1, Fluctuation, Bead, Scatter, Emission, Nucleus, TornPart, Dew };
+
+/// Normal with mean 0 and deviation 1, of two random numbers. G. E. P. Box, M. E. Muller, Ann. Math. Stat. 29 (1958)
+/// 610.
+/// @param u, v  uniform in [0, 1)
+inline double normal(double u, double v)
+{
+    return std::sqrt(-2.0 * std::log1p(-u)) * std::cos(2.0 * std::numbers::pi * v);
+}
 
 /// Random numbers without a state: each is a function of seed, purpose, id and counter.
 class RandomStream {

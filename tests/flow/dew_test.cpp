@@ -212,15 +212,7 @@ TEST(Dew, CeilingsHoldOnlySmallDroplets)
 
 TEST(Dew, RainWetsOnlyWhatItMeets)
 {
-    testing::Sheet sheet;
-    sheet.columns = 60;
-    sheet.rows = 30;
-    sheet.place = [](Vec2 uv) {
-        const double turn = 2.0 * std::numbers::pi * uv.x;
-        const double tilt = std::numbers::pi * std::clamp(uv.y, 1e-3, 1.0 - 1e-3);
-        return 0.02 * Vec3{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
-    };
-    const TexturedMesh mesh = testing::meshOf(sheet);
+    const TexturedMesh mesh = testing::ball(60, [](Vec3) { return 0.02; });
     const FlowTerrain ball(flowSurface(mesh.vertices, mesh.triangles));
     DewOptions options;
     options.largest = 0.6e-3;

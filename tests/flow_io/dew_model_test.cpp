@@ -31,16 +31,7 @@ using testing::runProgram;
 /// Ball of 2 cm with edges of 15°.
 FlowObject ball()
 {
-    testing::Sheet sheet;
-    sheet.columns = 24;
-    sheet.rows = 12;
-    sheet.normal = [](Vec2 uv) {
-        const double turn = 2.0 * std::numbers::pi * uv.x;
-        const double tilt = std::numbers::pi * std::clamp(uv.y, 1e-3, 1.0 - 1e-3);
-        return Vec3{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
-    };
-    sheet.place = [&](Vec2 uv) { return 0.02 * sheet.normal(uv); };
-    const TexturedMesh mesh = testing::meshOf(sheet);
+    const TexturedMesh mesh = testing::ball(24, [](Vec3) { return 0.02; });
     FlowObject object;
     object.vertices = mesh.vertices;
     object.normals = mesh.normals;

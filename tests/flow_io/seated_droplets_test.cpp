@@ -28,20 +28,9 @@ const DropletBodies& bodies()
     return made;
 }
 
-/// Ball of so many meridians and half as many circles of latitude.
-/// @param radius  of a direction [m]
 FlowTerrain ball(std::uint32_t around, const std::function<double(Vec3)>& radius)
 {
-    testing::Sheet sheet;
-    sheet.columns = around;
-    sheet.rows = around / 2;
-    sheet.place = [&](Vec2 uv) {
-        const double turn = 2.0 * std::numbers::pi * uv.x;
-        const double tilt = std::numbers::pi * std::clamp(uv.y, 1e-3, 1.0 - 1e-3);
-        const Vec3 n{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
-        return radius(n) * n;
-    };
-    const TexturedMesh mesh = testing::meshOf(sheet);
+    const TexturedMesh mesh = testing::ball(around, radius);
     return FlowTerrain(flowSurface(mesh.vertices, mesh.triangles));
 }
 

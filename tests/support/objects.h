@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 
 #include "droplet/surface/textured_mesh.h"
 
@@ -47,6 +50,22 @@ inline TexturedMesh meshOf(const Sheet& sheet)
         }
     }
     return mesh;
+}
+
+/// Ball of so many meridians and half as many circles of latitude, open by a thousandth of a turn at its poles.
+/// @param radius  of a direction [m]
+inline TexturedMesh ball(std::uint32_t around, const std::function<double(Vec3)>& radius)
+{
+    Sheet sheet;
+    sheet.columns = around;
+    sheet.rows = around / 2;
+    sheet.normal = [](Vec2 uv) {
+        const double turn = 2.0 * std::numbers::pi * uv.x;
+        const double tilt = std::numbers::pi * std::clamp(uv.y, 1e-3, 1.0 - 1e-3);
+        return Vec3{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
+    };
+    sheet.place = [&](Vec2 uv) { return radius(sheet.normal(uv)) * sheet.normal(uv); };
+    return meshOf(sheet);
 }
 
 /// Union of two objects, the first one's triangles first.
