@@ -112,8 +112,7 @@ private:
     Moment shown_;              ///< of the preview
     std::optional<droplet::FlowTable> table_;
     droplet::StreakRibbons ribbons_;
-    std::optional<droplet::StreakRibbons> undried_;  ///< for an animation whose streaks dry
-    droplet::Surface streaks_;                       ///< at the end
+    droplet::Surface streaks_;  ///< at the end
     droplet::FlowState state_;
     std::vector<std::vector<droplet::FlowTrack>> tracks_;  ///< since the last frame, if something is wetted
     std::size_t done_ = 0;                                 ///< number of frames that an interrupted run simulated
@@ -125,11 +124,16 @@ droplet::Format formatOf(const std::string& path)
     return droplet::formatNamed(std::filesystem::path(path).extension().string().substr(1));
 }
 
-droplet::StreakRibbonOptions ribbonOptions(const droplet::FlowParameters& parameters)
+droplet::TrailFilm filmOf(const droplet::FlowParameters& parameters)
 {
-    droplet::StreakRibbonOptions options;
-    options.drying = parameters.drying;
-    return options;
+    droplet::TrailFilm film;
+    film.becomes_beads = parameters.streaks.film > 0.0;
+    if (film.becomes_beads) {
+        film.thickness = parameters.streaks.film;
+    }
+    film.drying = parameters.drying;
+    film.kinematic_viscosity = droplet::kWaterViscosity / parameters.forces.liquid.density;
+    return film;
 }
 
 FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
@@ -139,7 +143,7 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
       film_(plan_.frames, options.run.files, progress, resumableRun(options, plan_.frames)),
       bodies_(options.shape, plan_.parameters.forces),
       material_(options.material.value_or(droplet::materialOf(plan_.parameters.forces.liquid))),
-      ribbons_(ribbonOptions(plan_.parameters))
+      ribbons_(filmOf(plan_.parameters))
 {
     state_ = droplet::startFlow(plan_.terrain, plan_.parameters, plan_.starts);
     if (options_.kind == FlowOutput::Animation) {
@@ -149,9 +153,6 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
         animation.gravity = plan_.parameters.gravity;
         animation.motion = plan_.parameters.motion;
         animation_.emplace(plan_.object, plan_.terrain, bodies_, animation);
-        if (plan_.parameters.drying) {
-            undried_.emplace();
-        }
     }
     if (isPicture() || options_.has_preview) {
         preparePainter();
@@ -162,10 +163,7 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
         maps.height = options_.map_width;
         maps.full_thickness = options_.full_thickness;
         maps.full_age = options_.full_age;
-        maps.drying = plan_.parameters.drying;
-        if (plan_.parameters.streaks.film > 0.0) {
-            maps.film = plan_.parameters.streaks.film;
-        }
+        maps.film = filmOf(plan_.parameters);
         mapper_ = forOption("--maps", [&] { return droplet::WetMapper(plan_.object, plan_.terrain, maps); });
     }
     report_.input = nameOfObject(options_);
@@ -208,7 +206,7 @@ void FlowRun::preparePainter()
     painter.render.look = droplet::lookOf(material_);
     const double end = static_cast<double>(plan_.frames - 1) / options_.frames_per_second;
     painter.render.framed = framedOver(plan_.object, plan_.parameters.motion, end);
-    painter.drying = plan_.parameters.drying;
+    painter.film = filmOf(plan_.parameters);
     painter_.emplace(plan_.object, plan_.terrain, painter);
 }
 
@@ -316,9 +314,7 @@ void FlowRun::run(std::ostream* table)
     if (options_.streaks) {
         streaks_ = ribbons_.mesh(state_.time).surface;
         if (animation_) {
-            animation_->setStreaks(
-                (undried_ ? *undried_ : ribbons_).mesh(state_.time, 1.0 / options_.frames_per_second),
-                plan_.parameters.drying);
+            animation_->setStreaks(ribbons_.growing(1.0 / options_.frames_per_second));
         }
         turnToFile(streaks_, formatOf(*options_.streaks), options_.reading);
     }
@@ -365,8 +361,8 @@ void FlowRun::advance(double until)
         state_ = droplet::advanceFlow(std::move(state_), plan_.terrain, plan_.parameters, time);
         if (options_.streaks) {
             ribbons_.add(state_.tracks, plan_.terrain.surface());
-            if (undried_) {
-                undried_->add(state_.tracks, plan_.terrain.surface());
+            if (!animation_) {
+                ribbons_.forgetDry(state_.time);
             }
         }
         if (painter_ || mapper_) {

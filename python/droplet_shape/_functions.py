@@ -924,6 +924,8 @@ _FLOW = {
     "dew_spacing": "m",
     "retention": "text",
     "hysteresis": "number",
+    "pinning": "number",
+    "pinning_length": "m",
     "friction": "number",
     "roughness": "m",
     "roughness_map": "path",
@@ -978,7 +980,7 @@ def flow(
     output: Path,
     *,
     preset: Literal[
-        "masses", "viscosities", "adhesions", "roughnesses", "tear", "forces", "bottle", "leaf", "car",
+        "masses", "viscosities", "adhesions", "roughnesses", "tear", "forces", "bottle", "leaf", "car", "window",
     ] | None = None,
     scale: float | None = None,
     object_size: str | float | None = None,
@@ -1000,6 +1002,8 @@ def flow(
     dew_spacing: str | float | None = None,
     retention: Literal["capillary", "paper"] | None = None,
     hysteresis: float | None = None,
+    pinning: float | None = None,
+    pinning_length: str | float | None = None,
     friction: float | None = None,
     roughness: str | float | None = None,
     roughness_map: Path | None = None,
@@ -1059,8 +1063,8 @@ def flow(
     20
 
     Object:
-      preset: masses, viscosities, adhesions, roughnesses, tear, forces, bottle, leaf, car: Named scene with its own
-        object and droplets, instead of OBJECT; other options change it
+      preset: masses, viscosities, adhesions, roughnesses, tear, forces, bottle, leaf, car, window: Named scene with
+        its own object and droplets, instead of OBJECT; other options change it
       scale: Factor on the lengths of the file (default: 1)
       object_size [m]: Longest side of the object; scales it
       up: y, z: Axis that points up in an .obj, .ply or .stl (default: y, of .ply z)
@@ -1088,6 +1092,9 @@ def flow(
       retention: capillary, paper: What holds droplets: capillary is contact angle hysteresis, paper is roughness
         alone (default: capillary)
       hysteresis: Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle (default: 0.2)
+      pinning: How much hysteresis varies over the surface, so that droplets stick, slip and wander: standard
+        deviation of its logarithm, 0 to 1.5 (default: 0.5)
+      pinning_length [m]: Length over which it varies (default: 3mm)
       friction: Viscous friction in kg/s instead of viscosity_factor
       roughness [m]: Height of the surface's bumps; those of a droplet's height hold it (default: 0mm)
       roughness_map: Picture over the object's texture coordinates: black is smooth, white has bumps of roughness

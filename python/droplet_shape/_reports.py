@@ -880,6 +880,8 @@ class FlowForces(_Report):
     friction_kg_per_s: float | None  # Viscous friction; null: by the viscosity factor
     adhesion_pa: float | None  # Adhesion; null: by surface tension
     roughness_m: float  # Height of the surface's bumps
+    pinning: float  # Standard deviation of the logarithm of the hysteresis over the surface
+    pinning_length_m: float  # Length over which the hysteresis varies
 
 
 @dataclass(frozen=True)

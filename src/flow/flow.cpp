@@ -14,6 +14,7 @@
 
 #include "blocks.h"
 #include "droplet/error.h"
+#include "flow/break_up.h"
 #include "flow/flow_forces.h"
 #include "flow/flow_terrain_content.h"
 #include "flow/touching.h"
@@ -41,7 +42,12 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 class Step {
 public:
     Step(const FlowTerrain& terrain, const FlowParameters& parameters, FlowState& state)
-        : c_(terrain.content()), terrain_(terrain), p_(parameters), s_(state), begin_(timeOf(state.steps))
+        : c_(terrain.content()),
+          terrain_(terrain),
+          p_(parameters),
+          s_(state),
+          pinning_(parameters.pinning, RandomStream(parameters.seed, RandomPurpose::Pinning, 0).bits(0)),
+          begin_(timeOf(state.steps))
     {
         update();
     }
@@ -142,8 +148,10 @@ private:
             ground.dry_before = dryBefore();
             ground.wet_is_slippery = p_.model == FlowModel::Capillary;
         }
-        return {c_.surface, c_.landing, ground};
+        return {c_.surface, c_.landing, ground, isPinned() ? &pinning_ : nullptr};
     }
+
+    [[nodiscard]] bool isPinned() const { return p_.model == FlowModel::Capillary && !pinning_.isEven(); }
 
     [[nodiscard]] double dryBefore() const
     {
@@ -439,17 +447,22 @@ private:
             }
             FlowDroplet& d = s_.droplets[*i];
             const double way = length(track.to - track.from);
-            const double volume = std::min(p_.streaks.film * track.width * way, 0.5 * d.volume);
+            // Where the ground holds the droplet more, it keeps more of it.
+            const double film = p_.streaks.film * (isPinned() ? pinning_.at(track.to) : 1.0);
+            const double volume = std::min(film * track.width * way, 0.5 * d.volume);
             auto at = last.find(track.id);
-            if (at == last.end() || s_.trails[at->second].length >= p_.streaks.spacing) {
+            if (at == last.end() || s_.trails[at->second].isWhole()) {
                 last[track.id] = s_.trails.size();
                 at = last.find(track.id);
-                s_.trails.push_back({track.id, 0.0, 0.0, 0.0, track.face, track.from});
+                const RandomStream random(p_.seed, RandomPurpose::Bead, track.id);
+                constexpr double kLeast = 0.4;  // of the mean spacing; the rest is as random as can be
+                const double spacing =
+                    p_.streaks.spacing * (kLeast + (1.0 - kLeast) * random.exponential(2 * s_.steps));
+                s_.trails.push_back({track.id, 0.0, 0.0, 0.0, spacing, 0.0, track.face, track.from});
             }
             FlowState::Trail& trail = s_.trails[at->second];
-            if (trail.length < 0.5 * p_.streaks.spacing) {
-                trail.face = track.face;
-                trail.place = track.to;
+            if (trail.length < 0.5 * trail.spacing) {
+                place(trail, track);
             }
             trail.volume += volume;
             trail.length += way;
@@ -467,6 +480,20 @@ private:
         breakUp();
     }
 
+    /// Puts the middle of a trail at the end of a track, somewhat beside it.
+    void place(FlowState::Trail& trail, const FlowTrack& track) const
+    {
+        constexpr double kAside = 0.15;  // of the droplet's width: within its rivulet
+        const RandomStream random(p_.seed, RandomPurpose::Bead, track.id);
+        const double aside = kAside * track.width * (2.0 * random.uniform(2 * s_.steps + 1) - 1.0);
+        const Vec3 across = cross(c_.surface.faces[track.face].normal, track.to - track.from);
+        const auto [face, beside] =
+            pointBeside(track.face, track.to, (aside / std::max(length(across), 1e-300)) * across);
+        trail.face = face;
+        trail.place = beside;
+        trail.until = track.time + (track.speed > 0.0 ? kBreakUpWay * track.width / track.speed : 0.0);
+    }
+
     /// Trails that their droplets have left behind become beads.
     void breakUp()
     {
@@ -477,7 +504,7 @@ private:
             const double radius = contactRadius(p_, std::max(trail.volume, p_.small_volume));
             const bool is_left = !i || length(s_.droplets[*i].leg.placeAt(begin_) - trail.place) >
                                            0.5 * forces_[*i].contact_width + radius;
-            if (!is_left || (i && trail.length < p_.streaks.spacing)) {
+            if (!is_left || (i && (!trail.isWhole() || begin_ < trail.until))) {
                 kept.push_back(trail);
             } else if (trail.volume < p_.small_volume) {
                 s_.dried.add(trail.volume);
@@ -579,6 +606,7 @@ private:
     const FlowTerrain& terrain_;
     const FlowParameters& p_;
     FlowState& s_;
+    PinningField pinning_;
     double begin_;  // of the step [s]
     FlowField field_;
     std::vector<WalkForces> forces_;  // on every droplet

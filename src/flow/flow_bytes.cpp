@@ -7,7 +7,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kHead = "droplet-shape flow 2\n";
+constexpr std::string_view kHead = "droplet-shape flow 3\n";
 
 template <class Archive, class State>
 void scalars(Archive& archive, State& s)
@@ -36,7 +36,7 @@ std::string bytesOf(const FlowState& state)
     }
     out.put(std::uint64_t{state.trails.size()});
     for (const FlowState::Trail& t : state.trails) {
-        out.all(t.id, t.volume, t.drying, t.length, std::uint64_t{t.face}, t.place);
+        out.all(t.id, t.volume, t.drying, t.length, t.spacing, t.until, std::uint64_t{t.face}, t.place);
     }
     out.put(std::uint64_t{state.emissions.size()});
     for (const FlowState::Emission& e : state.emissions) {
@@ -78,9 +78,9 @@ FlowState flowStateFromBytes(std::string_view bytes, std::size_t faces, const st
     for (FlowState::Wetness& w : state.wetness) {
         in.all(w.dryness, w.before, w.id, w.time);
     }
-    state.trails.resize(in.count(8 * sizeof(double)));
+    state.trails.resize(in.count(10 * sizeof(double)));
     for (FlowState::Trail& t : state.trails) {
-        in.all(t.id, t.volume, t.drying, t.length);
+        in.all(t.id, t.volume, t.drying, t.length, t.spacing, t.until);
         face(t.face);
         in.get(t.place);
         in.require(t.volume >= 0.0 && t.drying >= 0.0);

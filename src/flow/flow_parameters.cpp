@@ -46,6 +46,12 @@ void VolumeDistribution::validate() const
     require(spread >= 0.0 && spread <= 3.0, "volumes.spread", spread, "from 0 to 3");
 }
 
+void FlowPinning::validate() const
+{
+    require(spread >= 0.0 && spread <= 1.5, "pinning.spread", spread, "from 0 to 1.5");
+    require(aboveZero(length), "pinning.length", length, "finite and more than 0 m");
+}
+
 void FlowParameters::validate(std::size_t faces) const
 {
     forces.validate();
@@ -72,6 +78,7 @@ void FlowParameters::validate(std::size_t faces) const
     for (const double factor : ground.hysteresis) {
         require(atLeastZero(factor), "ground.hysteresis", factor, "finite and at least 0");
     }
+    pinning.validate();
     streaks.validate();
     if (drying) {
         require(aboveZero(*drying), "drying", *drying, "finite and more than 0 s");

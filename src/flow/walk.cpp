@@ -27,6 +27,11 @@ constexpr double kCone = 0.017455;
 constexpr double kStraight = 0.99984;
 // A velocity less than this share of what it was, and gained since, is 0.
 constexpr double kStop = 1e-9;
+// On uneven ground a droplet that moves less than this share of its width in a second rests: dry friction would turn with
+// it to and fro without end.
+constexpr double kCreep = 0.05;
+// One so slow that the push turns it within this time [s] goes where it is pushed, for the same reason.
+constexpr double kTurnsAtOnce = 1e-3;
 // So many events within so short a time [s] are without end.
 constexpr int kMaxEventsAtOnce = 1000;
 constexpr double kOnce = 1e-6;
@@ -37,6 +42,7 @@ public:
         : faces_(field.surface.faces),
           landing_(field.landing),
           ground_(field.ground),
+          pinning_(field.pinning),
           f_(forces),
           drive_(forces.acceleration + forces.wind),
           d_(droplet),
@@ -49,7 +55,8 @@ public:
     {
         tracks_ = tracks;
         if (tracks_ != nullptr) {
-            track_begin_ = d_.leg.placeAt(std::max(from, d_.leg.begin));
+            track_time_ = std::max(from, d_.leg.begin);
+            track_begin_ = d_.leg.placeAt(track_time_);
         }
     }
 
@@ -82,7 +89,10 @@ public:
     {
         time_ = time;
         const Vec3 place = d_.leg.placeAt(time);
-        const Vec3 velocity = d_.leg.velocityAt(time);
+        Vec3 velocity = d_.leg.velocityAt(time);
+        if (d_.contact != FlowContact::Air && creeps(velocity)) {
+            velocity = {};
+        }
         switch (d_.contact) {
             case FlowContact::Face:
             case FlowContact::Still:
@@ -90,7 +100,7 @@ public:
                 break;
             case FlowContact::Edge:
                 if (isValley(d_.face, d_.side)) {
-                    move(place, velocity, pushAlong(), true);
+                    move(place, velocity, true);
                 } else {
                     enter(d_.face, time, place, velocity);
                 }
@@ -111,6 +121,7 @@ public:
         }
         if (d_.contact == FlowContact::Air) {
             track_begin_ = place;
+            track_time_ = time;
         }
         d_.face = face;
         if (dot(f_.acceleration, normal) > f_.adhesion) {
@@ -118,7 +129,7 @@ public:
             return;
         }
         d_.contact = FlowContact::Face;
-        move(place, along, pushOn(face), true);
+        move(place, along, true);
     }
 
 private:
@@ -162,8 +173,17 @@ private:
 
     Vec3 pushOn(std::uint32_t face) const
     {
-        return ground_.isUniform() ? pushWithoutRoughness(face) : footingOn(face).push;
+        const Vec3 push = ground_.isUniform() ? pushWithoutRoughness(face) : footingOn(face).push;
+        if (!hold_) {
+            return push;
+        }
+        // And to where the droplet is held less.
+        const Vec3& normal = faces_[face].normal;
+        const double grip = ground_.isUniform() ? 1.0 : footingOn(face).grip.retention;
+        return push + (grip * f_.sliding) * (aside_ - dot(aside_, normal) * normal);
     }
+
+    Vec3 pushHere() const { return d_.contact == FlowContact::Edge ? pushAlong() : pushOn(d_.face); }
 
     Grip gripHere() const { return ground_.isUniform() ? Grip{} : footingOn(d_.face).grip; }
 
@@ -171,35 +191,72 @@ private:
     void endTrack(Vec3 place, double time)
     {
         if (tracks_ != nullptr && place != track_begin_) {
-            tracks_->push_back({d_.id, d_.face, track_begin_, place, f_.contact_width, time});
+            const double taken = time - track_time_;
+            const double speed = taken > 0.0 ? length(place - track_begin_) / taken : 0.0;
+            tracks_->push_back({d_.id, d_.face, track_begin_, place, f_.contact_width, time, speed});
             track_begin_ = place;
+            track_time_ = time;
         }
     }
 
     /// Begins a leg; at rest if hysteresis holds the droplet.
-    /// @param push           without friction [m/s²]
     /// @param keeps_heading  whether the heading of the last leg still serves
-    void move(Vec3 place, Vec3 velocity, Vec3 push, bool keeps_heading)
+    void move(Vec3 place, Vec3 velocity, bool keeps_heading)
     {
-        Vec3 friction;
         const Grip grip = gripHere();
+        Vec3 push = pushHere();
         if (f_.retention > 0.0 || f_.sliding > 0.0) {
+            if (hold_ && !keeps_heading && d_.contact == FlowContact::Face) {
+                velocity = turned(velocity, push);
+            }
             const bool is_at_rest = velocity == Vec3{};
-            const Vec3 direction = is_at_rest ? push : velocity;
-            const double size = length(direction);
-            if (is_at_rest && size <= grip.retention * std::max(f_.retention, f_.sliding)) {
+            if (pinning_ != nullptr && is_at_rest) {
+                hold_.reset();
+                push = pushHere();
+            }
+            const double pushed = length(push);
+            if (pinning_ != nullptr && !hold_ && (!is_at_rest || pushed > 0.0)) {
+                pin(place, is_at_rest ? (1.0 / pushed) * push : (1.0 / length(velocity)) * velocity);
+                push = pushHere();
+            }
+            const double hold = grip.retention * (hold_ ? hold_->along : 1.0);
+            if (is_at_rest && pushed <= hold * std::max(f_.retention, f_.sliding)) {
                 stop(place);
                 return;
             }
+            const Vec3 direction = is_at_rest ? push : velocity;
+            const double size = length(direction);
             if (!keeps_heading || dot(d_.heading, direction) < kStraight * size) {
                 d_.heading = (1.0 / size) * direction;
             }
-            const Vec3& normal = faces_[d_.face].normal;  // that of the last face may have been another
-            const Vec3 on = d_.heading - dot(d_.heading, normal) * normal;
+            const Vec3& normal = faces_[d_.face].normal;
+            const Vec3 on = d_.heading - dot(d_.heading, normal) * normal;  // the last face may have been another
             d_.heading = (1.0 / length(on)) * on;
-            friction = (grip.retention * f_.sliding) * d_.heading;
+            push = push - (hold * f_.sliding) * d_.heading;
         }
-        d_.leg = {time_, place, velocity, push - friction, grip.friction * f_.decay};
+        d_.leg = {time_, place, velocity, push, grip.friction * f_.decay};
+    }
+
+    [[nodiscard]] bool creeps(Vec3 velocity) const
+    {
+        return pinning_ != nullptr && length(velocity) < kCreep * f_.contact_width;
+    }
+
+    static Vec3 turned(Vec3 velocity, Vec3 push)
+    {
+        const double size = length(push);
+        if (!(length(velocity) < kTurnsAtOnce * size)) {
+            return velocity;
+        }
+        return (std::max(dot(velocity, push), 0.0) / (size * size)) * push;
+    }
+
+    /// What holds the droplet where it is, on its way ahead.
+    void pin(Vec3 place, Vec3 ahead)
+    {
+        const Vec3 left = droplet::cross(faces_[d_.face].normal, ahead);
+        hold_ = pinning_->over({place, 0.5 * f_.contact_width, ahead, left});
+        aside_ = hold_->aside * left;
     }
 
     /// When the velocity has turned away from the heading, or is 0; [s] after the leg's begin.
@@ -227,10 +284,11 @@ private:
     {
         const Vec3 place = d_.leg.placeAt(time_);
         Vec3 velocity = d_.leg.velocityAt(time_);
-        if (length(velocity) <= kStop * (length(d_.leg.velocity) + length(d_.leg.push) * (time_ - d_.leg.begin))) {
+        if (creeps(velocity) ||
+            length(velocity) <= kStop * (length(d_.leg.velocity) + length(d_.leg.push) * (time_ - d_.leg.begin))) {
             velocity = {};
         }
-        move(place, velocity, d_.contact == FlowContact::Edge ? pushAlong() : pushOn(d_.face), false);
+        move(place, velocity, false);
     }
 
     /// Ends the leg where its heading does, if that is within a time of its begin.
@@ -396,7 +454,7 @@ private:
         d_.contact = FlowContact::Edge;
         d_.face = face;
         d_.side = static_cast<std::uint32_t>(side);
-        move(place, velocity, pushAlong(), false);
+        move(place, velocity, false);
     }
 
     Vec3 pushAlong() const
@@ -571,6 +629,9 @@ private:
     const std::vector<Face>& faces_;
     const Landing& landing_;
     const WalkFaces& ground_;
+    const PinningField* pinning_;
+    std::optional<PinningHold> hold_;  // of the walk
+    Vec3 aside_;                       // the direction of its part aside
     const WalkForces& f_;
     Vec3 drive_;  // acceleration along the surface, before roughness
     FlowDroplet& d_;
@@ -579,6 +640,7 @@ private:
     bool is_open_ = false;                     // the last fan
     std::vector<FlowTrack>* tracks_ = nullptr;
     Vec3 track_begin_;
+    double track_time_ = 0.0;  // at its begin
     WalkCounts counts_;
 };
 
@@ -588,6 +650,10 @@ WalkCounts walk(const WalkField& field, const WalkForces& forces, FlowDroplet& d
                 std::vector<FlowTrack>* tracks, double from)
 {
     Walk walk(field, forces, droplet);
+    const bool runs = droplet.contact == FlowContact::Face || droplet.contact == FlowContact::Edge;
+    if (field.pinning != nullptr && runs && droplet.leg.begin < from) {
+        walk.redirect(from);
+    }
     walk.record(tracks, from);
     return walk.until(until);
 }

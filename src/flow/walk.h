@@ -13,6 +13,7 @@
 #include "droplet/flow/flow_surface.h"
 #include "droplet/vector.h"
 #include "flow/landing.h"
+#include "flow/pinning.h"
 
 namespace droplet {
 
@@ -82,6 +83,7 @@ struct WalkField {
     const FlowSurface& surface;
     const Landing& landing;  ///< of the same surface
     WalkFaces ground = {};
+    const PinningField* pinning = nullptr;  ///< null: hysteresis is even
 };
 
 /// Events of walking.
@@ -93,7 +95,8 @@ struct WalkCounts {
 };
 
 /// Moves a droplet along the surface, and through the air, until a time. The path depends on neither that time nor how
-/// often the function is called, as long as the field is the same.
+/// often the function is called, as long as the field is the same and without pinning. With pinning, what holds the
+/// droplet is found anew in each call, for where it is then.
 ///
 /// @param droplet  its leg began at `until` or before
 /// @param until    [s]

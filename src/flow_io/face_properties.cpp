@@ -117,7 +117,12 @@ std::vector<double> meansOverFaces(const HeightMap& picture, const FlowObject& o
     means.reserve(surface.faces.size());
     for (const FlowSurface::Face& face : surface.faces) {
         const auto& [a, b, c] = object.triangles[face.source];
-        means.push_back(meanOver(picture, {object.uvs[a], object.uvs[b], object.uvs[c]}));
+        const auto weights = cornerWeights(object, face);
+        std::array<Vec2, 3> corners;
+        std::transform(weights.begin(), weights.end(), corners.begin(), [&](const std::array<double, 3>& w) {
+            return w[0] * object.uvs[a] + w[1] * object.uvs[b] + w[2] * object.uvs[c];
+        });
+        means.push_back(meanOver(picture, corners));
     }
     return means;
 }

@@ -28,12 +28,6 @@
 namespace droplet {
 namespace {
 
-/// Streaks, and when they vanish.
-struct WetStreaks {
-    StreakMesh mesh;
-    std::optional<double> drying;  ///< [s]
-};
-
 /// Vertices of some triangles.
 DropletMesh partOf(const Surface& surface, const std::vector<Triangle>& triangles)
 {
@@ -55,24 +49,30 @@ DropletMesh partOf(const Surface& surface, const std::vector<Triangle>& triangle
     return part;
 }
 
-/// Adds streaks on the object: a node for what is wetted until each frame, which appears then.
-void addStreaks(const WetStreaks& streaks, std::size_t object, std::uint32_t frames, Scene& scene)
+/// Adds streaks on the object: a node for what appears in one frame and vanishes in another.
+void addStreaks(const StreakMesh& streaks, std::size_t object, std::uint32_t frames, Scene& scene)
 {
     SceneMaterial wet = opaqueMaterial("streaks", 0.05);
     wet.look.colour = {0.85, 0.92, 1.0};
     wet.opacity = 0.25;
     const std::size_t material = scene.addMaterial(std::move(wet));
     const std::size_t all = scene.addNode({"streaks"}, object);
-    std::map<std::uint32_t, std::vector<Triangle>> by_frame;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Triangle>> by_frames;
     const double rate = scene.frames_per_second;
-    for (std::size_t i = 0; i < streaks.mesh.wetted.size(); ++i) {
+    const auto frameOf = [&](double time) {
         constexpr double kRounding = 1e-6;
-        const double frame = std::ceil(streaks.mesh.wetted[i] * rate - kRounding);
-        by_frame[static_cast<std::uint32_t>(std::max(frame, 0.0))].push_back(streaks.mesh.surface.triangles[i]);
+        return static_cast<std::uint32_t>(std::clamp(std::ceil(time * rate - kRounding), 0.0, static_cast<double>(frames)));
+    };
+    for (std::size_t i = 0; i < streaks.wetted.size(); ++i) {
+        const std::pair when{frameOf(streaks.wetted[i]), frameOf(streaks.gone[i])};
+        if (when.first < when.second) {
+            by_frames[when].push_back(streaks.surface.triangles[i]);
+        }
     }
-    for (const auto& [frame, triangles] : by_frame) {
-        const std::string name = "streaks of frame " + std::to_string(frame);
-        SceneNode node{name, scene.addMesh(sceneMesh(partOf(streaks.mesh.surface, triangles), name, material))};
+    for (const auto& [when, triangles] : by_frames) {
+        const auto& [frame, gone] = when;
+        const std::string name = "streaks of frames " + std::to_string(frame) + " to " + std::to_string(gone - 1);
+        SceneNode node{name, scene.addMesh(sceneMesh(partOf(streaks.surface, triangles), name, material))};
         std::vector<float> times;
         std::vector<float> scales;
         const auto key = [&](double at, float scale) {
@@ -84,9 +84,8 @@ void addStreaks(const WetStreaks& streaks, std::size_t object, std::uint32_t fra
             key(0.0, 0.0F);
         }
         key(frame, 1.0F);
-        const double dry = streaks.drying ? std::ceil(frame + *streaks.drying * rate) : frames;
-        if (dry < frames) {
-            key(dry, 0.0F);
+        if (gone < frames) {
+            key(gone, 0.0F);
         }
         const std::size_t added = scene.addNode(std::move(node), all);
         if (times.size() > 1) {
@@ -120,7 +119,7 @@ struct FlowAnimation::Content {
     std::uint64_t volumes = 0;                         ///< their number
     std::map<std::uint64_t, DropletPose> shaped = {};  ///< with which droplets got their last shape, by id
     std::size_t shapes = 0;                            ///< about the number that the file will have
-    std::optional<WetStreaks> streaks = {};
+    std::optional<StreakMesh> streaks = {};
 
     [[nodiscard]] DropletPose poseOf(const FlowSample& sample, Vec3 gravity) const
     {
@@ -224,9 +223,9 @@ void FlowAnimation::add(double time, std::span<const FlowSample> samples)
     checkCrowd(content.histories, content.shapes, "fewer droplets");
 }
 
-void FlowAnimation::setStreaks(StreakMesh streaks, std::optional<double> drying)
+void FlowAnimation::setStreaks(StreakMesh streaks)
 {
-    content_->streaks = WetStreaks{std::move(streaks), drying};
+    content_->streaks = std::move(streaks);
 }
 
 std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) const
@@ -248,7 +247,7 @@ std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) 
     scene.frames_per_second = content.options.frames_per_second;
     CrowdOptions droplets;
     droplets.ground = addObject(content.object, scene);
-    if (content.streaks && !content.streaks->mesh.surface.triangles.empty()) {
+    if (content.streaks && !content.streaks->surface.triangles.empty()) {
         addStreaks(*content.streaks, droplets.ground, content.histories.frames(), scene);
     }
     droplets.material = content.options.material;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/flow_io/flow_painter.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,8 +19,6 @@
 namespace droplet {
 namespace {
 
-constexpr double kSoftEdge = 0.4;      // of a streak, over its half width
-constexpr double kFilmForLight = 3.0;  // thickness of the film whose edges are seen, over the film's: it reads as wet
 constexpr double kMostDivisions = 2048;
 
 ViewBox boxOf(const std::vector<Vec3>& points)
@@ -35,8 +35,7 @@ ViewBox boxOf(const std::vector<Vec3>& points)
 
 void FlowPainterOptions::validate() const
 {
-    require(film >= 0.0 && std::isfinite(film), "film", film, "finite and at least 0 m");
-    require(!drying || (*drying > 0.0 && std::isfinite(*drying)), "drying", drying.value_or(0.0), "positive");
+    film.validate();
     RenderOptions checked = render;
     checked.stand.reset();
     checked.stand_water.reset();
@@ -70,28 +69,22 @@ struct FlowPainter::Content {
         RenderOptions& render = options.render;
         render.extent = {1.0, 1.0};
         render.shows_whole_stand = true;
-        stand.vertices = object.vertices;
-        stand.normals = object.normals;
-        stand.triangles = object.triangles;
-        stand.uvs = object.uvs.empty() ? std::vector<Vec2>(object.vertices.size()) : object.uvs;
-        water.film = kFilmForLight * options.film;
+        FlowObject own = onFaces(object, terrain.surface());
+        stand.vertices = std::move(own.vertices);
+        stand.normals = std::move(own.normals);
+        stand.triangles = std::move(own.triangles);
+        stand.uvs = own.uvs.empty() ? std::vector<Vec2>(stand.vertices.size()) : std::move(own.uvs);
         water.divisions.resize(stand.triangles.size());
         water.first.resize(stand.triangles.size());
         spots.middle = 0.5 * (box.low + box.high);
         // About one place for a pixel.
         spots.spacing = length(box.high - box.low) / std::max(render.width, render.height);
-        for (const FlowSurface::Face& face : terrain.surface().faces) {
-            // Its front is where the droplets are.
-            auto& [a, b, c] = stand.triangles[face.source];
-            const Vec3 front = cross(stand.vertices[b] - stand.vertices[a], stand.vertices[c] - stand.vertices[a]);
-            if (dot(front, face.normal) < 0.0) {
-                std::swap(b, c);
-            }
-            addPlaces(face.source);
+        for (std::uint32_t face = 0; face < stand.triangles.size(); ++face) {
+            addPlaces(face);
         }
         spots.first.push_back(static_cast<std::uint32_t>(spots.places.size()));
-        water.wetness.resize(spots.places.size());
-        wet.emplace(spots.places.size(), options.drying);
+        water.film.resize(spots.places.size());
+        wet.emplace(spots.places.size(), options.film);
     }
 
     void addPlaces(std::uint32_t triangle)
@@ -124,23 +117,6 @@ struct FlowPainter::Content {
         return shown;
     }
 
-    void wetBelow(std::span<const FlowSample> samples, const std::vector<DropletBase>& bases, double time)
-    {
-        std::vector<FlowTrack> tracks;
-        std::size_t next = 0;
-        for (const FlowSample& sample : samples) {
-            if (sample.contact == FlowContact::Air || next >= bases.size()) {
-                continue;
-            }
-            const DropletBase& base = bases[next++];
-            // Dew that only stands leaves nothing when it runs together: what droplets wipe shows beside it.
-            if (sample.face && sample.contact != FlowContact::Still) {
-                tracks.push_back({sample.id, *sample.face, sample.place, sample.place, 2.0 * base.half_width, time});
-            }
-        }
-        wetTracks(spots, tracks, kSoftEdge, faces, *wet);
-    }
-
     const FlowTerrain& terrain;
     FlowPainterOptions options;
     FacesAround faces;
@@ -166,22 +142,22 @@ FlowPainter& FlowPainter::operator=(FlowPainter&&) noexcept = default;
 
 void FlowPainter::add(std::span<const FlowTrack> tracks)
 {
-    wetTracks(content_->spots, tracks, kSoftEdge, content_->faces, *content_->wet);
+    wetTracks(content_->spots, tracks, content_->faces, *content_->wet);
 }
 
 Picture FlowPainter::picture(const FlowMoment& moment, std::span<const FlowSample> samples, const Surface& droplets)
 {
     Content& c = *content_;
     SettledDroplets water = settled(c.terrain, samples, droplets, c.shownOf(samples));
-    c.wetBelow(samples, water.bases, moment.time);
     RenderOptions render = c.options.render;
     render.azimuth += moment.azimuth;
     render.stand = c.stand;
     render.stand_water = c.water;
     render.stand_water->bases = std::move(water.bases);
-    for (std::size_t spot = 0; spot < render.stand_water->wetness.size(); ++spot) {
-        render.stand_water->wetness[spot] = static_cast<float>(c.wet->left(spot, moment.time));
-    }
+    std::vector<float>& film = render.stand_water->film;
+    tbb::parallel_for(std::size_t{0}, film.size(), [&](std::size_t spot) {
+        film[spot] = static_cast<float>(c.wet->thickness(spot, c.spots.place(spot), moment.time));
+    });
     const auto move = [&](std::vector<Vec3>& places, std::vector<Vec3>& directions) {
         for (Vec3& p : places) {
             p = moment.pose.place + moment.pose.toWorld(p);

@@ -175,12 +175,28 @@ FlowPreset car()
     return preset;
 }
 
+FlowPreset window()
+{
+    FlowPreset preset;
+    preset.name = "window";
+    preset.description = "rain on a window: drops stick, run and leave tails that break up to beads";
+    preset.object = PresetObject::Window;
+    FlowParameters& p = preset.parameters;
+    p.forces.wetting.contact_angle = 75.0 * kDegree;  // of glass that is not new
+    p.forces.wetting.hysteresis = 0.3;
+    p.rain = FlowRain{60.0 * kMillimetrePerHour, {0.0, -1.0, 0.5}, {}, 0.5e-3};
+    p.streaks = {30e-6, 6e-3};
+    preset.duration = 8.0;
+    preset.camera = {-90.0 * kDegree, 5.0 * kDegree};
+    return preset;
+}
+
 }  // namespace
 
 const std::vector<FlowPreset>& flowPresets()
 {
     static const std::vector<FlowPreset> presets{masses(), viscosities(), adhesions(), roughnesses(), tear(),
-                                                 forces(), bottle(),      leaf(),      car()};
+                                                 forces(), bottle(),      leaf(),      car(),         window()};
     return presets;
 }
 

@@ -52,6 +52,8 @@ ReportJson forcesOf(const FlowParameters& parameters)
     section["friction_kg_per_s"] = orNull(parameters.friction);
     section["adhesion_pa"] = orNull(parameters.adhesion);
     section["roughness_m"] = parameters.roughness;
+    section["pinning"] = parameters.pinning.spread;
+    section["pinning_length_m"] = parameters.pinning.length;
     return section;
 }
 

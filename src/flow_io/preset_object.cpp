@@ -367,6 +367,12 @@ void addCar(Grids& grids)
     });
 }
 
+void addWindow(Grids& grids)
+{
+    const Cells cells{grids.finer(6), grids.finer(8)};
+    grids.add(cells, "window", [](Vec2 uv) { return Vec3{0.3 * (uv.x - 0.5), 0.0, 0.4 * uv.y}; });
+}
+
 }  // namespace
 
 FlowObject presetObject(PresetObject object, double detail)
@@ -399,6 +405,9 @@ FlowObject presetObject(PresetObject object, double detail)
             break;
         case PresetObject::Car:
             addCar(grids);
+            break;
+        case PresetObject::Window:
+            addWindow(grids);
             break;
     }
     return std::move(grids).finish();

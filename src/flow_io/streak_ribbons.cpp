@@ -7,8 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 
-#include "require.h"
+#include "flow_io/trail_section.h"
 
 namespace droplet {
 namespace {
@@ -20,8 +21,14 @@ constexpr double kLongest = 4.0;
 constexpr double kShort = 0.05;
 /// Ribbons shorter than this part of their width are left out: the droplet hardly moved.
 constexpr double kShortest = 0.25;
-/// Height of a ribbon's sides over that of its middle.
-constexpr double kSides = 0.2;
+/// Distance of cross-sections over the width of the droplet: pieces of a film that has broken up are about as long.
+constexpr double kBetween = 0.12;
+/// Pieces narrower than this part of the droplet are left out.
+constexpr double kNarrowest = 0.02;
+/// Where across it the vertices are, over the half width.
+constexpr std::array<double, 5> kAcross{1.0, 0.55, 0.0, -0.55, -1.0};
+/// Height of its sides over that of its middle: they show on the surface.
+constexpr double kSides = 0.1;
 /// Stations of a round end: distance from the end over the half width.
 constexpr std::array<double, 4> kRoundEnd{0.0, 0.13, 0.5, 1.0};
 
@@ -36,68 +43,93 @@ struct Station {
     Vec3 place;
     Vec3 normal;
     Vec3 left;
-    double half_width = 0.0;
-    double along = 0.0;   ///< distance from the begin [m]
-    double wetted = 0.0;  ///< [s]
+    Passage passage;
+    double along = 0.0;  ///< distance from the begin [m]
+    TrailSection film = {};
 };
 
 Station between(const Station& a, const Station& b, double along)
 {
     const double share = (along - a.along) / (b.along - a.along);
-    const auto mixed = [share](Vec3 from, Vec3 to) { return from + share * (to - from); };
+    const auto mixed = [share](auto from, auto to) { return from + share * (to - from); };
     return {mixed(a.place, b.place),
             unit(mixed(a.normal, b.normal)),
             unit(mixed(a.left, b.left)),
-            a.half_width + share * (b.half_width - a.half_width),
-            along,
-            a.wetted + share * (b.wetted - a.wetted)};
+            {mixed(a.passage.time, b.passage.time), mixed(a.passage.width, b.passage.width),
+             mixed(a.passage.speed, b.passage.speed)},
+            along};
 }
 
-void append(const std::vector<Station>& stations, double thickness, StreakMesh& mesh)
+/// Adds a piece of a ribbon.
+void append(std::span<const Station> stations, const TrailFilm& film, StreakMesh& mesh)
 {
     Surface& surface = mesh.surface;
-    constexpr std::uint32_t kAcross = 3;
+    constexpr auto kCount = static_cast<std::uint32_t>(kAcross.size());
     double width = 0.0;
     for (const Station& station : stations) {
-        width += 2.0 * station.half_width / static_cast<double>(stations.size());
+        width += station.passage.width / static_cast<double>(stations.size());
     }
-    const double whole = stations.back().along;
     const auto first = static_cast<std::uint32_t>(surface.vertices.size());
     for (const Station& s : stations) {
-        const double share = std::min(1.0, std::min(s.along, whole - s.along) / s.half_width);
-        const double half = s.half_width * std::sqrt(share * (2.0 - share));
-        const double tilt = 2.0 * thickness / s.half_width;  // slope of the sides of a parabola
-        for (const double side : {1.0, 0.0, -1.0}) {
-            const double height = thickness * (side == 0.0 ? 1.0 : kSides);
-            surface.vertices.push_back(s.place + side * half * s.left + height * s.normal);
-            surface.normals.push_back(unit(s.normal + side * tilt * s.left));
+        const auto& [half, height] = s.film;
+        for (const double side : kAcross) {
+            const double up = height * (kSides + (1.0 - kSides) * (1.0 - side * side));
+            const double tilt = half > 0.0 ? 2.0 * height * side / half : 0.0;  // slope of a parabola
+            surface.vertices.push_back(s.place + side * half * s.left + up * s.normal);
+            surface.normals.push_back(unit(s.normal + tilt * s.left));
             surface.uvs.push_back({0.5 - 0.5 * side, s.along / width});
         }
     }
     for (std::uint32_t i = 0; i + 1 < stations.size(); ++i) {
-        for (std::uint32_t k = 0; k + 1 < kAcross; ++k) {
-            const std::uint32_t a = first + kAcross * i + k;
-            surface.triangles.push_back({a, a + 1, a + kAcross + 1});
-            surface.triangles.push_back({a, a + kAcross + 1, a + kAcross});
-            mesh.wetted.insert(mesh.wetted.end(), 2, stations[i + 1].wetted);
+        const Passage& passage = stations[i + 1].passage;
+        for (std::uint32_t k = 0; k + 1 < kCount; ++k) {
+            const std::uint32_t a = first + kCount * i + k;
+            surface.triangles.push_back({a, a + 1, a + kCount + 1});
+            surface.triangles.push_back({a, a + kCount + 1, a + kCount});
+            mesh.wetted.insert(mesh.wetted.end(), 2, passage.time);
+            mesh.gone.insert(mesh.gone.end(), 2, passage.time + lifetime(film, passage));
         }
     }
 }
 
+/// Where along a ribbon its cross-sections are.
+/// @param step  of time; there is one at each of its multiples
+std::vector<double> stationsOn(const std::vector<Station>& knots, std::optional<double> step)
+{
+    const double whole = knots.back().along;
+    std::vector<double> stations;
+    for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+        const Station& a = knots[i];
+        const Station& b = knots[i + 1];
+        const auto parts = static_cast<int>(std::ceil((b.along - a.along) / (kBetween * b.passage.width)));
+        for (int k = 0; k < parts; ++k) {
+            stations.push_back(a.along + (b.along - a.along) * k / parts);
+        }
+        const double begin = a.passage.time;
+        const double end = b.passage.time;
+        const auto last = step ? static_cast<std::int64_t>(std::ceil(end / *step)) : 0;
+        for (auto k = step ? static_cast<std::int64_t>(std::floor(begin / *step)) + 1 : 0; k < last; ++k) {
+            const double share = (*step * static_cast<double>(k) - begin) / (end - begin);
+            stations.push_back(a.along + share * (b.along - a.along));
+        }
+    }
+    for (const double share : kRoundEnd) {
+        stations.push_back(std::min(0.5 * share * knots.front().passage.width, whole));
+        stations.push_back(std::max(whole - 0.5 * share * knots.back().passage.width, 0.0));
+    }
+    std::sort(stations.begin(), stations.end());
+    stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
+    return stations;
+}
+
 }  // namespace
 
-void StreakRibbonOptions::validate() const
+StreakRibbons::StreakRibbons(const TrailFilm& film) : film_(film)
 {
-    require(!drying || *drying > 0.0, "drying", drying.value_or(0.0), "more than 0 s");
-    require(thickness >= 0.0 && std::isfinite(thickness), "thickness", thickness, "finite and at least 0 m");
+    film_.validate();
 }
 
-StreakRibbons::StreakRibbons(const StreakRibbonOptions& options) : options_(options)
-{
-    options_.validate();
-}
-
-void StreakRibbons::extend(Ribbon& ribbon, const FlowTrack& track, Vec3 normal) const
+void StreakRibbons::extend(Ribbon& ribbon, const FlowTrack& track, Vec3 normal)
 {
     Point& last = ribbon.back();
     const Point& before = ribbon[ribbon.size() - 2];
@@ -108,13 +140,13 @@ void StreakRibbons::extend(Ribbon& ribbon, const FlowTrack& track, Vec3 normal) 
     const bool is_straight = last.face == track.face && size >= length(off) && size <= kLongest * track.width &&
                              across <= kStraight * track.width;
     if (is_straight || std::max(size, length(off)) <= kShort * track.width) {
-        last = {track.to, last.normal, track.width, track.time, track.face};
+        last = {track.to, last.normal, track.width, track.time, track.speed, track.face};
         return;
     }
     if (last.face != track.face) {
         last.normal = unit(last.normal + normal);
     }
-    ribbon.push_back({track.to, normal, track.width, track.time, track.face});
+    ribbon.push_back({track.to, normal, track.width, track.time, track.speed, track.face});
 }
 
 void StreakRibbons::add(std::span<const FlowTrack> tracks, const FlowSurface& surface)
@@ -126,95 +158,94 @@ void StreakRibbons::add(std::span<const FlowTrack> tracks, const FlowSurface& su
         const double gap = all.empty() ? 0.0 : length(all.back().back().place - track.from);
         if (!all.empty() && gap <= track.width) {
             if (gap > kShort * track.width) {
-                extend(all.back(), {track.id, track.face, {}, track.from, track.width, track.time}, normal);
+                extend(all.back(), {track.id, track.face, {}, track.from, track.width, track.time, track.speed}, normal);
             }
             extend(all.back(), track, normal);
             continue;
         }
-        all.push_back({{track.from, normal, track.width, track.time, track.face},
-                       {track.to, normal, track.width, track.time, track.face}});
-    }
-    if (options_.drying && !tracks.empty()) {
-        double now = 0.0;
-        for (const FlowTrack& track : tracks) {
-            now = std::max(now, track.time);
-        }
-        for (auto one = ribbons_.begin(); one != ribbons_.end();) {
-            std::erase_if(one->second, [&](const Ribbon& r) { return r.back().time < now - *options_.drying; });
-            one = one->second.empty() ? ribbons_.erase(one) : std::next(one);
-        }
+        const double begin = track.speed > 0.0 ? track.time - length(track.to - track.from) / track.speed : track.time;
+        all.push_back({{track.from, normal, track.width, begin, track.speed, track.face},
+                       {track.to, normal, track.width, track.time, track.speed, track.face}});
     }
 }
 
-StreakRibbons::Ribbon StreakRibbons::wetPart(const Ribbon& ribbon, double time) const
+void StreakRibbons::forgetDry(double time)
 {
-    const double since = time - options_.drying.value_or(0.0);
-    const auto wet = options_.drying ? std::find_if(ribbon.begin(), ribbon.end(),
-                                                    [&](const Point& point) { return point.time >= since; })
-                                     : ribbon.begin();
-    Ribbon part(wet, ribbon.end());
-    if (wet != ribbon.begin() && wet != ribbon.end()) {
-        Point begin = *(wet - 1);
-        const double share = (since - begin.time) / (wet->time - begin.time);
-        begin.place = begin.place + share * (wet->place - begin.place);
-        part.insert(part.begin(), begin);
+    if (!film_.drying) {
+        return;
     }
-    return part;
+    for (auto one = ribbons_.begin(); one != ribbons_.end();) {
+        std::erase_if(one->second, [&](const Ribbon& r) { return r.back().time < time - *film_.drying; });
+        one = one->second.empty() ? ribbons_.erase(one) : std::next(one);
+    }
 }
 
-StreakMesh StreakRibbons::mesh(double time, std::optional<double> step) const
+StreakMesh StreakRibbons::mesh(double time) const
+{
+    return meshOf(time, {});
+}
+
+StreakMesh StreakRibbons::growing(double step) const
+{
+    return meshOf({}, step);
+}
+
+StreakMesh StreakRibbons::meshOf(std::optional<double> time, std::optional<double> step) const
 {
     StreakMesh mesh;
     Surface& surface = mesh.surface;
-    surface.mean_height = options_.thickness;
+    surface.mean_height = film_.thickness;
     for (const auto& [id, ribbons] : ribbons_) {
         for (const Ribbon& ribbon : ribbons) {
-            const Ribbon part = wetPart(ribbon, time);
             std::vector<Station> knots;
-            for (std::size_t i = 0; i < part.size(); ++i) {
-                const Vec3 before = i > 0 ? unit(part[i].place - part[i - 1].place) : Vec3{};
-                const Vec3 after = i + 1 < part.size() ? unit(part[i + 1].place - part[i].place) : Vec3{};
-                const Vec3 left = unit(cross(part[i].normal, before + after));
-                const double way = i > 0 ? length(part[i].place - part[i - 1].place) : 0.0;
+            for (std::size_t i = 0; i < ribbon.size(); ++i) {
+                const Point& point = ribbon[i];
+                const Vec3 before = i > 0 ? unit(point.place - ribbon[i - 1].place) : Vec3{};
+                const Vec3 after = i + 1 < ribbon.size() ? unit(ribbon[i + 1].place - point.place) : Vec3{};
+                const Vec3 left = unit(cross(point.normal, before + after));
+                const double way = i > 0 ? length(point.place - ribbon[i - 1].place) : 0.0;
                 if (left == Vec3{} || (i > 0 && way == 0.0)) {
                     continue;
                 }
                 const double along = knots.empty() ? 0.0 : knots.back().along + way;
-                knots.push_back({part[i].place, part[i].normal, left, 0.5 * part[i].width, along, part[i].time});
+                knots.push_back({point.place, point.normal, left, {point.time, point.width, point.speed}, along});
             }
-            if (knots.size() < 2 || knots.back().along < 2.0 * kShortest * knots.back().half_width) {
+            if (knots.size() < 2 || knots.back().along < kShortest * knots.back().passage.width) {
                 continue;
             }
-            const double whole = knots.back().along;
-            std::vector<double> stations;
-            stations.reserve(knots.size() + 2 * std::size(kRoundEnd));
-            for (const Station& knot : knots) {
-                stations.push_back(knot.along);
-            }
-            for (std::size_t i = 0; step && i + 1 < knots.size(); ++i) {
-                const Station& a = knots[i];
-                const Station& b = knots[i + 1];
-                const auto last = static_cast<std::int64_t>(std::ceil(b.wetted / *step));
-                for (auto k = static_cast<std::int64_t>(std::floor(a.wetted / *step)) + 1; k < last; ++k) {
-                    const double share = (*step * static_cast<double>(k) - a.wetted) / (b.wetted - a.wetted);
-                    stations.push_back(a.along + share * (b.along - a.along));
+            std::vector<Station> piece;  // between gaps, with its ends
+            std::optional<Station> dry;  // the last station, if nothing is there
+            const auto end = [&] {
+                if (piece.size() > 1) {
+                    append(piece, film_, mesh);
                 }
-            }
-            for (const double share : kRoundEnd) {
-                stations.push_back(std::min(share * knots.front().half_width, whole));
-                stations.push_back(std::max(whole - share * knots.back().half_width, 0.0));
-            }
-            std::sort(stations.begin(), stations.end());
-            stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
-            std::vector<Station> all;
+                piece.clear();
+            };
+            const double whole = knots.back().along;
             std::size_t knot = 0;
-            for (const double along : stations) {
+            for (const double along : stationsOn(knots, step)) {
                 while (knot + 2 < knots.size() && knots[knot + 1].along < along) {
                     ++knot;
                 }
-                all.push_back(between(knots[knot], knots[knot + 1], along));
+                Station s = between(knots[knot], knots[knot + 1], along);
+                const double age = time ? std::max(*time - s.passage.time, 0.0) : settledAge(film_, s.passage);
+                s.film = trailSection(film_, s.passage, s.place, age);
+                const double near = std::min(1.0, 2.0 * std::min(along, whole - along) / s.passage.width);
+                const double round = std::sqrt(near * (2.0 - near));
+                s.film.half_width *= round;
+                const bool is_wet = s.film.half_width > 0.5 * kNarrowest * s.passage.width;
+                if (is_wet && dry) {
+                    piece.push_back(*dry);
+                }
+                if (is_wet || !piece.empty()) {
+                    piece.push_back(s);
+                }
+                dry = is_wet ? std::nullopt : std::optional(s);
+                if (!is_wet) {
+                    end();
+                }
             }
-            append(all, options_.thickness, mesh);
+            end();
         }
     }
     surface.weld.resize(surface.vertices.size());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/flow_io/wet_maps.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,8 +58,8 @@ std::int64_t wrapped(std::int64_t at, std::int64_t count)
     return (at % count + count) % count;
 }
 
-/// Mean directions of growing u at the vertices.
-std::vector<Vec3> tangentsOf(const FlowObject& object)
+/// Mean directions of growing u at the vertices of the object, and from them those at the corners of the faces.
+std::vector<Vec3> tangentsOn(const FlowSurface& surface, const FlowObject& object)
 {
     std::vector<Vec3> tangents(object.vertices.size());
     for (const auto& [a, b, c] : object.triangles) {
@@ -70,13 +72,20 @@ std::vector<Vec3> tangentsOf(const FlowObject& object)
             tangents[v] = tangents[v] + unit(along);
         }
     }
-    return tangents;
+    std::vector<Vec3> on_faces;
+    for (const FlowSurface::Face& face : surface.faces) {
+        const auto& [a, b, c] = object.triangles[face.source];
+        for (const std::array<double, 3>& w : cornerWeights(object, face)) {
+            on_faces.push_back(w[0] * tangents[a] + w[1] * tangents[b] + w[2] * tangents[c]);
+        }
+    }
+    return on_faces;
 }
 
 /// Sums over a texel.
 struct Texel {
     double thickness = 0.0;  ///< of droplets [m]
-    double film = 0.0;       ///< of streaks, part of a fresh one
+    double film = 0.0;       ///< behind droplets [m]
     double age = std::numeric_limits<double>::infinity();
     Vec3 normal;  ///< times thickness, in the tangent frame
 };
@@ -92,22 +101,25 @@ void WetMapOptions::validate() const
 {
     requireWithin("width", width, 16, 8192);
     requireWithin("height", height, 16, 8192);
-    require(film >= 0.0 && std::isfinite(film), "film", film, "finite and at least 0 m");
-    require(!drying || (*drying > 0.0 && std::isfinite(*drying)), "drying", drying.value_or(0.0), "positive");
+    film.validate();
     require(full_thickness > 0.0 && std::isfinite(full_thickness), "full_thickness", full_thickness, "positive");
     require(full_age > 0.0 && std::isfinite(full_age), "full_age", full_age, "positive");
 }
 
 struct WetMapper::Content {
     Content(const FlowObject& of, const FlowTerrain& terrain_of, const WetMapOptions& given)
-        : object(of), terrain(terrain_of), options(given), faces(terrain.surface()), tangents(tangentsOf(of))
+        : object(onFaces(of, terrain_of.surface())),
+          terrain(terrain_of),
+          options(given),
+          faces(terrain.surface()),
+          tangents(tangentsOn(terrain.surface(), of))
     {
         spots.middle = of.vertices.front();
         const auto count = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
         std::vector<std::uint32_t> owner(count, kNobody);
-        for (const FlowSurface::Face& face : terrain.surface().faces) {
+        for (const Triangle& triangle : object.triangles) {
             spots.first.push_back(static_cast<std::uint32_t>(spots.places.size()));
-            area.push_back(addTexels(object.triangles.at(face.source), owner));
+            area.push_back(addTexels(triangle, owner));
         }
         spots.first.push_back(static_cast<std::uint32_t>(spots.places.size()));
         if (spots.places.empty()) {
@@ -115,7 +127,7 @@ struct WetMapper::Content {
                         "the object's texture coordinates have no area: unwrap it before wet maps are made");
         }
         spots.spacing = std::sqrt(terrain.area() / static_cast<double>(spots.places.size()));
-        wet.emplace(spots.places.size(), options.drying);
+        wet.emplace(spots.places.size(), options.film);
         fillGutter(owner);
     }
 
@@ -195,7 +207,7 @@ struct WetMapper::Content {
     // Normal of the water in the tangent frame of a place.
     [[nodiscard]] Vec3 inTangentFrame(Vec3 normal, const WaterAt& at) const
     {
-        const Triangle& triangle = object.triangles[terrain.surface().faces[at.face].source];
+        const Triangle& triangle = object.triangles[at.face];
         const Vec3 a = object.vertices[triangle[0]];
         const Vec3 p = object.vertices[triangle[1]] - a;
         const Vec3 q = object.vertices[triangle[2]] - a;
@@ -215,6 +227,42 @@ struct WetMapper::Content {
         return {dot(normal, x), dot(normal, y), dot(normal, up)};
     }
 
+    /// Gives texels of the film their normals, by the film's thickness in the texels beside them.
+    void bendFilm(std::vector<Texel>& drawn) const
+    {
+        const auto rise = [&](std::int64_t x, std::int64_t y, std::int64_t dx, std::int64_t dy) {
+            const auto film = [&](std::int64_t column, std::int64_t row) {
+                return drawn[static_cast<std::size_t>(wrapped(row, options.height) * options.width +
+                                                      wrapped(column, options.width))]
+                    .film;
+            };
+            return 0.5 * (film(x + dx, y + dy) - film(x - dx, y - dy));
+        };
+        const std::vector<FlowSurface::Face>& all = terrain.surface().faces;
+        for (std::uint32_t face = 0; face < all.size(); ++face) {
+            const Triangle& triangle = object.triangles[face];
+            const TexelTriangle t = inTexels(object, triangle, options);
+            const Vec3 p = object.vertices[triangle[1]] - object.vertices[triangle[0]];
+            const Vec3 q = object.vertices[triangle[2]] - object.vertices[triangle[0]];
+            const Vec3 across = cross(p, q);
+            const double size = dot(across, across);
+            for (std::uint32_t spot = spots.first[face]; spot < spots.first[face + 1]; ++spot) {
+                Texel& texel = drawn[texels[spot]];
+                if (texel.thickness > 0.0 || texel.film <= 0.0 || !(size > 0.0)) {
+                    continue;
+                }
+                const std::int64_t x = texels[spot] % static_cast<std::uint32_t>(options.width);
+                const std::int64_t y = texels[spot] / static_cast<std::uint32_t>(options.width);
+                const Vec2 slope{rise(x, y, 1, 0), rise(x, y, 0, 1)};
+                // Changes along both sides of the triangle, and from them the gradient on it.
+                const double along_p = dot(slope, t.corners[1] - t.corners[0]);
+                const double along_q = dot(slope, t.corners[2] - t.corners[0]);
+                const Vec3 gradient = (1.0 / size) * cross(along_p * q - along_q * p, across);
+                texel.normal = inTangentFrame(all[face].normal - gradient, {face, spot, 0.0, {}});
+            }
+        }
+    }
+
     struct Shown {
         std::array<double, 3> normal;
         double thickness = 0.0;  ///< [m]
@@ -227,38 +275,39 @@ struct WetMapper::Content {
     void draw(double time, std::span<const FlowSample> samples, const Surface& droplets, const Take& take)
     {
         const auto water = waterOf(spots, terrain.surface(), area, samples, droplets);
-        for (const std::vector<WaterAt>& droplet : water) {
-            for (const WaterAt& at : droplet) {
-                wet->wet(at.spot, time, 1.0);
-            }
-        }
         std::vector<Texel> drawn(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height));
+        std::vector<double> film(texels.size());
+        tbb::parallel_for(std::size_t{0}, texels.size(),
+                          [&](std::size_t spot) { film[spot] = wet->thickness(spot, spots.place(spot), time); });
         for (std::size_t spot = 0; spot < texels.size(); ++spot) {
             Texel& texel = drawn[texels[spot]];
-            texel.film = std::max(texel.film, wet->left(spot, time));
+            texel.film = std::max(texel.film, film[spot]);
             texel.age = std::min(texel.age, wet->age(spot, time));
         }
         for (const std::vector<WaterAt>& droplet : water) {
             for (const WaterAt& at : droplet) {
                 Texel& texel = drawn[texels[at.spot]];
                 texel.thickness += at.thickness;
+                texel.age = 0.0;
                 texel.normal = texel.normal + at.thickness * unit(inTangentFrame(at.normal, at));
             }
         }
         for (const auto& [to, from] : gutter) {
             drawn[to] = drawn[from];
         }
+        bendFilm(drawn);
+        const double full = options.film.thickness;
         for (const Texel& texel : drawn) {
             const Vec3 normal = length(texel.normal) > 0.0 ? unit(texel.normal) : Vec3{0.0, 0.0, 1.0};
             const bool is_under = texel.thickness > 0.0;
             take(Shown{{normal.x, normal.y, normal.z},
-                       is_under ? texel.thickness : options.film * texel.film,
+                       is_under ? texel.thickness : texel.film,
                        std::min(texel.age, options.full_age),
-                       is_under ? 1.0 : texel.film});
+                       is_under ? 1.0 : full > 0.0 ? std::min(texel.film / full, 1.0) : 0.0});
         }
     }
 
-    FlowObject object;
+    FlowObject object;  // whose triangles are the faces
     const FlowTerrain& terrain;
     WetMapOptions options;
     FacesAround faces;
@@ -287,7 +336,7 @@ WetMapper& WetMapper::operator=(WetMapper&&) noexcept = default;
 
 void WetMapper::add(std::span<const FlowTrack> tracks)
 {
-    wetTracks(content_->spots, tracks, 0.0, content_->faces, *content_->wet);
+    wetTracks(content_->spots, tracks, content_->faces, *content_->wet);
 }
 
 WetMaps WetMapper::maps(double time, std::span<const FlowSample> samples, const Surface& droplets)

@@ -16,7 +16,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kHead = "droplet-shape wet places 1\n";
+constexpr std::string_view kHead = "droplet-shape wet places 2\n";
 
 /// Distance of two segments (C. Ericson, "Real-Time Collision Detection", 2004, section 5.1.9) [m].
 double distanceBetween(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2)
@@ -197,23 +197,45 @@ const std::vector<std::uint32_t>& FacesAround::find(const Around& around)
     return found_;
 }
 
-WetPlaces::WetPlaces(std::size_t count, std::optional<double> drying) : places_(count), drying_(drying) {}
-
-void WetPlaces::wet(std::size_t spot, double time, double share)
+void WetPlaces::pass(std::size_t spot, std::uint64_t id, const Passage& passage, double distance)
 {
-    if (share > 0.0 && share >= left(spot, time)) {
-        places_[spot] = {static_cast<float>(time), static_cast<float>(share)};
+    Place& place = places_[spot];
+    const auto last_bits = static_cast<std::uint32_t>(id);
+    // As a droplet comes and goes, the place is nearest to its way when its middle is beside it.
+    const double beside = passage.speed > 0.0 ? passage.width / passage.speed : 0.0;
+    const bool is_same = place.id == last_bits && age(spot, passage.time) <= beside;
+    if (!is_same || distance <= static_cast<double>(place.distance)) {
+        place = {static_cast<float>(passage.time), static_cast<float>(passage.width),
+                 static_cast<float>(passage.speed), static_cast<float>(distance), last_bits};
     }
+}
+
+double WetPlaces::thickness(std::size_t spot, Vec3 at, double time) const
+{
+    const Place& place = places_[spot];
+    if (place.width <= 0.0F) {
+        return 0.0;
+    }
+    const Passage passage{0.0, static_cast<double>(place.width), static_cast<double>(place.speed)};
+    return trailSection(film_, passage, at, age(spot, time)).at(static_cast<double>(place.distance));
+}
+
+double WetPlaces::age(std::size_t spot, double time) const
+{
+    return std::max(time - static_cast<double>(places_[spot].time), 0.0);
 }
 
 std::string WetPlaces::bytes() const
 {
     ExactWriter out(kHead);
     out.put(std::uint64_t{places_.size()});
+    const auto pair = [](float a, float b) {
+        return std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32U | std::bit_cast<std::uint32_t>(b);
+    };
     // Runs of wet places: most are dry.
     for (std::size_t begin = 0; begin < places_.size();) {
         std::size_t end = begin;
-        while (end < places_.size() && places_[end].share > 0.0F) {
+        while (end < places_.size() && places_[end].width > 0.0F) {
             ++end;
         }
         if (end > begin) {
@@ -221,8 +243,7 @@ std::string WetPlaces::bytes() const
         }
         for (; begin < end; ++begin) {
             const Place& place = places_[begin];
-            out.put(std::uint64_t{std::bit_cast<std::uint32_t>(place.time)} << 32U |
-                    std::bit_cast<std::uint32_t>(place.share));
+            out.all(pair(place.time, place.width), pair(place.speed, place.distance), std::uint64_t{place.id});
         }
         ++begin;
     }
@@ -237,48 +258,40 @@ void WetPlaces::restore(std::string_view bytes, const std::string& name)
     in.require(count == places_.size());
     std::vector<Place> places(places_.size());
     std::size_t next = 0;
+    const auto pair = [&](float& a, float& b) {
+        std::uint64_t bits = 0;
+        in.get(bits);
+        a = std::bit_cast<float>(static_cast<std::uint32_t>(bits >> 32U));
+        b = std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+        in.require(std::isfinite(a) && std::isfinite(b) && a >= 0.0F && b >= 0.0F);
+    };
     while (!in.ended()) {
         std::uint64_t begin = 0;
         in.get(begin);
-        const std::size_t length = in.count(8);
+        const std::size_t length = in.count(24);
         in.require(begin >= next && begin <= places.size() && length <= places.size() - begin);
         for (next = begin; next < begin + length; ++next) {
-            std::uint64_t bits = 0;
-            in.get(bits);
             Place& place = places[next];
-            place.time = std::bit_cast<float>(static_cast<std::uint32_t>(bits >> 32U));
-            place.share = std::bit_cast<float>(static_cast<std::uint32_t>(bits));
-            in.require(place.time >= 0.0F && std::isfinite(place.time) && place.share > 0.0F && place.share <= 1.0F);
+            std::uint64_t id = 0;
+            pair(place.time, place.width);
+            pair(place.speed, place.distance);
+            in.get(id);
+            in.require(place.width > 0.0F && id <= std::numeric_limits<std::uint32_t>::max());
+            place.id = static_cast<std::uint32_t>(id);
         }
     }
     places_ = std::move(places);
 }
 
-double WetPlaces::left(std::size_t spot, double time) const
-{
-    const Place& place = places_[spot];
-    if (place.share <= 0.0F || !drying_) {
-        return static_cast<double>(place.share);
-    }
-    return static_cast<double>(place.share) * std::clamp(1.0 - age(spot, time) / *drying_, 0.0, 1.0);
-}
-
-double WetPlaces::age(std::size_t spot, double time) const
-{
-    return std::max(time - static_cast<double>(places_[spot].time), 0.0);
-}
-
-void wetTracks(const WetSpots& spots, std::span<const FlowTrack> tracks, double softness, FacesAround& faces,
-               WetPlaces& wet)
+void wetTracks(const WetSpots& spots, std::span<const FlowTrack> tracks, FacesAround& faces, WetPlaces& wet)
 {
     for (const FlowTrack& track : tracks) {
         const double reach = 0.5 * track.width;
         for (const std::uint32_t face : faces.find({track.face, track.from, track.to, reach})) {
             for (std::uint32_t spot = spots.first[face]; spot < spots.first[face + 1]; ++spot) {
-                const double inside = reach - distanceFrom(spots.place(spot), track.from, track.to);
-                if (inside >= 0.0) {
-                    const double s = softness > 0.0 ? std::min(inside / (softness * reach), 1.0) : 1.0;
-                    wet.wet(spot, track.time, s * s * (3.0 - 2.0 * s));
+                const double distance = distanceFrom(spots.place(spot), track.from, track.to);
+                if (distance <= reach) {
+                    wet.pass(spot, track.id, {track.time, track.width, track.speed}, distance);
                 }
             }
         }

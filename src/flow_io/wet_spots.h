@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,8 +12,10 @@
 
 #include "droplet/flow/flow.h"
 #include "droplet/flow/flow_surface.h"
+#include "droplet/flow_io/trail_film.h"
 #include "droplet/surface/surface.h"
 #include "droplet/vector.h"
+#include "flow_io/trail_section.h"
 
 namespace droplet {
 
@@ -61,17 +62,19 @@ private:
     std::uint32_t search_ = 0;
 };
 
-/// When places were wet, and how much.
+/// Film behind droplets at places.
 class WetPlaces {
 public:
-    WetPlaces(std::size_t count, std::optional<double> drying);
+    WetPlaces(std::size_t count, const TrailFilm& film) : places_(count), film_(film) {}
 
-    /// Wets a place.
-    /// @param share  0 … 1
-    void wet(std::size_t spot, double time, double share);
-    /// What a place has left of its film at a time, 0 … 1.
-    [[nodiscard]] double left(std::size_t spot, double time) const;
-    /// Time since a place was wet; infinity if never [s].
+    /// A droplet passes a place.
+    /// @param id        of the droplet
+    /// @param distance  of the place from the droplet's way [m]
+    void pass(std::size_t spot, std::uint64_t id, const Passage& passage, double distance);
+    /// Thickness of the film at a time [m].
+    /// @param at  the place [m]
+    [[nodiscard]] double thickness(std::size_t spot, Vec3 at, double time) const;
+    /// Time since a droplet passed the place; infinity if none did [s].
     [[nodiscard]] double age(std::size_t spot, double time) const;
 
     /// Exact bytes of all places.
@@ -83,21 +86,22 @@ public:
 
 private:
     struct Place {
-        float time = -std::numeric_limits<float>::infinity();
-        float share = 0.0F;
+        float time = -std::numeric_limits<float>::infinity();  // of the passage
+        float width = 0.0F;                                    // 0: none
+        float speed = 0.0F;
+        float distance = 0.0F;
+        std::uint32_t id = 0;  // the last bits
     };
 
     std::vector<Place> places_;
-    std::optional<double> drying_;
+    TrailFilm film_;
 };
 
 /// Distance of a point from a segment [m].
 double distanceFrom(Vec3 p, Vec3 from, Vec3 to);
 
-/// Wets all places on the tracks.
-/// @param softness  width over which the share falls from 1 to 0, as a part of the half width, inside the track
-void wetTracks(const WetSpots& spots, std::span<const FlowTrack> tracks, double softness, FacesAround& faces,
-               WetPlaces& wet);
+/// Passes all places on the tracks.
+void wetTracks(const WetSpots& spots, std::span<const FlowTrack> tracks, FacesAround& faces, WetPlaces& wet);
 
 /// Water of a droplet over a place.
 struct WaterAt {

@@ -35,7 +35,7 @@ namespace {
 constexpr int kMaxPixels = 8192;
 constexpr int kMinSamples = 4;
 constexpr int kMaxSamples = 256;
-constexpr float kCovering = 0.5F;  // part of a fresh film that covers the ground's bumps
+constexpr float kCovering = 60e-6F;  // thickness of a film that covers the ground's bumps [m]
 constexpr float kWhite = 0.85F;    // level of open white ground before the filmic curve
 constexpr float kPi = 3.14159265F;
 
@@ -334,11 +334,11 @@ private:
     {
         const StandFilm::Here film = film_->at(meeting);
         const bool is_front = dot(ray.direction, meeting.facet) < 0.0F;
-        if (film.wetness <= 0.0F || !is_front) {
+        if (film.thickness <= 0.0F || !is_front) {
             return dry;
         }
         // A film that covers the bumps of matt ground darkens and mirrors as a thicker one.
-        const float covered = std::min(film.wetness / kCovering, 1.0F);
+        const float covered = std::min(film.thickness / kCovering, 1.0F);
         const Vec3f normal = facing(ray.direction, film.normal);
         const float mirrors = covered * atInterface(ray.direction, normal, 1.0F / media_.of(0).ior).reflected;
         const Vec3f wet = mix(dry, dry * wetness(matter, squeezed_[way.droplet], way.droplet), covered);

@@ -31,13 +31,11 @@ void StandWater::validate(std::size_t triangles) const
             "as many as the stand's triangles");
     require(divisions.size() == first.size(), "options.stand_water.first", first.size(), "as many as divisions");
     for (std::size_t t = 0; t < divisions.size(); ++t) {
-        require(first[t] + valuesOf(divisions[t]) <= wetness.size(), "options.stand_water.first", first[t],
-                "inside wetness");
+        require(first[t] + valuesOf(divisions[t]) <= film.size(), "options.stand_water.first", first[t], "inside film");
     }
-    for (const float value : wetness) {
-        require(value >= 0.0F && value <= 1.0F, "options.stand_water.wetness", value, "from 0 to 1");
+    for (const float value : film) {
+        require(value >= 0.0F && std::isfinite(value), "options.stand_water.film", value, "at least 0 m");
     }
-    require(film >= 0.0 && std::isfinite(film), "options.stand_water.film", film, "at least 0 m");
 }
 
 StandFilm::Here StandFilm::at(const Meeting& meeting) const
@@ -50,7 +48,7 @@ StandFilm::Here StandFilm::at(const Meeting& meeting) const
     const float v = std::clamp(meeting.v, 0.0F, 1.0F) * static_cast<float>(n);
     const int j = std::min(static_cast<int>(v), n - 1);
     const int i = std::clamp(static_cast<int>(u), 0, n - 1 - j);
-    const float* const values = water_.wetness.data() + water_.first[meeting.triangle];
+    const float* const values = water_.film.data() + water_.first[meeting.triangle];
     const auto value = [&](int column, int row) { return values[row * (n + 1) - row * (row - 1) / 2 + column]; };
     const float fu = u - static_cast<float>(i);
     const float fv = v - static_cast<float>(j);
@@ -67,7 +65,7 @@ StandFilm::Here StandFilm::at(const Meeting& meeting) const
         along_v = value(i + 1, j + 1) - value(i + 1, j);
         here = value(i + 1, j + 1) - (1.0F - fu) * along_u - (1.0F - fv) * along_v;
     }
-    here = std::clamp(here, 0.0F, 1.0F);
+    here = std::max(here, 0.0F);
     if (along_u == 0.0F && along_v == 0.0F) {
         return {here, meeting.normal};
     }
@@ -76,7 +74,7 @@ StandFilm::Here StandFilm::at(const Meeting& meeting) const
     const Vec3 p = stand_.vertices[b] - stand_.vertices[a];
     const Vec3 q = stand_.vertices[c] - stand_.vertices[a];
     const Vec3 across = cross(p, q);
-    const double rise = water_.film * n / std::max(dot(across, across), 1e-300);
+    const double rise = n / std::max(dot(across, across), 1e-300);
     const Vec3 slope = rise * cross(static_cast<double>(along_u) * q - static_cast<double>(along_v) * p, across);
     constexpr double kSteepest = 0.5;
     const double steep = length(slope);

@@ -15,8 +15,8 @@ class StandFilm {
 public:
     /// Film at a place.
     struct Here {
-        float wetness = 0.0F;  ///< 0 … 1
-        Vec3f normal;          ///< of the water's surface, unit
+        float thickness = 0.0F;  ///< [m]
+        Vec3f normal;            ///< of the water's surface, unit
     };
 
     /// @param water  must outlive the film, as must the stand

@@ -217,8 +217,10 @@ TEST_F(FlowCommand, MapsHaveTheThicknessOfTheFilm)
                                    "uv.obj");
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const Picture map = readPicture(path("m2-thickness.png"));
-    const std::uint8_t level = 20;  // 0.4 mm of 5 mm
-    EXPECT_GT(std::count(map.rgb.begin(), map.rgb.end(), level), 30);
+    // 0.4 mm of 5 mm is level 20; in the middle the film is 1.5 times as thick, and thicker where it is narrow.
+    const auto films =
+        std::count_if(map.rgb.begin(), map.rgb.end(), [](std::uint8_t level) { return level >= 20 && level <= 80; });
+    EXPECT_GT(films, 30);
 }
 
 TEST_F(FlowCommand, ShowsTheLastFrameInAPreviewOrATurntable)
@@ -305,12 +307,25 @@ TEST_F(FlowCommand, MapsHaveTheScaleThatIsChosen)
                                        "0.2mm",       "--json", path("r.json")};
     ASSERT_EQ(flow("f%d.obj", run, "uv.obj").exit_code, 0);
     const Picture map = readPicture(path("m2-thickness.png"));
-    EXPECT_GT(std::count(map.rgb.begin(), map.rgb.end(), std::uint8_t{128}), 30) << "half of white";
     const Picture wet = readPicture(path("m2-wet.png"));
     const Picture age = readPicture(path("m2-age.png"));
     for (std::size_t k = 0; k < wet.rgb.size(); ++k) {
-        EXPECT_EQ(wet.rgb[k], age.rgb[k] < 255 ? 255 : 0);
+        EXPECT_TRUE(wet.rgb[k] == 0 || age.rgb[k] < 255) << "no film where nothing ran";
     }
+    std::vector<std::string> coarser = run;
+    coarser[13] = path("c%d.png");
+    coarser[15] = "1mm";
+    ASSERT_EQ(flow("f%d.obj", coarser, "uv.obj").exit_code, 0);
+    const Picture fifth = readPicture(path("c2-thickness.png"));
+    int compared = 0;
+    for (std::size_t k = 0; k < map.rgb.size(); ++k) {
+        if (map.rgb[k] > 20 && map.rgb[k] < 255) {
+            EXPECT_NEAR(fifth.rgb[k], map.rgb[k] / 5.0, 1.0);
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 20);
+    ASSERT_EQ(flow("f%d.obj", run, "uv.obj").exit_code, 0);
     const auto output = nlohmann::json::parse(readFile(path("r.json"))).at("output");
     EXPECT_EQ(output.at("map_thickness_m"), 2e-4);
     EXPECT_EQ(output.at("map_age_s"), 10.0);
@@ -356,8 +371,8 @@ TEST_F(FlowCommand, StreaksOfEveryFrameGrow)
         }
         return area;
     };
-    EXPECT_GT(area_of("streaks-05.obj"), 1.5 * area_of("streaks-03.obj"));
-    EXPECT_THAT(readFile(path("wet.glb")), HasSubstr("streaks of frame "));
+    EXPECT_GT(area_of("streaks-05.obj"), area_of("streaks-03.obj")) << "although they narrow";
+    EXPECT_NE(readFile(path("wet.glb")).find("streaks of frames "), std::string::npos);
     EXPECT_EQ(flow("wet.glb", {"--drops", "1", "--streaks", path("a%d%d.obj")}).exit_code, 2);
 }
 

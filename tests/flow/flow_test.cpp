@@ -190,6 +190,7 @@ TEST(Flow, HysteresisHoldsSmallDropletsUntilTheyGrow)
     const FlowTerrain scene = slope();
     FlowParameters parameters;
     parameters.forces.wetting.hysteresis = 0.3;
+    parameters.pinning.spread = 0.0;
     parameters.emitters = {{{0.1, 0.15, std::tan(30.0 * kDegree) * 0.15}, 20e-9, {5e-9, 0.0}}};
     FlowState state = startFlow(scene, parameters, {});
     double held = 0.0;
@@ -207,6 +208,66 @@ TEST(Flow, HysteresisHoldsSmallDropletsUntilTheyGrow)
     const FlowParameters loose = paper();
     const FlowState moved = advanceFlow(startFlow(scene, loose, many(1)), scene, loose, 0.1);
     EXPECT_NE(moved.droplets[0].contact, FlowContact::Still);
+}
+
+TEST(Flow, UnevenHysteresisMakesDropletsStickAndWander)
+{
+    const FlowTerrain scene = slope(45.0 * kDegree, 60);
+    FlowParameters parameters;
+    parameters.forces.wetting.hysteresis = 0.3;
+    parameters.merges = false;
+    parameters.wets = false;
+    std::vector<FlowStart> starts;
+    for (int k = 0; k < 60; ++k) {
+        const double x = 0.02 + 0.16 * k / 60;
+        starts.push_back({{x, 0.19, std::tan(45.0 * kDegree) * 0.19}, 14e-9, {}});
+    }
+    struct Outcome {
+        int still = 0;
+        double aside = 0.0;  // mean [m]
+    };
+    const auto run = [&](double spread) {
+        parameters.pinning.spread = spread;
+        FlowState state = startFlow(scene, parameters, starts);
+        Outcome outcome;
+        state = advanceFlow(std::move(state), scene, parameters, 1.0);
+        for (const FlowSample& sample : sampleFlow(state, scene, parameters)) {
+            outcome.still += sample.contact == FlowContact::Still ? 1 : 0;
+            outcome.aside += std::abs(sample.place.x - starts[sample.id - 1].place.x) / 60;
+        }
+        return outcome;
+    };
+    const Outcome even = run(0.0);
+    EXPECT_TRUE(even.still == 0 || even.still == 60) << "all are equal";
+    EXPECT_LT(even.aside, 1e-12);
+    const Outcome uneven = run(0.5);
+    EXPECT_GT(uneven.still, 5);
+    EXPECT_LT(uneven.still, 55);
+    EXPECT_GT(uneven.aside, 0.2e-3);
+}
+
+TEST(Flow, BeadsHaveManySizesAndPlaces)
+{
+    const FlowTerrain scene = slope(45.0 * kDegree, 60);
+    FlowParameters parameters;
+    parameters.forces.wetting.hysteresis = 0.1;
+    parameters.streaks.film = 20e-6;
+    FlowState state = startFlow(scene, parameters, {{{0.1, 0.19, std::tan(45.0 * kDegree) * 0.19}, 60e-9, {}}});
+    state = advanceFlow(std::move(state), scene, parameters, 3.0);
+    ASSERT_GT(state.counts.beads, 10U);
+    EXPECT_LT(std::abs(balanceOf(state).residual()), 1e-12);
+    double least = 1.0;
+    double most = 0.0;
+    double aside = 0.0;
+    for (const FlowDroplet& d : state.droplets) {
+        if (d.id > 1 && d.contact == FlowContact::Still) {
+            least = std::min(least, d.volume);
+            most = std::max(most, d.volume);
+            aside = std::max(aside, std::abs(d.leg.place.x - 0.1));
+        }
+    }
+    EXPECT_GT(most, 3.0 * least);
+    EXPECT_GT(aside, 0.1e-3);
 }
 
 TEST(Flow, FollowersCatchUpOnAStreak)
@@ -273,6 +334,7 @@ TEST(Flow, DewGrowsAndRunsAndWipes)
     FlowParameters parameters;
     parameters.forces.wetting.hysteresis = 0.1;
     parameters.condensation = FlowCondensation{2e-6, 6e-3};
+    parameters.pinning.spread = 0.0;  // dew grows on droplets at rest, and on even ground the first ones all are
     // After three seconds droplets stand all over.
     FlowState state = advanceFlow(startFlow(scene, parameters, {}), scene, parameters, 3.0);
     EXPECT_EQ(state.counts.left, 0U);

@@ -56,7 +56,8 @@ protected:
         options.render.width = 120;
         options.render.height = 90;
         options.render.samples = 4;
-        options.drying = 2.0;
+        options.film.thickness = 60e-6;
+        options.film.drying = 2.0;
     }
 
     /// Droplets in front of the camera.
@@ -117,7 +118,7 @@ TEST_F(FlowPainters, StreaksDarkenAndDry)
     FlowPainter painter(object, scene, options);
     const Picture dry = painter.picture({}, {}, Surface());
     const FlowSample middle = droplets().front();
-    painter.add(std::vector<FlowTrack>{{1, *middle.face, middle.place, middle.place, 10e-3, 1.0}});
+    painter.add(std::vector<FlowTrack>{{1, *middle.face, middle.place, middle.place, 10e-3, 1.0, 0.0}});
     const Picture wet = painter.picture({.time = 1.0}, {}, Surface());
     int darker = 0;
     int total = 0;
@@ -142,7 +143,7 @@ TEST_F(FlowPainters, TheBackOfASheetIsDry)
     const auto changes = [&](double azimuth) {
         FlowPainter painter(object, sheet, options);
         const Picture dry = painter.picture({.azimuth = azimuth}, {}, Surface());
-        painter.add(std::vector<FlowTrack>{{1, 0, {0.0, 0.0, 0.04}, {0.02, 0.0, 0.04}, 10e-3, 0.0}});
+        painter.add(std::vector<FlowTrack>{{1, 0, {0.0, 0.0, 0.04}, {0.02, 0.0, 0.04}, 10e-3, 0.0, 0.1}});
         return painter.picture({.azimuth = azimuth}, {}, Surface()) != dry;
     };
     EXPECT_TRUE(changes(0.0));
@@ -189,7 +190,7 @@ TEST_F(FlowPainters, RefuseATextureWithoutUv)
     options.render.ground = Picture{1, 1, {255, 0, 0}};
     EXPECT_THROW(FlowPainter(object, scene, options), Error);
     options.render.ground.reset();
-    options.drying = -1.0;
+    options.film.drying = -1.0;
     EXPECT_THROW(FlowPainter(object, scene, options), Error);
 }
 

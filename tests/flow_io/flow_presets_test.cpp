@@ -72,7 +72,8 @@ TEST(PresetObject, MeshesAreSound)
     const std::map<PresetObject, std::pair<std::size_t, bool>> expected{
         {PresetObject::Slope, {1, false}}, {PresetObject::Slopes, {3, false}}, {PresetObject::Tilted, {3, false}},
         {PresetObject::Sphere, {1, true}}, {PresetObject::Mask, {1, false}},   {PresetObject::Bottle, {1, true}},
-        {PresetObject::Leaf, {1, false}},  {PresetObject::Car, {1, true}}};
+        {PresetObject::Leaf, {1, false}},  {PresetObject::Car, {1, true}},
+        {PresetObject::Window, {1, false}}};
     for (const auto& [name, truth] : expected) {
         for (const double detail : {0.5, 1.0, 2.0}) {
             const FlowObject object = presetObject(name, detail);
@@ -100,7 +101,7 @@ TEST(FlowPresets, NamesAreKnown)
         EXPECT_EQ(flowPresetNamed(preset.name).description, preset.description);
         EXPECT_GT(preset.duration, 0.0);
     }
-    EXPECT_EQ(names.size(), 9U);
+    EXPECT_EQ(names.size(), 10U);
     EXPECT_THROW(flowPresetNamed("tears"), Error);
 }
 

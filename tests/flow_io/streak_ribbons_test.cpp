@@ -41,7 +41,7 @@ std::vector<FlowTrack> levelRun(const FlowSurface& surface, int pieces, std::uin
     for (int k = 0; k < pieces; ++k) {
         const double from = 0.01 + 0.09 * k / pieces;
         const double to = 0.01 + 0.09 * (k + 1) / pieces;
-        tracks.push_back({id, faceOf(surface, 0), {from, -0.05, 0.0}, {to, -0.05, 0.0}, kWidth, (to - 0.01) / 0.1});
+        tracks.push_back({id, faceOf(surface, 0), {from, -0.05, 0.0}, {to, -0.05, 0.0}, kWidth, (to - 0.01) / 0.1, 0.1});
     }
     return tracks;
 }
@@ -57,27 +57,94 @@ double areaOf(const Surface& surface)
     return area;
 }
 
-TEST(StreakRibbons, CoverThePathOfADroplet)
+/// A film that does not drain.
+constexpr TrailFilm kLasting{.thickness = 1e-5, .kinematic_viscosity = 1e3};
+
+TEST(StreakRibbons, CoverThePathOfADropletThatStandsStill)
 {
     const FlowSurface surface = roof(0.5);
-    StreakRibbons ribbons({.thickness = 1e-5});
-    ribbons.add(levelRun(surface, 200), surface);
+    std::vector<FlowTrack> tracks = levelRun(surface, 200);
+    for (FlowTrack& track : tracks) {
+        track.speed = 0.0;
+    }
+    StreakRibbons ribbons(kLasting);
+    ribbons.add(tracks, surface);
     const Surface made = ribbons.mesh(0.9).surface;
     made.validate();
     EXPECT_EQ(topology(made).components, 1U);
     const double exact = kWidth * (0.09 - kWidth) + 0.25 * std::numbers::pi * kWidth * kWidth;
     EXPECT_NEAR(areaOf(made) / exact, 1.0, 0.01);
-    EXPECT_LT(made.triangles.size(), 400U) << "straight paths need few points";
+    double volume = 0.0;
+    for (const auto& [a, b, c] : made.triangles) {
+        const Vec3& p = made.vertices[a];
+        const Vec3 across = cross(made.vertices[b] - p, made.vertices[c] - p);
+        volume += 0.5 * across.z * (p.z + made.vertices[b].z + made.vertices[c].z) / 3.0;
+    }
+    EXPECT_NEAR(volume / (1e-5 * exact), 1.0, 0.06) << "a tenth of its height is under its sides, too";
     for (std::size_t i = 0; i < made.vertices.size(); ++i) {
         EXPECT_GT(made.vertices[i].z, 0.0);
-        EXPECT_LE(made.vertices[i].z, 1e-5);
+        EXPECT_LE(made.vertices[i].z, 1.5e-5 * (1.0 + 1e-9));
         EXPECT_LE(std::abs(made.vertices[i].y + 0.05), 0.5 * kWidth + 1e-12);
         EXPECT_GE(made.uvs[i].x, 0.0);
         EXPECT_LE(made.uvs[i].x, 1.0);
         EXPECT_NEAR(made.normals[i].z, 1.0, 1e-3);
     }
     // The ends are points, so nothing looks cut off.
-    EXPECT_EQ(made.vertices[0].y, made.vertices[2].y);
+    EXPECT_EQ(made.vertices[0].y, made.vertices[4].y);
+}
+
+TEST(StreakRibbons, NarrowAndBreakUpBehindTheDroplet)
+{
+    const FlowSurface surface = roof(0.5);
+    StreakRibbons ribbons(kLasting);
+    ribbons.add(levelRun(surface, 200), surface);
+    const Surface made = ribbons.mesh(0.9).surface;
+    made.validate();
+    areaOf(made);
+    const auto widest = [&](double from, double to) {
+        double half = 0.0;
+        for (const Vec3& p : made.vertices) {
+            half = p.x > from && p.x < to ? std::max(half, std::abs(p.y + 0.05)) : half;
+        }
+        return 2.0 * half;
+    };
+    EXPECT_GT(widest(0.096, 0.099), 0.65 * kWidth);
+    EXPECT_LT(widest(0.083, 0.092), 0.65 * kWidth);
+    EXPECT_LT(widest(0.0, 0.08), 0.6 * kWidth);
+    EXPECT_GT(topology(made).components, 1U);
+    // With beads, nothing else is left far behind.
+    TrailFilm film = kLasting;
+    film.becomes_beads = true;
+    StreakRibbons tail(film);
+    tail.add(levelRun(surface, 200), surface);
+    for (const Vec3& p : tail.mesh(0.9).surface.vertices) {
+        EXPECT_GT(p.x, 0.1 - 7.0 * kWidth);
+    }
+    EXPECT_TRUE(tail.mesh(2.0).surface.triangles.empty());
+}
+
+TEST(StreakRibbons, GrowUncutAtFrames)
+{
+    const FlowSurface surface = roof(0.5);
+    TrailFilm film = kLasting;
+    film.becomes_beads = true;
+    StreakRibbons ribbons(film);
+    ribbons.add(levelRun(surface, 20), surface);
+    const StreakMesh made = ribbons.growing(0.1);
+    ASSERT_EQ(made.wetted.size(), made.surface.triangles.size());
+    ASSERT_EQ(made.gone.size(), made.surface.triangles.size());
+    for (std::size_t i = 0; i < made.wetted.size(); ++i) {
+        double least = 1.0;
+        double most = 0.0;
+        for (const std::uint32_t v : made.surface.triangles[i]) {
+            const double time = (made.surface.vertices[v].x - 0.01) / 0.1;
+            least = std::min(least, time);
+            most = std::max(most, time);
+        }
+        EXPECT_LE(std::ceil(most / 0.1 - 1e-9), std::floor(least / 0.1 + 1e-9) + 1.0);
+        EXPECT_NEAR(made.wetted[i], most, 1e-9);
+        EXPECT_NEAR(made.gone[i] - made.wetted[i], 6.0 * kWidth / 0.1, 1e-9);
+    }
 }
 
 TEST(StreakRibbons, JoinPiecesOverAnEdgeButNotOverAFlight)
@@ -86,14 +153,18 @@ TEST(StreakRibbons, JoinPiecesOverAnEdgeButNotOverAFlight)
     const FlowSurface surface = roof(angle);
     const Vec3 down{std::cos(angle), 0.0, -std::sin(angle)};
     const Vec3 edge{0.1, -0.05, 0.0};
-    StreakRibbons ribbons;
-    ribbons.add(levelRun(surface, 20), surface);
-    ribbons.add(std::vector<FlowTrack>{{1, faceOf(surface, 2), edge, edge + 0.05 * down, kWidth, 1.2}}, surface);
+    StreakRibbons ribbons(kLasting);
+    std::vector<FlowTrack> level = levelRun(surface, 20);
+    for (FlowTrack& track : level) {
+        track.speed = 0.0;
+    }
+    ribbons.add(level, surface);
+    ribbons.add(std::vector<FlowTrack>{{1, faceOf(surface, 2), edge, edge + 0.05 * down, kWidth, 1.2, 0.0}}, surface);
     const Surface joined = ribbons.mesh(1.2).surface;
     EXPECT_EQ(topology(joined).components, 1U);
     areaOf(joined);
-    ribbons.add(std::vector<FlowTrack>{{1, faceOf(surface, 2), edge + 0.06 * down, edge + 0.09 * down, kWidth, 1.5},
-                                       {2, faceOf(surface, 2), edge, edge + 0.0001 * down, kWidth, 1.5}},
+    ribbons.add(std::vector<FlowTrack>{{1, faceOf(surface, 2), edge + 0.06 * down, edge + 0.09 * down, kWidth, 1.5, 0.0},
+                                       {2, faceOf(surface, 2), edge, edge + 0.0001 * down, kWidth, 1.5, 0.0}},
                 surface);
     EXPECT_EQ(topology(ribbons.mesh(1.5).surface).components, 2U) << "the second droplet hardly moved";
 }
@@ -106,7 +177,10 @@ TEST(StreakRibbons, StayWholeWhereDropletsMerge)
         tracks[i].from.y += 0.3 * kWidth;
         tracks[i].to.y += 0.3 * kWidth;
     }
-    StreakRibbons ribbons;
+    for (FlowTrack& track : tracks) {
+        track.speed = 0.0;
+    }
+    StreakRibbons ribbons(kLasting);
     ribbons.add(tracks, surface);
     EXPECT_EQ(topology(ribbons.mesh(0.9).surface).components, 1U);
 }
@@ -115,7 +189,11 @@ TEST(StreakRibbons, DryFromTheirBegin)
 {
     const FlowSurface surface = roof(0.5);
     StreakRibbons ribbons({.drying = 0.3});
-    ribbons.add(levelRun(surface, 90), surface);
+    std::vector<FlowTrack> tracks = levelRun(surface, 90);
+    for (FlowTrack& track : tracks) {
+        track.speed = 0.0;
+    }
+    ribbons.add(tracks, surface);
     const auto shortest = [&](double time) {
         const Surface made = ribbons.mesh(time).surface;
         double x = 1.0;
@@ -134,6 +212,7 @@ TEST(StreakRibbons, RejectOptionsOutOfRange)
 {
     EXPECT_THROW(StreakRibbons({.drying = 0.0}), Error);
     EXPECT_THROW(StreakRibbons({.thickness = -1.0}), Error);
+    EXPECT_THROW(StreakRibbons({.kinematic_viscosity = 0.0}), Error);
 }
 
 }  // namespace

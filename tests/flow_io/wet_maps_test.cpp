@@ -113,29 +113,72 @@ TEST(WetMaps, DropletsHaveTheirVolumeAlsoOverASeam)
     EXPECT_THAT(deep.thickness.levels, ::testing::Contains(::testing::Gt(5000)));
 }
 
-TEST(WetMaps, StreaksCrossSeamsAgeAndDry)
+TEST(WetMaps, FilmsCrossSeamsAgeAndDry)
 {
     const FlowObject object = sheet();
     const FlowTerrain scene = sceneOf(object);
-    WetMapper mapper(object, scene, {.width = kSize, .height = kSize, .film = 50e-6, .drying = 4.0});
-    // Beside the seam, 3 mm wide: it wets a strip of the other island too.
+    // Of a liquid that does not drain.
+    const TrailFilm film{.thickness = 50e-6, .drying = 4.0, .kinematic_viscosity = 1e3};
+    WetMapper mapper(object, scene, {.width = kSize, .height = kSize, .film = film});
+    // Beside the seam, 3 mm wide: it wets a strip of the other island too. It stands still at its end.
     const Vec3 from{1e-3, 15e-3, 0.0};
     const Vec3 to{1e-3, 5e-3, 0.0};
-    mapper.add(std::vector<FlowTrack>{{1, scene.nearest(to).face, from, to, 3e-3, 1.0}});
+    mapper.add(std::vector<FlowTrack>{{1, scene.nearest(to).face, from, to, 3e-3, 1.0, 0.0}});
     const WetFloatMaps fresh = mapsOf(mapper, 1.0, {});
-    for (const double x : {-0.3e-3, 1e-3, 2.3e-3}) {
-        EXPECT_FLOAT_EQ(static_cast<float>(at(fresh.thickness, x, 10e-3)), 50e-6F) << x;
+    // A parabola whose mean is the film's thickness.
+    for (const double aside : {-1.3e-3, 0.0, 1.3e-3}) {
+        EXPECT_NEAR(at(fresh.thickness, 1e-3 + aside, 10e-3), 75e-6 * (1.0 - aside * aside / 2.25e-6), 6e-6) << aside;
     }
     EXPECT_EQ(at(fresh.thickness, -0.9e-3, 10e-3), 0.0);
     EXPECT_EQ(at(fresh.thickness, 1e-3, 3e-3), 0.0);
-    EXPECT_NEAR(volumeIn(fresh.thickness), 50e-6 * (3e-3 * 10e-3 + 2.25e-6 * 3.14159), 2e-10);
+    EXPECT_NEAR(volumeIn(fresh.thickness), 50e-6 * 3e-3 * 10e-3 + 75e-6 * 0.5 * 2.25e-6 * 3.14159, 2e-11);
+    // Its sides slope by 4 h / w, away from the middle.
+    EXPECT_NEAR(at(fresh.normal, 2e-3, 10e-3, 0), 2.0 * 75e-6 * 1e-3 / 2.25e-6, 0.01);
+    EXPECT_NEAR(at(fresh.normal, 0.2e-3, 10e-3, 0), -2.0 * 75e-6 * 0.8e-3 / 2.25e-6, 0.01);
+    EXPECT_NEAR(at(fresh.normal, 2e-3, 10e-3, 1), 0.0, 1e-3);
     const WetFloatMaps later = mapsOf(mapper, 3.0, {});
-    EXPECT_NEAR(at(later.thickness, 1e-3, 10e-3), 25e-6, 1e-11);
+    EXPECT_NEAR(at(later.thickness, 1e-3, 10e-3) / at(fresh.thickness, 1e-3, 10e-3), 0.5, 1e-6);
     EXPECT_NEAR(at(later.age, 1e-3, 10e-3), 2.0, 1e-6);
     EXPECT_EQ(at(fresh.wet, 1e-3, 10e-3), 1.0);
-    EXPECT_NEAR(at(later.wet, 1e-3, 10e-3), 0.5, 1e-6);
+    EXPECT_NEAR(at(later.wet, 1e-3, 10e-3), 0.75, 0.01);
     EXPECT_EQ(at(later.wet, 1e-3, 3e-3), 0.0);
     EXPECT_EQ(at(mapsOf(mapper, 5.5, {}).thickness, 1e-3, 10e-3), 0.0);
+}
+
+TEST(WetMaps, FilmsDrawTogetherAndDropletsTakeThemAlong)
+{
+    const FlowObject object = sheet();
+    const FlowTerrain scene = sceneOf(object);
+    const TrailFilm film{.thickness = 20e-6, .kinematic_viscosity = 1e3};
+    WetMapper mapper(object, scene, {.width = kSize, .height = kSize, .film = film});
+    const auto run = [&](std::uint64_t id, Vec3 from, Vec3 to, double time) {
+        mapper.add(std::vector<FlowTrack>{{id, scene.nearest(to).face, from, to, 3e-3, time, 0.1}});
+    };
+    const auto wet = [&](double y, double time) {
+        const WetFloatMaps maps = mapsOf(mapper, time, {});
+        int count = 0;
+        for (double x = 3e-3; x < 13e-3; x += 0.1e-3) {
+            count += at(maps.thickness, x, y) > 0.0 ? 1 : 0;
+        }
+        return 0.1e-3 * count;
+    };
+    run(1, {8e-3, 15e-3, 0.0}, {8e-3, -15e-3, 0.0}, 0.3);
+    EXPECT_NEAR(wet(10e-3, 0.3), 3e-3, 0.3e-3) << "as wide as the droplet";
+    EXPECT_LT(wet(10e-3, 0.36), 2.2e-3);
+    EXPECT_GT(wet(10e-3, 0.36), 0.4e-3);
+    double before = 0.0;
+    double after = 0.0;
+    for (double y = -12e-3; y < 12e-3; y += 0.5e-3) {
+        before += wet(y, 0.6);
+    }
+    // Another one runs beside: the rivulet is within its width.
+    run(2, {9.2e-3, 15e-3, 0.0}, {9.2e-3, -15e-3, 0.0}, 0.6);
+    const WetFloatMaps swept = mapsOf(mapper, 0.66, {});
+    for (double y = -12e-3; y < 12e-3; y += 0.5e-3) {
+        after += at(swept.thickness, 8.1e-3, y);
+    }
+    EXPECT_GT(before, 0.0);
+    EXPECT_EQ(after, 0.0);
 }
 
 TEST(WetMaps, TheBackOfAThinSheetStaysDry)
@@ -156,7 +199,7 @@ TEST(WetMaps, TheBackOfAThinSheetStaysDry)
     const FlowTerrain scene = sceneOf(object);
     WetMapper mapper(object, scene, {.width = kSize, .height = kSize});
     const Vec3 place{0.0, -19.5e-3, 0.0};  // near the sheet's edge
-    mapper.add(std::vector<FlowTrack>{{1, scene.nearest({0.0, -19e-3, 1e-3}).face, place, place, 3e-3, 0.0}});
+    mapper.add(std::vector<FlowTrack>{{1, scene.nearest({0.0, -19e-3, 1e-3}).face, place, place, 3e-3, 0.0, 0.0}});
     const WetFloatMaps maps = mapper.floatMaps(0.0, {}, Surface());
     double front = 0.0;
     double back = 0.0;
@@ -187,7 +230,7 @@ TEST(WetMaps, AnObjectWithoutUvIsRefused)
     EXPECT_THAT(message(), ::testing::HasSubstr("no area"));
     object = sheet();
     EXPECT_THROW(WetMapper(object, scene, {.width = 8}), Error);
-    EXPECT_THROW(WetMapper(object, scene, {.drying = 0.0}), Error);
+    EXPECT_THROW(WetMapper(object, scene, {.film = {.drying = 0.0}}), Error);
 }
 
 }  // namespace

@@ -30,10 +30,9 @@ TEST(StandWater, FilmIsLinearBetweenItsValues)
     StandWater water;
     water.divisions = {4};
     water.first = {0};
-    water.film = 0.1;
     for (int j = 0; j <= 4; ++j) {
         for (int i = 0; i + j <= 4; ++i) {
-            water.wetness.push_back(0.1F * static_cast<float>(i) + 0.05F * static_cast<float>(j));
+            water.film.push_back(0.01F * static_cast<float>(i) + 0.005F * static_cast<float>(j));
         }
     }
     EXPECT_NO_THROW(water.validate(1));
@@ -44,12 +43,12 @@ TEST(StandWater, FilmIsLinearBetweenItsValues)
         meeting.v = v;
         meeting.normal = {0.0F, 0.0F, 1.0F};
         const StandFilm::Here here = film.at(meeting);
-        EXPECT_NEAR(here.wetness, 0.4F * u + 0.2F * v, 1e-6F);
+        EXPECT_NEAR(here.thickness, 0.04F * u + 0.02F * v, 1e-6F);
         // The film rises by 0.04 along x, by 0.02 along y.
         EXPECT_NEAR(here.normal.x / here.normal.z, -0.04F, 1e-6F);
         EXPECT_NEAR(here.normal.y / here.normal.z, -0.02F, 1e-6F);
     }
-    water.wetness.pop_back();
+    water.film.pop_back();
     EXPECT_THROW(water.validate(1), Error);
     EXPECT_THROW(water.validate(2), Error);
 }

@@ -55,6 +55,7 @@ struct FlowTrack {
     Vec3 to;                 ///< [m]
     double width = 0.0;      ///< diameter of the droplet's contact circle [m]
     double time = 0.0;       ///< at `to` [s]
+    double speed = 0.0;      ///< mean [m/s]
 };
 
 /// Complete state of droplets on a surface. Made by startFlow, advanceFlow and flowStateFromBytes. The droplets are
@@ -78,8 +79,12 @@ struct FlowState {
         double volume = 0.0;     ///< [m³]
         double drying = 0.0;     ///< volume that evaporates in a second [m³/s]
         double length = 0.0;     ///< [m]
+        double spacing = 0.0;    ///< length at which it ends, of beads at random distances [m]
+        double until = 0.0;      ///< when it breaks up, at the earliest [s]
         std::uint32_t face = 0;  ///< of its middle
-        Vec3 place;              ///< its middle [m]
+        Vec3 place;              ///< its middle, or up to half a rivulet beside it [m]
+
+        [[nodiscard]] bool isWhole() const { return length >= spacing; }  ///< Whether a new one follows.
     };
 
     double time = 0.0;                  ///< [s]

@@ -69,6 +69,17 @@ struct FaceProperties {
     std::vector<double> hysteresis;  ///< factor on the retention by hysteresis, ≥ 0; default 1
 };
 
+/// Hysteresis of the contact angle that varies over the surface, as dirt and roughness do: droplets stick, slip and
+/// wander. Only the model capillary has it.
+struct FlowPinning {
+    double spread = 0.5;   ///< standard deviation of its logarithm, from 0 to 1.5; 0: it is the same everywhere
+    double length = 3e-3;  ///< over which it varies [m], > 0
+
+    /// Checks both fields.
+    /// @throws Error InvalidArgument if a field is out of its range
+    void validate() const;
+};
+
 /// Parameters of droplets that run over a surface.
 struct FlowParameters {
     FlowModel model = FlowModel::Capillary;        ///< what holds droplets
@@ -80,6 +91,7 @@ struct FlowParameters {
     std::optional<double> adhesion;     ///< D [Pa], ≥ 0; empty: what surface tension holds, 2 σ sin θ / r
     double roughness = 0.0;             ///< height of the bumps where `ground` has none [m], ≥ 0
     FaceProperties ground;              ///< of single faces
+    FlowPinning pinning;                ///< how hysteresis varies over the surface; its field is in the object's frame
     bool merges = true;                 ///< droplets that touch become one
     Streaks streaks;                    ///< film behind droplets, which breaks up into beads
     bool wets = true;                   ///< streaks smooth the surface: droplets run more easily where others ran

@@ -63,9 +63,8 @@ public:
     void add(double time, std::span<const FlowSample> samples);
 
     /// Sets the streaks: they appear frame by frame as they are wetted.
-    /// @param streaks  of the whole animation, none of them dry
-    /// @param drying   time after which they vanish [s]; empty: they stay
-    void setStreaks(StreakMesh streaks, std::optional<double> drying = {});
+    /// @param streaks  of the whole animation: StreakRibbons::growing(), of a film that does not dry
+    void setStreaks(StreakMesh streaks);
 
     /// Writes the file.
     ///

@@ -12,6 +12,7 @@
 #include "droplet/flow/flow_terrain.h"
 #include "droplet/flow/object_motion.h"
 #include "droplet/flow_io/flow_object.h"
+#include "droplet/flow_io/trail_film.h"
 #include "droplet/render/render.h"
 #include "droplet/surface/surface.h"
 
@@ -23,8 +24,7 @@ struct FlowPainterOptions {
     /// `framed` is a box in the world that the pictures show, framedOver() for an object that moves; empty: the object
     /// fills the picture. `stand`, `stand_water` and `extent` are replaced.
     RenderOptions render = {};
-    double film = 20e-6;                ///< thickness of a fresh streak [m], ≥ 0
-    std::optional<double> drying = {};  ///< time in which a streak dries [s], > 0; empty: never
+    TrailFilm film = {};  ///< behind the droplets
 
     /// Checks all fields.
     /// @throws Error InvalidArgument if a field is out of its range
@@ -61,12 +61,11 @@ public:
     FlowPainter(FlowPainter&&) noexcept;             ///< Moves the state.
     FlowPainter& operator=(FlowPainter&&) noexcept;  ///< Moves the state.
 
-    /// Wets the paths of one advanceFlow().
+    /// Leaves films on the paths of one advanceFlow().
     /// @param tracks  FlowState::tracks
     void add(std::span<const FlowTrack> tracks);
 
-    /// Renders a picture, and wets the places below the droplets that run. Droplets are bent to follow the object.
-    /// Those in the air, farther from the object than its size, are left out.
+    /// Renders a picture. Droplets are bent to follow the object. Those in the air, farther from the object than its size, are left out.
     /// @param moment    time, pose and view
     /// @param samples   droplets at that time
     /// @param droplets  dropletSurfaces() of these samples, in the object's frame

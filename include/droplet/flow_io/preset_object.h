@@ -15,6 +15,7 @@ enum class PresetObject {
     Bottle,  ///< closed bottle of 24 cm with foot, shoulder, neck and lip
     Leaf,    ///< leaf of 12 cm that droops towards −y, with a valley along its middle and veins
     Car,     ///< closed body of a model car of 44 cm; its front is towards −y
+    Window,  ///< upright pane of 30 cm by 40 cm, whose outside is towards −y
 };
 
 /// Makes an object, with normals, uvs and material names. The meshes are in the public domain (CC0).

@@ -9,25 +9,17 @@
 
 #include "droplet/flow/flow.h"
 #include "droplet/flow/flow_surface.h"
+#include "droplet/flow_io/trail_film.h"
 #include "droplet/surface/surface.h"
 #include "droplet/vector.h"
 
 namespace droplet {
 
-/// Options of StreakRibbons.
-struct StreakRibbonOptions {
-    std::optional<double> drying = {};  ///< time after which a piece of a streak has vanished [s], > 0; empty: never
-    double thickness = 20e-6;           ///< height of a ribbon's middle over the surface [m], ≥ 0
-
-    /// Checks all fields.
-    /// @throws Error InvalidArgument if a field is out of its range
-    void validate() const;
-};
-
 /// Ribbons at a time.
 struct StreakMesh {
     Surface surface;             ///< without triangles if there are no streaks
     std::vector<double> wetted;  ///< when each triangle was wetted [s]
+    std::vector<double> gone;    ///< when nothing of it is left [s]; infinity: it stays
 };
 
 /// Mesh of the streaks behind droplets: a ribbon along the path of each droplet, from face to face. Where a droplet has
@@ -36,19 +28,27 @@ class StreakRibbons {
 public:
     /// Makes a builder without streaks.
     /// @throws Error InvalidArgument if an option is out of its range
-    explicit StreakRibbons(const StreakRibbonOptions& options = {});
+    explicit StreakRibbons(const TrailFilm& film = {});
 
     /// Adds the paths of one advanceFlow(). Straight paths over a face need few points.
     /// @param tracks   FlowState::tracks, of ascending times for each droplet
     /// @param surface  that the droplets run over; the same in all calls
     void add(std::span<const FlowTrack> tracks, const FlowSurface& surface);
 
-    /// Ribbons at a time, in the order of the droplets' ids. A ribbon is as wide as the droplet, its ends are round,
-    /// its middle is raised by the thickness and its sides by a fifth of it. uv: u from 0 to 1 across it, v the
-    /// distance along it over its mean width. It is open below.
+    /// Forgets ribbons that are dry at a time, which mesh() would leave out from then on.
+    /// @param time  [s]
+    void forgetDry(double time);
+
+    /// Ribbons at a time, in the order of the droplets' ids, with the sections of TrailFilm: five vertices across, of which
+    /// the outer ones lie a tenth of the height over the surface. Where the film has broken up there are gaps. uv: u from
+    /// 0 to 1 across it, v the distance along it over its mean width. It is open below.
     /// @param time  [s]; not before the last track
-    /// @param step  if given, no triangle is wetted over the multiples of this time, such as that of a frame [s], > 0
-    [[nodiscard]] StreakMesh mesh(double time, std::optional<double> step = {}) const;
+    [[nodiscard]] StreakMesh mesh(double time) const;
+
+    /// Ribbons of an animation in which each triangle is there from `wetted` on until `gone`: the film after it has drawn
+    /// together.
+    /// @param step  of time between frames; no triangle is wetted over one of its multiples [s], > 0
+    [[nodiscard]] StreakMesh growing(double step) const;
 
 private:
     struct Point {
@@ -56,14 +56,15 @@ private:
         Vec3 normal;             // of the surface there, unit
         double width = 0.0;      // [m]
         double time = 0.0;       // [s]
+        double speed = 0.0;      // [m/s]
         std::uint32_t face = 0;  // of the piece that ends here
     };
     using Ribbon = std::vector<Point>;  // at least two points
 
-    void extend(Ribbon& ribbon, const FlowTrack& track, Vec3 normal) const;
-    [[nodiscard]] Ribbon wetPart(const Ribbon& ribbon, double time) const;
+    static void extend(Ribbon& ribbon, const FlowTrack& track, Vec3 normal);
+    [[nodiscard]] StreakMesh meshOf(std::optional<double> time, std::optional<double> step) const;
 
-    StreakRibbonOptions options_;
+    TrailFilm film_;
     std::map<std::uint64_t, std::vector<Ribbon>> ribbons_;  // by the droplet's id
 };
 

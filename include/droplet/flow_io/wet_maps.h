@@ -11,6 +11,7 @@
 #include "droplet/flow/flow.h"
 #include "droplet/flow/flow_terrain.h"
 #include "droplet/flow_io/flow_object.h"
+#include "droplet/flow_io/trail_film.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
@@ -19,8 +20,7 @@ namespace droplet {
 struct WetMapOptions {
     int width = 1024;                   ///< [px], 16 … 8192
     int height = 1024;                  ///< [px], 16 … 8192
-    double film = 20e-6;                ///< thickness of a fresh streak [m], ≥ 0
-    std::optional<double> drying = {};  ///< time in which a streak becomes thinner, to nothing [s], > 0; empty: never
+    TrailFilm film = {};                ///< behind the droplets
     double full_thickness = 5e-3;       ///< thickness of the highest level [m], > 0; more is clipped
     double full_age = 10.0;             ///< age of the highest level [s], > 0; more is clipped
 
@@ -33,23 +33,24 @@ struct WetMapOptions {
 /// edges of the uv's islands repeat the islands, so that filters do not bleed.
 struct WetMaps {
     /// Outward unit normal of the water in the object's tangent frame: red x, to larger u; green y, up in the texture;
-    /// blue z, out of the object; each (n + 1)/2 of 65535. Where no droplet is, (32768, 32768, 65535). +Y up, as in
+    /// blue z, out of the object; each (n + 1)/2 of 65535. Where it is dry, (32768, 32768, 65535). +Y up, as in
     /// OpenGL.
     DeepPicture normal;
     /// Grey: thickness of the water of droplets and streaks over full_thickness; 0: dry. Droplets have their volume at
     /// any resolution, except for clipped water.
     DeepPicture thickness;
-    /// Grey: time since the place was last wet, over full_age; 0: a droplet is there; 65535: longer ago, or never.
+    /// Grey: time since a droplet passed the place, over full_age; 0: one is there; 65535: longer ago, or never.
     DeepPicture age;
-    /// Grey: where `age` counts: 65535 under droplets and on fresh streaks, less as they dry; 0: dry.
+    /// Grey: 65535 under droplets and where the film behind them is at least as thick as spread over their width; less
+    /// where it is thinner; 0: dry.
     DeepPicture wet;
 };
 
 /// The maps of WetMaps in floating point.
 struct WetFloatMaps {
-    FloatPicture normal;     ///< from −1 to 1; (0, 0, 1) where no droplet is
+    FloatPicture normal;     ///< from −1 to 1; (0, 0, 1) where it is dry
     FloatPicture thickness;  ///< [m]; not clipped
-    FloatPicture age;        ///< [s], at most full_age, also where it was never wet
+    FloatPicture age;        ///< [s], at most full_age, also where no droplet passed
     FloatPicture wet;        ///< from 0, dry, to 1
 };
 
@@ -72,11 +73,11 @@ public:
     WetMapper(WetMapper&&) noexcept;             ///< Moves the maps.
     WetMapper& operator=(WetMapper&&) noexcept;  ///< Moves the maps.
 
-    /// Wets the paths of one advanceFlow(), as wide as the droplets.
+    /// Leaves films on the paths of one advanceFlow().
     /// @param tracks  FlowState::tracks
     void add(std::span<const FlowTrack> tracks);
 
-    /// Wets the places below droplets, and draws maps.
+    /// Draws maps.
     /// @param time      [s]; not before the last track
     /// @param samples   droplets at that time
     /// @param droplets  dropletSurfaces() of these samples

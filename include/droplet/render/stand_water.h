@@ -27,9 +27,8 @@ struct DropletBase {
 struct StandWater {
     std::vector<DropletBase> bases;        ///< of the droplets
     std::vector<std::uint16_t> divisions;  ///< n of every triangle of the stand; 0: dry. Or empty: all are dry
-    std::vector<std::uint32_t> first;      ///< index in `wetness` of every triangle's first value
-    std::vector<float> wetness;            ///< of the film: 0 dry … 1 wet
-    double film = 20e-6;                   ///< thickness of the film where it is wet [m], ≥ 0
+    std::vector<std::uint32_t> first;      ///< index in `film` of every triangle's first value
+    std::vector<float> film;               ///< thickness of the film [m], ≥ 0
 
     /// Checks lengths and ranges.
     /// @param triangles  of the stand
