@@ -116,10 +116,11 @@ void declare(CommandLine& line, FlowOptions& options)
     line.add(kMotion, "--hysteresis", "NUMBER",
              "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle",
              into(parameters.forces.wetting.hysteresis, {0.0, 2.0, "a number from 0 to 2"}));
-    line.add(kMotion, "--pinning", "NUMBER",
-             "How much hysteresis varies over the surface, so that droplets stick, slip and wander: standard deviation of "
-             "its logarithm, 0 to 1.5",
-             into(parameters.pinning.spread, {0.0, 1.5, "a number from 0 to 1.5"}));
+    line.add(
+        kMotion, "--pinning", "NUMBER",
+        "How much hysteresis varies over the surface, so that droplets stick, slip and wander: standard deviation of "
+        "its logarithm, 0 to 1.5",
+        into(parameters.pinning.spread, {0.0, 1.5, "a number from 0 to 1.5"}));
     line.add(kMotion, "--pinning-length", "LENGTH", "Length over which it varies",
              into(parameters.pinning.length, kSpacing));
     line.add(kMotion, "--friction", "F", "Viscous friction in kg/s instead of --viscosity-factor", within(0.0, 1e3));

@@ -27,8 +27,8 @@ constexpr double kCone = 0.017455;
 constexpr double kStraight = 0.99984;
 // A velocity less than this share of what it was, and gained since, is 0.
 constexpr double kStop = 1e-9;
-// On uneven ground a droplet that moves less than this share of its width in a second rests: dry friction would turn with
-// it to and fro without end.
+// On uneven ground a droplet that moves less than this share of its width in a second rests: dry friction would turn
+// with it to and fro without end.
 constexpr double kCreep = 0.05;
 // One so slow that the push turns it within this time [s] goes where it is pushed, for the same reason.
 constexpr double kTurnsAtOnce = 1e-3;

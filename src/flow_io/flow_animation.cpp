@@ -61,7 +61,8 @@ void addStreaks(const StreakMesh& streaks, std::size_t object, std::uint32_t fra
     const double rate = scene.frames_per_second;
     const auto frameOf = [&](double time) {
         constexpr double kRounding = 1e-6;
-        return static_cast<std::uint32_t>(std::clamp(std::ceil(time * rate - kRounding), 0.0, static_cast<double>(frames)));
+        return static_cast<std::uint32_t>(
+            std::clamp(std::ceil(time * rate - kRounding), 0.0, static_cast<double>(frames)));
     };
     for (std::size_t i = 0; i < streaks.wetted.size(); ++i) {
         const std::pair when{frameOf(streaks.wetted[i]), frameOf(streaks.gone[i])};

@@ -158,7 +158,8 @@ void StreakRibbons::add(std::span<const FlowTrack> tracks, const FlowSurface& su
         const double gap = all.empty() ? 0.0 : length(all.back().back().place - track.from);
         if (!all.empty() && gap <= track.width) {
             if (gap > kShort * track.width) {
-                extend(all.back(), {track.id, track.face, {}, track.from, track.width, track.time, track.speed}, normal);
+                extend(all.back(), {track.id, track.face, {}, track.from, track.width, track.time, track.speed},
+                       normal);
             }
             extend(all.back(), track, normal);
             continue;

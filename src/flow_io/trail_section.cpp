@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a droplet leaves on ground that it wets partly: its rear contact line recedes along the sides to a rivulet, which
-// keeps the liquid and so is higher. It drains as a film on a wall does: h = √(ν l/(g t)) after a long time (H. Jeffreys,
-// Math. Proc. Camb. Phil. Soc. 26 (1930) 204). Dirt holds its sides unevenly, and necks break first. Widths of rivulets,
-// lengths of tails and gaps are estimates from photographs of rain on windows.
+// What a droplet leaves on ground that it wets partly: its rear contact line recedes along the sides to a rivulet,
+// which keeps the liquid and so is higher. It drains as a film on a wall does: h = √(ν l/(g t)) after a long time (H.
+// Jeffreys, Math. Proc. Camb. Phil. Soc. 26 (1930) 204). Dirt holds its sides unevenly, and necks break first. Widths
+// of rivulets, lengths of tails and gaps are estimates from photographs of rain on windows.
 #include "flow_io/trail_section.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr double kGather = 0.8;    // way over which the film draws together, ov
 constexpr double kUneven = 0.45;   // change of a rivulet's width by dirt
 constexpr double kPatch = 1.1;     // length of its change, over the droplet's width
 constexpr double kNeck = 0.9;      // length of pieces that it breaks into
-constexpr double kSteep = 0.6;    // softness of their ends
+constexpr double kSteep = 0.6;     // softness of their ends
 constexpr double kDrains = 10.0;   // length that it drains over, over the droplet's width
 constexpr double kUnbroken = 2.0;  // way until it begins to break up, over the droplet's width
 constexpr std::uint64_t kSeedOfNecks = 1;
@@ -61,10 +61,10 @@ TrailSection trailSection(const TrailFilm& film, const Passage& passage, Vec3 pl
     // What is left of it: places whose random number, from −1 to 1, is above a level that rises.
     constexpr double kNothingBroken = -1.0 - kSteep;
     const double highest = film.becomes_beads ? 1.0 : 0.15;
-    const double level =
-        kNothingBroken + (highest - kNothingBroken) * smoothstep(kUnbroken, kBreakUpWay, way);
-    const double left =
-        level > kNothingBroken ? smoothstep(level, level + kSteep, smoothRandom((1.0 / kNeck) * at, kSeedOfNecks)) : 1.0;
+    const double level = kNothingBroken + (highest - kNothingBroken) * smoothstep(kUnbroken, kBreakUpWay, way);
+    const double left = level > kNothingBroken
+                            ? smoothstep(level, level + kSteep, smoothRandom((1.0 / kNeck) * at, kSeedOfNecks))
+                            : 1.0;
     if (left <= 0.0) {
         return {};
     }

@@ -303,7 +303,9 @@ struct WetMapper::Content {
             take(Shown{{normal.x, normal.y, normal.z},
                        is_under ? texel.thickness : texel.film,
                        std::min(texel.age, options.full_age),
-                       is_under ? 1.0 : full > 0.0 ? std::min(texel.film / full, 1.0) : 0.0});
+                       is_under     ? 1.0
+                       : full > 0.0 ? std::min(texel.film / full, 1.0)
+                                    : 0.0});
         }
     }
 

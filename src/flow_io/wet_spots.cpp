@@ -205,8 +205,8 @@ void WetPlaces::pass(std::size_t spot, std::uint64_t id, const Passage& passage,
     const double beside = passage.speed > 0.0 ? passage.width / passage.speed : 0.0;
     const bool is_same = place.id == last_bits && age(spot, passage.time) <= beside;
     if (!is_same || distance <= static_cast<double>(place.distance)) {
-        place = {static_cast<float>(passage.time), static_cast<float>(passage.width),
-                 static_cast<float>(passage.speed), static_cast<float>(distance), last_bits};
+        place = {static_cast<float>(passage.time), static_cast<float>(passage.width), static_cast<float>(passage.speed),
+                 static_cast<float>(distance), last_bits};
     }
 }
 

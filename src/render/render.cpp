@@ -36,7 +36,7 @@ constexpr int kMaxPixels = 8192;
 constexpr int kMinSamples = 4;
 constexpr int kMaxSamples = 256;
 constexpr float kCovering = 60e-6F;  // thickness of a film that covers the ground's bumps [m]
-constexpr float kWhite = 0.85F;    // level of open white ground before the filmic curve
+constexpr float kWhite = 0.85F;      // level of open white ground before the filmic curve
 constexpr float kPi = 3.14159265F;
 
 // Beyond these limits a ray ends in the room's light.

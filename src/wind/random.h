@@ -17,7 +17,17 @@ constexpr std::uint64_t mix(std::uint64_t z)
 }
 
 /// Purpose of random numbers; streams of different purposes are independent.
-enum class RandomPurpose : std::uint64_t { Raindrop = 1, Fluctuation, Bead, Scatter, Emission, Nucleus, TornPart, Dew, Pinning };
+enum class RandomPurpose : std::uint64_t {
+    Raindrop = 1,
+    Fluctuation,
+    Bead,
+    Scatter,
+    Emission,
+    Nucleus,
+    TornPart,
+    Dew,
+    Pinning
+};
 
 /// Normal with mean 0 and deviation 1, of two random numbers. G. E. P. Box, M. E. Muller, Ann. Math. Stat. 29 (1958)
 /// 610.

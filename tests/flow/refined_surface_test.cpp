@@ -41,7 +41,8 @@ TEST(RefinedSurface, HasNoLongEdgesAndNoGaps)
             }
             ASSERT_LT(face.source, 4U);
             EXPECT_GT(dot(face.normal, coarse.faces[face.source].normal), 1.0 - 1e-9);
-            areas[face.source] += 0.5 * length(cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]));
+            areas[face.source] +=
+                0.5 * length(cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]));
         }
         for (const FlowSurface::Face& face : coarse.faces) {
             EXPECT_NEAR(areas[face.source],

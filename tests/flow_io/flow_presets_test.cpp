@@ -72,8 +72,7 @@ TEST(PresetObject, MeshesAreSound)
     const std::map<PresetObject, std::pair<std::size_t, bool>> expected{
         {PresetObject::Slope, {1, false}}, {PresetObject::Slopes, {3, false}}, {PresetObject::Tilted, {3, false}},
         {PresetObject::Sphere, {1, true}}, {PresetObject::Mask, {1, false}},   {PresetObject::Bottle, {1, true}},
-        {PresetObject::Leaf, {1, false}},  {PresetObject::Car, {1, true}},
-        {PresetObject::Window, {1, false}}};
+        {PresetObject::Leaf, {1, false}},  {PresetObject::Car, {1, true}},     {PresetObject::Window, {1, false}}};
     for (const auto& [name, truth] : expected) {
         for (const double detail : {0.5, 1.0, 2.0}) {
             const FlowObject object = presetObject(name, detail);

@@ -41,7 +41,8 @@ std::vector<FlowTrack> levelRun(const FlowSurface& surface, int pieces, std::uin
     for (int k = 0; k < pieces; ++k) {
         const double from = 0.01 + 0.09 * k / pieces;
         const double to = 0.01 + 0.09 * (k + 1) / pieces;
-        tracks.push_back({id, faceOf(surface, 0), {from, -0.05, 0.0}, {to, -0.05, 0.0}, kWidth, (to - 0.01) / 0.1, 0.1});
+        tracks.push_back(
+            {id, faceOf(surface, 0), {from, -0.05, 0.0}, {to, -0.05, 0.0}, kWidth, (to - 0.01) / 0.1, 0.1});
     }
     return tracks;
 }
@@ -163,9 +164,10 @@ TEST(StreakRibbons, JoinPiecesOverAnEdgeButNotOverAFlight)
     const Surface joined = ribbons.mesh(1.2).surface;
     EXPECT_EQ(topology(joined).components, 1U);
     areaOf(joined);
-    ribbons.add(std::vector<FlowTrack>{{1, faceOf(surface, 2), edge + 0.06 * down, edge + 0.09 * down, kWidth, 1.5, 0.0},
-                                       {2, faceOf(surface, 2), edge, edge + 0.0001 * down, kWidth, 1.5, 0.0}},
-                surface);
+    ribbons.add(
+        std::vector<FlowTrack>{{1, faceOf(surface, 2), edge + 0.06 * down, edge + 0.09 * down, kWidth, 1.5, 0.0},
+                               {2, faceOf(surface, 2), edge, edge + 0.0001 * down, kWidth, 1.5, 0.0}},
+        surface);
     EXPECT_EQ(topology(ribbons.mesh(1.5).surface).components, 2U) << "the second droplet hardly moved";
 }
 

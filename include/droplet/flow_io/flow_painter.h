@@ -65,7 +65,8 @@ public:
     /// @param tracks  FlowState::tracks
     void add(std::span<const FlowTrack> tracks);
 
-    /// Renders a picture. Droplets are bent to follow the object. Those in the air, farther from the object than its size, are left out.
+    /// Renders a picture. Droplets are bent to follow the object. Those in the air, farther from the object than its
+    /// size, are left out.
     /// @param moment    time, pose and view
     /// @param samples   droplets at that time
     /// @param droplets  dropletSurfaces() of these samples, in the object's frame

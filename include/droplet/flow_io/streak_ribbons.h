@@ -39,14 +39,14 @@ public:
     /// @param time  [s]
     void forgetDry(double time);
 
-    /// Ribbons at a time, in the order of the droplets' ids, with the sections of TrailFilm: five vertices across, of which
-    /// the outer ones lie a tenth of the height over the surface. Where the film has broken up there are gaps. uv: u from
-    /// 0 to 1 across it, v the distance along it over its mean width. It is open below.
+    /// Ribbons at a time, in the order of the droplets' ids, with the sections of TrailFilm: five vertices across, of
+    /// which the outer ones lie a tenth of the height over the surface. Where the film has broken up there are gaps.
+    /// uv: u from 0 to 1 across it, v the distance along it over its mean width. It is open below.
     /// @param time  [s]; not before the last track
     [[nodiscard]] StreakMesh mesh(double time) const;
 
-    /// Ribbons of an animation in which each triangle is there from `wetted` on until `gone`: the film after it has drawn
-    /// together.
+    /// Ribbons of an animation in which each triangle is there from `wetted` on until `gone`: the film after it has
+    /// drawn together.
     /// @param step  of time between frames; no triangle is wetted over one of its multiples [s], > 0
     [[nodiscard]] StreakMesh growing(double step) const;
 

@@ -18,11 +18,11 @@ namespace droplet {
 
 /// Options of WetMapper.
 struct WetMapOptions {
-    int width = 1024;                   ///< [px], 16 … 8192
-    int height = 1024;                  ///< [px], 16 … 8192
-    TrailFilm film = {};                ///< behind the droplets
-    double full_thickness = 5e-3;       ///< thickness of the highest level [m], > 0; more is clipped
-    double full_age = 10.0;             ///< age of the highest level [s], > 0; more is clipped
+    int width = 1024;              ///< [px], 16 … 8192
+    int height = 1024;             ///< [px], 16 … 8192
+    TrailFilm film = {};           ///< behind the droplets
+    double full_thickness = 5e-3;  ///< thickness of the highest level [m], > 0; more is clipped
+    double full_age = 10.0;        ///< age of the highest level [s], > 0; more is clipped
 
     /// Checks all fields.
     /// @throws Error InvalidArgument if a field is out of its range
