@@ -168,6 +168,7 @@ FlowObject onFaces(const FlowObject& object, const FlowSurface& surface)
 {
     FlowObject result;
     result.material_names = object.material_names;
+    result.looks = object.looks;
     for (const FlowSurface::Face& face : surface.faces) {
         const Triangle& triangle = object.triangles[face.source];
         const auto weights = cornerWeights(object, face);

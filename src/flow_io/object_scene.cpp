@@ -33,6 +33,11 @@ std::size_t addObject(const FlowObject& object, Scene& scene)
         if (!parts[i].triangles.empty()) {
             SceneMaterial material = opaqueMaterial(names[i], 0.6);
             material.look.colour = {0.6, 0.6, 0.6};
+            if (!object.looks.empty()) {
+                material.look = object.looks[i].look;
+                material.look.name = names[i];
+                material.opacity = object.looks[i].opacity;
+            }
             parts[i].material = scene.addMaterial(std::move(material));
             geometry.parts.push_back(std::move(parts[i]));
         }

@@ -75,6 +75,9 @@ public:
         add(cells, material, place, [](Vec2) { return true; });
     }
 
+    /// Look of the one material so far.
+    void look(StandLook look) { object_.looks = {std::move(look)}; }
+
     /// The object, without vertices that no triangle has.
     FlowObject finish() &&
     {
@@ -94,6 +97,7 @@ public:
         whole.triangles = std::move(object_.triangles);
         whole.materials = std::move(object_.materials);
         whole.material_names = std::move(object_.material_names);
+        whole.looks = std::move(object_.looks);
         whole.normals.resize(whole.vertices.size());
         fillNormals(whole.vertices, whole.triangles, firstAtPlace(whole.vertices), whole.normals);
         return whole;
@@ -371,6 +375,7 @@ void addWindow(Grids& grids)
 {
     const Cells cells{grids.finer(6), grids.finer(8)};
     grids.add(cells, "window", [](Vec2 uv) { return Vec3{0.3 * (uv.x - 0.5), 0.0, 0.4 * uv.y}; });
+    grids.look({{.name = "window", .colour = {0.96, 0.98, 0.97}, .ior = 1.52}});
 }
 
 }  // namespace
@@ -399,12 +404,15 @@ FlowObject presetObject(PresetObject object, double detail)
             break;
         case PresetObject::Bottle:
             addBottle(grids);
+            grids.look({{.name = "bottle", .colour = {0.55, 0.80, 0.62}, .ior = 1.52}});
             break;
         case PresetObject::Leaf:
             addLeaf(grids);
+            grids.look({{.name = "leaf", .colour = {0.10, 0.27, 0.035}, .roughness = 0.35, .transmission = 0.0, .ior = 1.45}});
             break;
         case PresetObject::Car:
             addCar(grids);
+            grids.look({{.name = "car", .colour = {0.35, 0.012, 0.015}, .roughness = 0.06, .transmission = 0.0, .ior = 1.5}});
             break;
         case PresetObject::Window:
             addWindow(grids);

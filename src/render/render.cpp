@@ -40,7 +40,7 @@ constexpr float kWhite = 0.85F;      // level of open white ground before the fi
 constexpr float kPi = 3.14159265F;
 
 // Beyond these limits a ray ends in the room's light.
-constexpr int kMaxMeetings = 7;
+constexpr int kMaxMeetings = 9;
 constexpr float kMinWeight = 0.004F;  // one level of 255
 
 // Cells of the light map along its longer side, per pixel of the picture's longer side.
@@ -87,6 +87,10 @@ public:
         }
         if (options.ground) {
             picture_.emplace(*options.ground);
+        }
+        for (const StandLook& one : options.stand_looks) {
+            stand_looks_.push_back({one, one.colours && !options.ground ? std::optional<PicturePyramid>(*one.colours)
+                                                                        : std::nullopt});
         }
         const Vec3f size = scene_.high() - scene_.low();
         table_.emplace(std::max(size.x, size.y), size.x * size.y, turn_({-0.75F, 0.66F, 0.0F}), options.light_table);
@@ -144,6 +148,11 @@ private:
         }
         return options_.stand && options_.shows_whole_stand ? scene_.shown() : scene_.droplets();
     }
+
+    struct ShownLook {
+        const StandLook& from;
+        std::optional<PicturePyramid> colours;
+    };
 
     struct Way {
         float weight;    // weight of the ray in the pixel
@@ -310,6 +319,10 @@ private:
         }
         const Vec3f matter = albedo(meeting, pixelWidth(ray, meeting, way));
         const bool wet = way.inside;
+        const ShownLook* const shown = studio_.uniform() ? nullptr : lookOfStand(meeting);
+        if (shown != nullptr && shown->from.look.transmission + (1.0 - shown->from.opacity) >= 1.0) {
+            return throughWall(ray, meeting, way, matter);
+        }
         if (studio_.uniform()) {
             return wet ? matter * wetness(matter, 1.0F - returned_[way.droplet], way.droplet) : matter;
         }
@@ -325,7 +338,103 @@ private:
         if (scene_.onPlane() && !options_.paint) {
             seen = faded(seen, meeting.place);
         }
+        if (shown != nullptr) {
+            seen = finished(*shown, ray, meeting, way, seen, matter);
+        }
         return film_ && !wet && media_.of(0).clear ? underFilm(ray, meeting, way, seen, matter) : seen;
+    }
+
+    [[nodiscard]] const ShownLook* lookOfStand(const Meeting& meeting) const
+    {
+        return stand_looks_.empty() ? nullptr : &stand_looks_[options_.stand_materials[meeting.triangle]];
+    }
+
+    // Matter that also mirrors, and of which a part lets light pass.
+    [[nodiscard]] Vec3f finished(const ShownLook& shown, const RayF& ray, const Meeting& meeting, const Way& way,
+                                 Vec3f scattered, Vec3f matter) const
+    {
+        const Look& look = shown.from.look;
+        const auto metal = static_cast<float>(look.metallic);
+        const Vec3f normal = facing(ray.direction, meeting.normal);
+        const double outside = way.inside ? lookAt(way.droplet).ior : 1.0;
+        const Vec3f mirror_share = reflectance(look, matter, -dot(ray.direction, normal), outside);
+        const Vec3f mirror = mirrored(ray.direction, normal);
+        const float blur = smoothstep(0.05F, 0.7F, static_cast<float>(look.roughness));
+        const Vec3f sharp = blur < 1.0F ? onward(before(meeting, ray, way.inside), mirror, way,
+                                                 (1.0F - blur) * largest(mirror_share), way.inside)
+                                        : Vec3f{};
+        const Vec3f gloss = mix(sharp, studio_.diffuse(mirror), blur);
+        Vec3f seen = mirror_share * gloss + (1.0F - metal) * (grey(1.0F) - mirror_share) * scattered;
+        const auto passes = static_cast<float>(look.transmission + (1.0 - shown.from.opacity));
+        if (passes > 0.0F) {
+            seen = mix(seen, throughWall(ray, meeting, way, matter), passes);
+        }
+        return seen;
+    }
+
+    // Share of light that matter mirrors (C. Schlick, Computer Graphics Forum 13 (1994) 233).
+    static Vec3f reflectance(const Look& look, Vec3f colour, float cosine, double outside)
+    {
+        const auto ratio = static_cast<float>((look.ior - outside) / (look.ior + outside));
+        const Vec3f upright = mix(grey(ratio * ratio), colour, static_cast<float>(look.metallic));
+        const float grazing = std::pow(1.0F - std::clamp(cosine, 0.0F, 1.0F), 5.0F);
+        // Rough matter has no bright edges.
+        return mix(upright, grey(1.0F), grazing * (1.0F - static_cast<float>(look.roughness)));
+    }
+
+    // A meeting with ground whose facet points out of the liquid, or towards the ray in air.
+    static Meeting before(Meeting meeting, const RayF& ray, bool inside)
+    {
+        if ((dot(ray.direction, meeting.facet) < 0.0F) == inside) {
+            meeting.facet = -1.0F * meeting.facet;
+        }
+        return meeting;
+    }
+
+    // A thin wall bends no ray by itself. A droplet on its outside refracts there: its water ends at the wall.
+    [[nodiscard]] Vec3f throughWall(const RayF& ray, const Meeting& meeting, const Way& way, Vec3f tint) const
+    {
+        const bool is_front = dot(ray.direction, meeting.facet) < 0.0F;
+        const Vec3f facet = is_front ? meeting.facet : -1.0F * meeting.facet;
+        const StandFilm::Here film = film_ && !way.inside && is_front && media_.of(0).clear
+                                         ? film_->at(meeting)
+                                         : StandFilm::Here{0.0F, meeting.normal};
+        const Vec3f outer = facing(ray.direction, is_front ? film.normal : -1.0F * meeting.normal);
+        const Vec3f mirror = mirrored(ray.direction, outer);
+        Interface there;
+        bool enters_water = false;
+        std::uint32_t droplet = way.droplet;
+        if (way.inside) {
+            there = atInterface(ray.direction, outer, media_.of(way.droplet).ior);
+        } else {
+            if (!is_front) {
+                // Water stands on the other side if the way leaves it next.
+                const Meeting next = scene_.fromAir({meeting.place, ray.direction});
+                enters_water = next.what == Meeting::What::Liquid && dot(ray.direction, next.facet) > 0.0F;
+                droplet = enters_water ? media_.dropletAt(scene_, next) : droplet;
+            }
+            const float ior = enters_water ? media_.of(droplet).ior : static_cast<float>(lookOfStand(meeting)->from.look.ior);
+            there = atInterface(ray.direction, outer, 1.0F / ior);
+            if (film.thickness > 0.0F) {
+                there = atInterface(ray.direction, outer, 1.0F / media_.of(0).ior);
+                const Interface below = atInterface(there.transmitted, facing(there.transmitted, facet), media_.of(0).ior);
+                there.transmitted = below.reflected < 1.0F ? below.transmitted : ray.direction;
+            } else if (!enters_water) {
+                there.transmitted = ray.direction;
+                there.reflected *= 2.0F / (1.0F + there.reflected);  // both sides of the wall
+            }
+        }
+        Vec3f light =
+            there.reflected * onward(before(meeting, ray, way.inside), mirror, way, there.reflected, way.inside);
+        if (there.reflected < 1.0F) {
+            Way next = way;
+            next.droplet = droplet;
+            Meeting beyond = meeting;
+            beyond.facet = enters_water ? facet : -1.0F * facet;
+            const Vec3f through = onward(beyond, there.transmitted, next, (1.0F - there.reflected), enters_water);
+            light = light + (1.0F - there.reflected) * tint * through;
+        }
+        return light;
     }
 
     // Ground below a film of water, which darkens and mirrors.
@@ -338,10 +447,12 @@ private:
             return dry;
         }
         // A film that covers the bumps of matt ground darkens and mirrors as a thicker one.
+        const ShownLook* const shown = lookOfStand(meeting);
+        const float rough = shown == nullptr ? 1.0F : smoothstep(0.1F, 0.6F, static_cast<float>(shown->from.look.roughness));
         const float covered = std::min(film.thickness / kCovering, 1.0F);
         const Vec3f normal = facing(ray.direction, film.normal);
         const float mirrors = covered * atInterface(ray.direction, normal, 1.0F / media_.of(0).ior).reflected;
-        const Vec3f wet = mix(dry, dry * wetness(matter, squeezed_[way.droplet], way.droplet), covered);
+        const Vec3f wet = mix(dry, dry * wetness(matter, squeezed_[way.droplet], way.droplet), rough * covered);
         return (1.0F - mirrors) * wet + mirrors * onward(meeting, mirrored(ray.direction, normal), way, mirrors, false);
     }
 
@@ -399,6 +510,8 @@ private:
         return mix(pool * seen, kDistance, haze);
     }
 
+    static Vec2 repeated(Vec2 uv) { return {uv.x - std::floor(uv.x), uv.y - std::floor(uv.y)}; }
+
     [[nodiscard]] Vec3f albedo(const Meeting& meeting, float width) const
     {
         if (picture_) {
@@ -406,6 +519,10 @@ private:
         }
         if (studio_.uniform()) {
             return grey(1.0F);
+        }
+        if (const ShownLook* const shown = lookOfStand(meeting)) {
+            const Vec3f colour = toFloats(shown->from.look.colour);
+            return shown->colours ? colour * shown->colours->at(repeated(meeting.uv), inPicture(width)) : colour;
         }
         // An object is plain; curved ground has the table's ruling, projected from above.
         return options_.stand && options_.shows_whole_stand ? Vec3f{0.42F, 0.45F, 0.46F}
@@ -424,6 +541,7 @@ private:
     std::optional<LightMap> key_gain_;     // share of the key light on a stand
     std::optional<BaseLight> base_light_;  // light on a stand below many droplets
     std::optional<StandFilm> film_;
+    std::vector<ShownLook> stand_looks_;
     Vec3f key_;  // direction toward the key light
     Vec3f level_;
     float exposure_ = 1.0F;
@@ -582,6 +700,20 @@ void RenderOptions::validate() const
     }
     if (stand) {
         stand->validate();
+    }
+    if (!stand_looks.empty()) {
+        if (!stand || !shows_whole_stand || stand_materials.size() != stand->triangles.size() ||
+            std::any_of(stand_materials.begin(), stand_materials.end(),
+                        [&](std::uint32_t material) { return material >= stand_looks.size(); })) {
+            refuse("stand_looks need a stand that is an object, with a look in stand_materials for every triangle");
+        }
+        for (const StandLook& one : stand_looks) {
+            require(one.look.ior >= 1.0 && one.look.ior <= 4.0, "options.stand_looks.ior", one.look.ior, "from 1 to 4");
+            require(one.opacity >= 0.0 && one.opacity <= 1.0, "options.stand_looks.opacity", one.opacity, "from 0 to 1");
+            if (one.colours) {
+                one.colours->validate();
+            }
+        }
     }
     if (stand_water) {
         if (!stand || !shows_whole_stand) {

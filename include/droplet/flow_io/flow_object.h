@@ -11,6 +11,7 @@
 #include "droplet/flow/flow_surface.h"
 #include "droplet/flow/object_motion.h"
 #include "droplet/mesh/planar_mesh.h"
+#include "droplet/render/stand_look.h"
 #include "droplet/vector.h"
 
 namespace droplet {
@@ -25,6 +26,7 @@ struct FlowObject {
     std::vector<Triangle> triangles;          ///< indices of vertices
     std::vector<std::uint32_t> materials;     ///< index of every triangle's material in material_names; or empty
     std::vector<std::string> material_names;  ///< from the file
+    std::vector<StandLook> looks;             ///< of every material; or empty: the object is plain
     ObjectMotion motion;                      ///< from the animation of the object's node, if the file has one
     std::vector<std::string> warnings;        ///< one line each
 };

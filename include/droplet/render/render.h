@@ -8,6 +8,7 @@
 #include "droplet/drawing/picture.h"
 #include "droplet/render/environment.h"
 #include "droplet/render/paint.h"
+#include "droplet/render/stand_look.h"
 #include "droplet/render/stand_water.h"
 #include "droplet/shape/base_surface.h"
 #include "droplet/surface/material.h"
@@ -65,6 +66,8 @@ struct RenderOptions {
     std::optional<Picture> ground = {};  ///< picture on the ground; empty: a table with a fine ruling
     bool light_table = false;            ///< that table is light grey, which shows colours as they are; else dark
     std::optional<TexturedMesh> stand = {};      ///< ground instead of the plane z = 0, uv as the droplet's
+    std::vector<StandLook> stand_looks = {};     ///< of an object as stand; empty: it is plain
+    std::vector<std::uint32_t> stand_materials = {};  ///< in `stand_looks`, of every triangle of the stand
     bool shows_whole_stand = true;               ///< true: the stand is an object, shown whole; false: ground
     std::optional<StandWater> stand_water = {};  ///< light and wetness below many small droplets on a stand that is an
                                                  ///< object, instead of one map of light over its uv. The picture then
