@@ -106,6 +106,24 @@ ObjectMotion motionOf(const FileMotion& from)
     return motion;
 }
 
+/// Look of a file's material; an image that cannot be read is left out, with a warning.
+StandLook lookOf(FileMaterial material, const std::string& name, std::vector<std::string>& warnings)
+{
+    StandLook look{std::move(material.look), material.opacity, {}};
+    std::string fault = std::move(material.image_fault);
+    if (!material.image.empty()) {
+        try {
+            look.colours = decodePicture(material.image);
+        } catch (const Error& error) {
+            fault = std::string("an image: ") + error.what();
+        }
+    }
+    if (!fault.empty()) {
+        warnings.push_back(name + " is shown without a texture: " + fault);
+    }
+    return look;
+}
+
 }  // namespace
 
 FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOptions& options)
@@ -121,6 +139,7 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
     const bool is_ply = readableFormat(path) == Format::Ply;
     FileMesh mesh = readFileMesh(path, {.uvs = true,
                                         .polygons = true,
+                                        .looks = true,
                                         .motion = true,
                                         .y_up = options.up.value_or(is_ply ? UpAxis::Z : UpAxis::Y) == UpAxis::Y});
     const std::string name = shown(path);
@@ -141,6 +160,9 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
     object.triangles = std::move(mesh.triangles);
     object.materials = std::move(mesh.materials);
     object.material_names = std::move(mesh.material_names);
+    for (FileMaterial& material : mesh.looks) {
+        object.looks.push_back(lookOf(std::move(material), name, object.warnings));
+    }
     if (mesh.motion) {
         object.motion = motionOf(*mesh.motion);
     }

@@ -408,7 +408,7 @@ FlowObject presetObject(PresetObject object, double detail)
             break;
         case PresetObject::Leaf:
             addLeaf(grids);
-            grids.look({{.name = "leaf", .colour = {0.10, 0.27, 0.035}, .roughness = 0.35, .transmission = 0.0, .ior = 1.45}});
+            grids.look({{.name = "leaf", .colour = {0.085, 0.19, 0.035}, .roughness = 0.5, .transmission = 0.0, .ior = 1.45}});
             break;
         case PresetObject::Car:
             addCar(grids);

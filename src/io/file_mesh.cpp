@@ -702,7 +702,7 @@ FileMesh readFileMesh(const std::filesystem::path& path, const FileMeshOptions& 
     FileMesh mesh;
     readFile(path, [&] {
         if (format == Format::Glb || format == Format::Gltf) {
-            mesh = readScene(path, {.motion = options.motion});
+            mesh = readScene(path, {.motion = options.motion, .looks = options.looks});
             return;
         }
         std::error_code none;
@@ -710,7 +710,14 @@ FileMesh readFileMesh(const std::filesystem::path& path, const FileMeshOptions& 
             throw Damage("it is not a regular file");
         }
         const Bytes bytes = readBytes(path, kMaxBytes, [](std::byte) { return true; });
-        mesh = readAs(format, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, options);
+        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        mesh = readAs(format, text, options);
+        if (format == Format::Obj && options.looks && !mesh.material_names.empty()) {
+            auto known = objMaterials(text, path.parent_path());
+            for (const std::string& name : known.empty() ? std::vector<std::string>{} : mesh.material_names) {
+                mesh.looks.push_back(known.contains(name) ? std::move(known[name]) : plainMaterial());
+            }
+        }
     });
     return mesh;
 }

@@ -9,6 +9,7 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/vector.h"
+#include "io/file_material.h"
 #include "rotation.h"
 
 namespace droplet {
@@ -36,6 +37,7 @@ struct FileMesh {
     std::vector<std::uint32_t> weld;          ///< index of the first vertex at the same place
     std::vector<std::uint32_t> materials;     ///< of every triangle, in material_names; empty: none has one
     std::vector<std::string> material_names;  ///< "": no name
+    std::vector<FileMaterial> looks;          ///< of every material name, if asked for and any is known; or empty
     std::optional<FileMotion> motion;
     bool deforms = false;            ///< the file has skins or morph targets, which are ignored
     bool ignores_animation = false;  ///< the file has an animation that `motion` does not hold
@@ -45,6 +47,7 @@ struct FileMesh {
 struct FileMeshOptions {
     bool uvs = false;               ///< read the texture coordinates of OBJ and PLY
     bool polygons = false;          ///< divide faces with more than three corners; otherwise they are damage
+    bool looks = false;             ///< read materials and the images of their colours
     bool motion = false;            ///< read the animation of the node of a glTF scene that carries all meshes
     std::optional<bool> y_up = {};  ///< the file's y axis points up; empty: in OBJ; ignored for glTF
 };

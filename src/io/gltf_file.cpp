@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -228,6 +229,113 @@ std::vector<std::string> materialNamesOf(const Json& root)
     return names;
 }
 
+/// Material with the place of its image: a file, or a view of a buffer.
+struct ReadMaterial {
+    FileMaterial material;
+    std::string uri;
+    std::optional<int> view;
+};
+
+/// Metallic-roughness materials, KHR_materials_transmission and KHR_materials_ior. What is not as specified is left
+/// out.
+std::vector<ReadMaterial> materialsOf(const Json& root)
+{
+    std::vector<ReadMaterial> materials;
+    const auto share = [](const Json& value, double otherwise) {
+        return value.is_number() ? std::clamp(value.get<double>(), 0.0, 1.0) : otherwise;
+    };
+    const auto element = [](const Json& list, const Json& index) -> const Json& {
+        static const Json none;
+        const auto at = indexOf(index);
+        return at && list.is_array() && static_cast<std::size_t>(*at) < list.size()
+                   ? list[static_cast<std::size_t>(*at)]
+                   : none;
+    };
+    for (const Json& from : memberOf(root, "materials")) {
+        ReadMaterial& read = materials.emplace_back();
+        Look& look = read.material.look;
+        const Json& surface = memberOf(from, "pbrMetallicRoughness");
+        const Json& colour = memberOf(surface, "baseColorFactor");
+        const auto channel = [&](std::size_t k) {
+            return colour.is_array() && colour.size() == 4 ? share(colour[k], 1.0) : 1.0;
+        };
+        look.colour = {channel(0), channel(1), channel(2)};
+        look.metallic = share(memberOf(surface, "metallicFactor"), 1.0);
+        look.roughness = share(memberOf(surface, "roughnessFactor"), 1.0);
+        if (textOf(memberOf(from, "alphaMode"), "OPAQUE") == "BLEND") {
+            read.material.opacity = channel(3);
+        }
+        const Json& extensions = memberOf(from, "extensions");
+        look.transmission =
+            share(memberOf(memberOf(extensions, "KHR_materials_transmission"), "transmissionFactor"), 0.0);
+        const Json& ior = memberOf(memberOf(extensions, "KHR_materials_ior"), "ior");
+        look.ior = ior.is_number() && ior.get<double>() >= 1.0 && ior.get<double>() <= 4.0 ? ior.get<double>() : 1.5;
+        const Json& texture =
+            element(memberOf(root, "textures"), memberOf(memberOf(surface, "baseColorTexture"), "index"));
+        const Json& image = element(memberOf(root, "images"), memberOf(texture, "source"));
+        read.uri = textOf(memberOf(image, "uri"), "");
+        read.view = indexOf(memberOf(image, "bufferView"));
+        // A texture of metal and roughness is not read; its factors are 1 then.
+        if (memberOf(surface, "metallicRoughnessTexture").is_object()) {
+            look.metallic = 0.0;
+            look.roughness = 0.5;
+        }
+    }
+    return materials;
+}
+
+/// Text of a URI in which %20 is a space.
+std::string unescaped(std::string_view uri)
+{
+    std::string text;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const std::string_view code = uri.substr(i + 1, 2);
+        unsigned value = 0;
+        if (uri[i] == '%' && code.size() == 2 &&
+            std::from_chars(code.data(), code.data() + 2, value, 16).ptr == code.data() + 2) {
+            text.push_back(static_cast<char>(value));
+            i += 2;
+        } else {
+            text.push_back(uri[i]);
+        }
+    }
+    return text;
+}
+
+std::vector<FileMaterial> withImages(std::vector<ReadMaterial> all, const tinygltf::Model& model,
+                                     const std::filesystem::path& folder)
+{
+    std::vector<FileMaterial> materials;
+    for (ReadMaterial& read : all) {
+        FileMaterial& material = materials.emplace_back(std::move(read.material));
+        if (read.view) {
+            const auto view = static_cast<std::size_t>(*read.view);
+            const tinygltf::BufferView* const part = view < model.bufferViews.size() ? &model.bufferViews[view] : nullptr;
+            const auto buffer = part != nullptr ? static_cast<std::size_t>(part->buffer) : model.buffers.size();
+            if (buffer < model.buffers.size() && part->byteOffset <= model.buffers[buffer].data.size() &&
+                part->byteLength <= model.buffers[buffer].data.size() - part->byteOffset) {
+                const auto bytes = std::as_bytes(std::span(model.buffers[buffer].data));
+                const auto image = bytes.subspan(part->byteOffset, part->byteLength);
+                material.image.assign(image.begin(), image.end());
+            } else {
+                material.image_fault = "an image is outside of its buffer";
+            }
+        } else if (read.uri.starts_with("data:")) {
+            std::vector<unsigned char> decoded;
+            std::string type;
+            if (tinygltf::DecodeDataURI(&decoded, type, read.uri, 0, false)) {
+                const auto image = std::as_bytes(std::span(decoded));
+                material.image.assign(image.begin(), image.end());
+            } else {
+                material.image_fault = "an embedded image is not base64";
+            }
+        } else if (!read.uri.empty()) {
+            readImageBeside(folder, unescaped(read.uri), material);
+        }
+    }
+    return materials;
+}
+
 /// Channels that are damaged have no node: not all readers need them.
 std::vector<std::vector<GltfChannel>> animationsOf(const Json& root)
 {
@@ -350,7 +458,7 @@ Callbacks callbacksFor(Sources& sources)
 
 }  // namespace
 
-GltfFile readGltfFile(const std::filesystem::path& path)
+GltfFile readGltfFile(const std::filesystem::path& path, bool reads_materials)
 {
     const Bytes bytes =
         readBytes(path, std::numeric_limits<std::uint32_t>::max(),  // largest size that a GLB can state
@@ -374,6 +482,7 @@ GltfFile readGltfFile(const std::filesystem::path& path)
     GltfFile file;
     file.material_names = materialNamesOf(root);
     file.animations = animationsOf(root);
+    std::vector<ReadMaterial> materials = reads_materials ? materialsOf(root) : std::vector<ReadMaterial>{};
     Json kept = Json::object();
     for (const char* const key : {"scene", "scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers"}) {
         if (const auto found = root.find(key); found != root.end()) {
@@ -397,6 +506,7 @@ GltfFile readGltfFile(const std::filesystem::path& path)
         throw Damage("it is not glTF 2.0: " + error.substr(0, std::min(error.find('\n'), kLongest)));
     }
     decodeMeshoptViews(file.model, meshopt_views);
+    file.materials = withImages(std::move(materials), file.model, folder);
     return file;
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "io/file_material.h"
+
 namespace droplet {
 
 /// Channel of an animation with its sampler. Indices may be too large.
@@ -20,11 +22,12 @@ struct GltfChannel {
     int values = -1;  ///< accessor; -1: none
 };
 
-/// The part of a glTF file that describes triangles: scenes, nodes, meshes, accessors and buffers. Images, extras and
-/// extensions are left out.
+/// The part of a glTF file that describes triangles: scenes, nodes, meshes, accessors, buffers and materials. Extras and
+/// other extensions are left out.
 struct GltfFile {
     tinygltf::Model model;
     std::vector<std::string> material_names;           ///< "" where a material has none
+    std::vector<FileMaterial> materials;               ///< as many, if asked for
     std::vector<std::vector<GltfChannel>> animations;  ///< channels of every animation
 };
 
@@ -33,6 +36,7 @@ struct GltfFile {
 /// number of entries, or none. Indices are not negative.
 /// Not checked: indices may be too large; views and accessors may reach beyond their buffers.
 /// @throws Damage, nlohmann::json::exception, std::bad_alloc, std::length_error: see readFile
-GltfFile readGltfFile(const std::filesystem::path& path);
+/// @param reads_materials  and the images of their colours, of which those that cannot be read are left out
+GltfFile readGltfFile(const std::filesystem::path& path, bool reads_materials = false);
 
 }  // namespace droplet

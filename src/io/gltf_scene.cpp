@@ -434,12 +434,17 @@ private:
         const std::size_t names = file_.material_names.size();
         const auto none = static_cast<std::uint32_t>(names);
         mesh_.material_names = file_.material_names;
+        mesh_.looks = file_.materials;
         if (std::find(mesh_.materials.begin(), mesh_.materials.end(), none) != mesh_.materials.end()) {
             mesh_.material_names.emplace_back();
+            if (!mesh_.looks.empty()) {
+                mesh_.looks.push_back(plainMaterial());
+            }
         }
         if (names == 0) {
             mesh_.materials.clear();
             mesh_.material_names.clear();
+            mesh_.looks.clear();
         }
     }
 
@@ -625,7 +630,7 @@ private:
 
 FileMesh readScene(const std::filesystem::path& path, const SceneOptions& options)
 {
-    const GltfFile file = readGltfFile(path);
+    const GltfFile file = readGltfFile(path, options.looks);
     return SceneReader(file, options).take();
 }
 

@@ -10,6 +10,7 @@ namespace droplet {
 struct SceneOptions {
     bool needs_uv = false;  ///< reject triangles without uv as damage
     bool motion = false;    ///< read the animation of the node that carries all meshes
+    bool looks = false;     ///< read materials and the images of their colours
 };
 
 /// Reads glTF 2.0: .glb, or .gltf with its buffers embedded or beside it.

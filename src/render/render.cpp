@@ -359,7 +359,7 @@ private:
         const double outside = way.inside ? lookAt(way.droplet).ior : 1.0;
         const Vec3f mirror_share = reflectance(look, matter, -dot(ray.direction, normal), outside);
         const Vec3f mirror = mirrored(ray.direction, normal);
-        const float blur = smoothstep(0.05F, 0.7F, static_cast<float>(look.roughness));
+        const float blur = smoothstep(0.0F, 0.4F, static_cast<float>(look.roughness));
         const Vec3f sharp = blur < 1.0F ? onward(before(meeting, ray, way.inside), mirror, way,
                                                  (1.0F - blur) * largest(mirror_share), way.inside)
                                         : Vec3f{};
