@@ -107,10 +107,10 @@ ObjectMotion motionOf(const FileMotion& from)
 }
 
 /// Look of a file's material; an image that cannot be read is left out, with a warning.
-StandLook lookOf(FileMaterial material, const std::string& name, std::vector<std::string>& warnings)
+StandLook lookOf(const FileMaterial& material, const std::string& name, std::vector<std::string>& warnings)
 {
-    StandLook look{std::move(material.look), material.opacity, {}};
-    std::string fault = std::move(material.image_fault);
+    StandLook look{material.look, material.opacity, {}};
+    std::string fault = material.image_fault;
     if (!material.image.empty()) {
         try {
             look.colours = decodePicture(material.image);
@@ -160,8 +160,11 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
     object.triangles = std::move(mesh.triangles);
     object.materials = std::move(mesh.materials);
     object.material_names = std::move(mesh.material_names);
-    for (FileMaterial& material : mesh.looks) {
-        object.looks.push_back(lookOf(std::move(material), name, object.warnings));
+    for (const FileMaterial& material : mesh.looks) {
+        const std::string_view image(reinterpret_cast<const char*>(material.image.data()), material.image.size());
+        const bool fits_files = image.starts_with("\x89PNG") || image.starts_with("\xff\xd8");
+        object.looks.push_back(lookOf(material, name, object.warnings));
+        object.images.emplace_back(fits_files && object.looks.back().colours ? image : std::string_view{});
     }
     if (mesh.motion) {
         object.motion = motionOf(*mesh.motion);

@@ -37,6 +37,7 @@ std::size_t addObject(const FlowObject& object, Scene& scene)
                 material.look = object.looks[i].look;
                 material.look.name = names[i];
                 material.opacity = object.looks[i].opacity;
+                material.image = object.images[i];
             }
             parts[i].material = scene.addMaterial(std::move(material));
             geometry.parts.push_back(std::move(parts[i]));

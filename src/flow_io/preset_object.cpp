@@ -98,6 +98,7 @@ public:
         whole.materials = std::move(object_.materials);
         whole.material_names = std::move(object_.material_names);
         whole.looks = std::move(object_.looks);
+        whole.images.resize(whole.looks.size());
         whole.normals.resize(whole.vertices.size());
         fillNormals(whole.vertices, whole.triangles, firstAtPlace(whole.vertices), whole.normals);
         return whole;

@@ -28,6 +28,8 @@ struct SceneMaterial {
     std::optional<double> thickness = {};
     double opacity = 1.0;     ///< below 1: what lies behind shines through
     bool both_sides = false;  ///< whether triangles are also seen from behind
+    /// PNG or JPEG that multiplies the colour, repeated over the texture coordinates; in glTF alone. Empty: none.
+    std::string image = {};
 };
 
 /// Material of a liquid.

@@ -260,6 +260,7 @@ public:
         }
         addTracks();
         addPicture();
+        addImages();
         if (compression_ != Compression::None) {
             require("KHR_mesh_quantization");
         }
@@ -758,6 +759,29 @@ private:
         model_.textures.push_back(std::move(texture));
         for (tinygltf::Material& material : model_.materials) {
             material.pbrMetallicRoughness.baseColorTexture.index = is_colour ? 0 : -1;
+        }
+    }
+
+    /// Images of single materials; those that are equal once.
+    void addImages()
+    {
+        std::map<std::string_view, int> textures;
+        for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
+            const std::string& bytes = scene_.materials[m].image;
+            if (bytes.empty()) {
+                continue;
+            }
+            const auto [found, is_new] = textures.try_emplace(bytes, static_cast<int>(model_.textures.size()));
+            if (is_new) {
+                tinygltf::Image image;
+                image.mimeType = bytes.starts_with("\x89PNG") ? "image/png" : "image/jpeg";
+                image.bufferView = buffer_.addPicture(bytes);
+                tinygltf::Texture texture;
+                texture.source = static_cast<int>(model_.images.size());
+                model_.images.push_back(std::move(image));
+                model_.textures.push_back(std::move(texture));
+            }
+            model_.materials[m].pbrMetallicRoughness.baseColorTexture.index = found->second;
         }
     }
 

@@ -27,6 +27,7 @@ struct FlowObject {
     std::vector<std::uint32_t> materials;     ///< index of every triangle's material in material_names; or empty
     std::vector<std::string> material_names;  ///< from the file
     std::vector<StandLook> looks;             ///< of every material; or empty: the object is plain
+    std::vector<std::string> images;          ///< PNG or JPEG of every look's colours, or ""; as many as looks
     ObjectMotion motion;                      ///< from the animation of the object's node, if the file has one
     std::vector<std::string> warnings;        ///< one line each
 };
