@@ -409,11 +409,13 @@ FlowObject presetObject(PresetObject object, double detail)
             break;
         case PresetObject::Leaf:
             addLeaf(grids);
-            grids.look({{.name = "leaf", .colour = {0.085, 0.19, 0.035}, .roughness = 0.5, .transmission = 0.0, .ior = 1.45}});
+            grids.look(
+                {{.name = "leaf", .colour = {0.085, 0.19, 0.035}, .roughness = 0.5, .transmission = 0.0, .ior = 1.45}});
             break;
         case PresetObject::Car:
             addCar(grids);
-            grids.look({{.name = "car", .colour = {0.35, 0.012, 0.015}, .roughness = 0.06, .transmission = 0.0, .ior = 1.5}});
+            grids.look(
+                {{.name = "car", .colour = {0.35, 0.012, 0.015}, .roughness = 0.06, .transmission = 0.0, .ior = 1.5}});
             break;
         case PresetObject::Window:
             addWindow(grids);

@@ -310,7 +310,8 @@ std::vector<FileMaterial> withImages(std::vector<ReadMaterial> all, const tinygl
         FileMaterial& material = materials.emplace_back(std::move(read.material));
         if (read.view) {
             const auto view = static_cast<std::size_t>(*read.view);
-            const tinygltf::BufferView* const part = view < model.bufferViews.size() ? &model.bufferViews[view] : nullptr;
+            const tinygltf::BufferView* const part =
+                view < model.bufferViews.size() ? &model.bufferViews[view] : nullptr;
             const auto buffer = part != nullptr ? static_cast<std::size_t>(part->buffer) : model.buffers.size();
             if (buffer < model.buffers.size() && part->byteOffset <= model.buffers[buffer].data.size() &&
                 part->byteLength <= model.buffers[buffer].data.size() - part->byteOffset) {
@@ -482,7 +483,11 @@ GltfFile readGltfFile(const std::filesystem::path& path, bool reads_materials)
     GltfFile file;
     file.material_names = materialNamesOf(root);
     file.animations = animationsOf(root);
-    std::vector<ReadMaterial> materials = reads_materials ? materialsOf(root) : std::vector<ReadMaterial>{};
+    std::vector<ReadMaterial> materials;
+    if (reads_materials) {
+        const bool is_extended = container.json.find("KHR_materials_") != std::string_view::npos;
+        materials = materialsOf(is_extended ? parsed(container.json, true) : root);
+    }
     Json kept = Json::object();
     for (const char* const key : {"scene", "scenes", "nodes", "meshes", "accessors", "bufferViews", "buffers"}) {
         if (const auto found = root.find(key); found != root.end()) {

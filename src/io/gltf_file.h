@@ -22,8 +22,8 @@ struct GltfChannel {
     int values = -1;  ///< accessor; -1: none
 };
 
-/// The part of a glTF file that describes triangles: scenes, nodes, meshes, accessors, buffers and materials. Extras and
-/// other extensions are left out.
+/// The part of a glTF file that describes triangles: scenes, nodes, meshes, accessors, buffers and materials. Extras
+/// and other extensions are left out.
 struct GltfFile {
     tinygltf::Model model;
     std::vector<std::string> material_names;           ///< "" where a material has none

@@ -89,8 +89,8 @@ public:
             picture_.emplace(*options.ground);
         }
         for (const StandLook& one : options.stand_looks) {
-            stand_looks_.push_back({one, one.colours && !options.ground ? std::optional<PicturePyramid>(*one.colours)
-                                                                        : std::nullopt});
+            stand_looks_.push_back(
+                {one, one.colours && !options.ground ? std::optional<PicturePyramid>(*one.colours) : std::nullopt});
         }
         const Vec3f size = scene_.high() - scene_.low();
         table_.emplace(std::max(size.x, size.y), size.x * size.y, turn_({-0.75F, 0.66F, 0.0F}), options.light_table);
@@ -413,11 +413,13 @@ private:
                 enters_water = next.what == Meeting::What::Liquid && dot(ray.direction, next.facet) > 0.0F;
                 droplet = enters_water ? media_.dropletAt(scene_, next) : droplet;
             }
-            const float ior = enters_water ? media_.of(droplet).ior : static_cast<float>(lookOfStand(meeting)->from.look.ior);
+            const float ior =
+                enters_water ? media_.of(droplet).ior : static_cast<float>(lookOfStand(meeting)->from.look.ior);
             there = atInterface(ray.direction, outer, 1.0F / ior);
             if (film.thickness > 0.0F) {
                 there = atInterface(ray.direction, outer, 1.0F / media_.of(0).ior);
-                const Interface below = atInterface(there.transmitted, facing(there.transmitted, facet), media_.of(0).ior);
+                const Interface below =
+                    atInterface(there.transmitted, facing(there.transmitted, facet), media_.of(0).ior);
                 there.transmitted = below.reflected < 1.0F ? below.transmitted : ray.direction;
             } else if (!enters_water) {
                 there.transmitted = ray.direction;
@@ -448,7 +450,8 @@ private:
         }
         // A film that covers the bumps of matt ground darkens and mirrors as a thicker one.
         const ShownLook* const shown = lookOfStand(meeting);
-        const float rough = shown == nullptr ? 1.0F : smoothstep(0.1F, 0.6F, static_cast<float>(shown->from.look.roughness));
+        const float rough =
+            shown == nullptr ? 1.0F : smoothstep(0.1F, 0.6F, static_cast<float>(shown->from.look.roughness));
         const float covered = std::min(film.thickness / kCovering, 1.0F);
         const Vec3f normal = facing(ray.direction, film.normal);
         const float mirrors = covered * atInterface(ray.direction, normal, 1.0F / media_.of(0).ior).reflected;
@@ -709,7 +712,8 @@ void RenderOptions::validate() const
         }
         for (const StandLook& one : stand_looks) {
             require(one.look.ior >= 1.0 && one.look.ior <= 4.0, "options.stand_looks.ior", one.look.ior, "from 1 to 4");
-            require(one.opacity >= 0.0 && one.opacity <= 1.0, "options.stand_looks.opacity", one.opacity, "from 0 to 1");
+            require(one.opacity >= 0.0 && one.opacity <= 1.0, "options.stand_looks.opacity", one.opacity,
+                    "from 0 to 1");
             if (one.colours) {
                 one.colours->validate();
             }

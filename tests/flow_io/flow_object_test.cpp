@@ -8,9 +8,11 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "droplet/drawing/picture.h"
 #include "droplet/error.h"
 #include "support/command.h"
 #include "support/gltf_draft.h"
@@ -120,6 +122,38 @@ TEST_F(FlowObjectFile, ObjHasUvMaterialsAndPolygons)
     EXPECT_EQ(object.normals[0], (Vec3{0.0, -1.0, 0.0}));
 }
 
+TEST_F(FlowObjectFile, ObjHasTheLooksOfItsMaterialLibrary)
+{
+    EXPECT_THAT(read("wall.obj", kObj).looks, IsEmpty()) << "without the library";
+    writeFile(folder() / "ignored.mtl",
+              "newmtl Wet Glass\nKd 0.1 0.2 0.3\nd 0.25\nNi 1.52\nNs 0\nnewmtl other\nKd 1 0 0\nnewmtl rough\nKd 0.5\n"
+              "Pr 0.9\nPm 1\nmap_Kd ../secret.png\n");
+    const FlowObject object = read("wall.obj", kObj);
+    ASSERT_THAT(object.looks, ::testing::SizeIs(2));
+    EXPECT_EQ(object.looks[0].look.colour, (Vec3{0.1, 0.2, 0.3}));
+    EXPECT_EQ(object.looks[0].opacity, 0.25);
+    EXPECT_EQ(object.looks[0].look.ior, 1.52);
+    EXPECT_EQ(object.looks[0].look.roughness, 1.0);
+    EXPECT_EQ(object.looks[0].look.metallic, 0.0);
+    EXPECT_EQ(object.looks[1].look.colour, (Vec3{0.5, 0.5, 0.5}));
+    EXPECT_EQ(object.looks[1].look.roughness, 0.9);
+    EXPECT_EQ(object.looks[1].look.metallic, 1.0);
+    EXPECT_FALSE(object.looks[1].colours);
+    EXPECT_THAT(object.warnings, ElementsAre(HasSubstr("without a texture: ../secret.png is not a file beside it")));
+    std::ostringstream png;
+    writePng(Picture{1, 1, {255, 0, 0}}, png);
+    writeFile(folder() / "red one.png", png.str());
+    writeFile(folder() / "broken.png", "no picture");
+    writeFile(folder() / "ignored.mtl",
+              "newmtl rough\r\nmap_Kd red one.png\r\nnewmtl Wet Glass\r\nmap_Kd broken.png\r\n");
+    const FlowObject painted = read("wall.obj", kObj);
+    ASSERT_TRUE(painted.looks[1].colours);
+    EXPECT_EQ(painted.looks[1].colours->rgb, (std::vector<std::uint8_t>{255, 0, 0}));
+    EXPECT_EQ(painted.images[1], png.str());
+    EXPECT_EQ(painted.images[0], "");
+    EXPECT_THAT(painted.warnings, ElementsAre(HasSubstr("without a texture: an image: ")));
+}
+
 TEST_F(FlowObjectFile, HasScaleSizeAndUpAxis)
 {
     EXPECT_EQ(read("wall.obj", kObj, {.scale = 3.0}).vertices[2], (Vec3{3.0, 0.0, 6.0}));
@@ -193,6 +227,50 @@ Draft triangle()
     draft.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
     draft.addFloats({0, 0, 1, 0, 0, 0.25F}, "VEC2");
     return draft;
+}
+
+TEST_F(FlowObjectFile, GltfHasTheLooksOfItsMaterials)
+{
+    std::ostringstream png;
+    writePng(Picture{1, 1, {0, 0, 255}}, png);
+    Draft draft = triangle();
+    const std::size_t view = draft.add(png.str(), 5121, "SCALAR", png.str().size());
+    writeFile(folder() / "a b.png", png.str());
+    const auto with = [&](const std::string& materials, const std::string& images) {
+        return read(
+            "looks.glb",
+            draft.file(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
+                       R"({"POSITION":0},"material":0}]}],"materials":[)" +
+                       materials + R"(],"textures":[{"source":0}],"images":[)" + images + "]"));
+    };
+    const std::string textured = R"({"name":"a","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";
+    const FlowObject plain =
+        with(R"({"name":"a","alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],)"
+             R"("metallicFactor":0.5,"roughnessFactor":0.25},"extensions":{"KHR_materials_transmission":)"
+             R"({"transmissionFactor":0.75},"KHR_materials_ior":{"ior":1.3}}})",
+             "{}");
+    ASSERT_THAT(plain.looks, ::testing::SizeIs(1));
+    EXPECT_EQ(plain.looks[0].look.colour, (Vec3{0.1, 0.2, 0.3}));
+    EXPECT_EQ(plain.looks[0].opacity, 0.4);
+    EXPECT_EQ(plain.looks[0].look.metallic, 0.5);
+    EXPECT_EQ(plain.looks[0].look.roughness, 0.25);
+    EXPECT_EQ(plain.looks[0].look.transmission, 0.75);
+    EXPECT_EQ(plain.looks[0].look.ior, 1.3);
+    for (const std::string& image : {R"({"mimeType":"image/png","bufferView":)" + std::to_string(view) + "}",
+                                     std::string(R"({"uri":"a%20b.png"})")}) {
+        const FlowObject object = with(textured, image);
+        ASSERT_TRUE(object.looks.at(0).colours) << image;
+        EXPECT_EQ(object.looks[0].colours->rgb, (std::vector<std::uint8_t>{0, 0, 255}));
+        EXPECT_EQ(object.images[0], png.str());
+        EXPECT_THAT(object.warnings, IsEmpty());
+    }
+    for (const char* const image : {R"({"uri":"/etc/passwd"})", R"({"uri":"../x.png"})", R"({"bufferView":99})",
+                                    R"({"uri":"data:image/png;base64,AAAA"})", R"({"uri":"looks.glb"})"}) {
+        const FlowObject object = with(textured, image);
+        EXPECT_FALSE(object.looks.at(0).colours) << image;
+        EXPECT_THAT(object.warnings, ElementsAre(HasSubstr("without a texture: "))) << image;
+    }
+    EXPECT_THAT(with(R"({"name":"a","pbrMetallicRoughness":7})", "{}").looks, ::testing::SizeIs(1));
 }
 
 std::string animationOf(const std::string& channels, const std::string& samplers)

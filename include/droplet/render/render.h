@@ -65,10 +65,10 @@ struct RenderOptions {
     Vec2 extent = {};                    ///< physical size of the mask, centred at the origin [m]; > 0 with `ground`
     std::optional<Picture> ground = {};  ///< picture on the ground; empty: a table with a fine ruling
     bool light_table = false;            ///< that table is light grey, which shows colours as they are; else dark
-    std::optional<TexturedMesh> stand = {};      ///< ground instead of the plane z = 0, uv as the droplet's
-    std::vector<StandLook> stand_looks = {};     ///< of an object as stand; empty: it is plain
+    std::optional<TexturedMesh> stand = {};           ///< ground instead of the plane z = 0, uv as the droplet's
+    std::vector<StandLook> stand_looks = {};          ///< of an object as stand; empty: it is plain
     std::vector<std::uint32_t> stand_materials = {};  ///< in `stand_looks`, of every triangle of the stand
-    bool shows_whole_stand = true;               ///< true: the stand is an object, shown whole; false: ground
+    bool shows_whole_stand = true;                    ///< true: the stand is an object, shown whole; false: ground
     std::optional<StandWater> stand_water = {};  ///< light and wetness below many small droplets on a stand that is an
                                                  ///< object, instead of one map of light over its uv. The picture then
                                                  ///< frames the stand, or `framed`, and not the droplets

@@ -10,7 +10,8 @@ namespace droplet {
 
 /// Look of triangles of a stand.
 struct StandLook {
-    /// What is transmitted passes a thin wall straight, as through a pane, tinted by the colour; a droplet on it refracts.
+    /// What is transmitted passes a thin wall straight, as through a pane, tinted by the colour; a droplet on it
+    /// refracts.
     Look look;
     double opacity = 1.0;                 ///< share that hides what is behind, 0 … 1
     std::optional<Picture> colours = {};  ///< over the stand's uv, which repeats; multiplies the colour
