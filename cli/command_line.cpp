@@ -129,7 +129,17 @@ public:
 
     std::string make_option_opts(const CLI::Option* option) const override
     {
-        return option->get_expected_max() == 0 || option->get_positional() ? "" : " " + option->get_type_name();
+        if (option->get_expected_max() == 0 || option->get_positional()) {
+            return "";
+        }
+        // A long choice goes on in the next line.
+        std::string type = " " + option->get_type_name();
+        const std::size_t indent = 2 + make_option_name(option, false).size();
+        if (indent + type.size() > kWidth) {
+            const std::size_t bar = type.rfind('|', kWidth - indent - 1);
+            type.insert(bar == std::string::npos ? type.size() : bar + 1, "\n" + std::string(indent + 1, ' '));
+        }
+        return type;
     }
 
 private:

@@ -25,8 +25,8 @@ double PinningField::at(Vec3 place) const
 PinningHold PinningField::over(const ContactFront& front) const
 {
     // The middles of equal parts of the front half. Weights are their shares of the width; asides, the same times the
-    // tangent of their angle.
-    constexpr int kParts = 5;
+    // tangent of their angle: on an even slope of the field 3/4 of it times the radius, where the integral has π/4.
+    constexpr int kParts = 3;
     constexpr double kPart = std::numbers::pi / kParts;
     static const std::array<Vec2, kParts> parts = [] {
         std::array<Vec2, kParts> units;

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "droplet/error.h"
+#include "flow_io/object_faces.h"
 #include "require.h"
 
 namespace droplet {

@@ -12,6 +12,7 @@
 
 #include "droplet/error.h"
 #include "droplet/flow_io/droplet_surfaces.h"
+#include "flow_io/object_faces.h"
 #include "flow_io/settled_droplets.h"
 #include "flow_io/wet_spots.h"
 #include "require.h"

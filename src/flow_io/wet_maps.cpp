@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "flow_io/object_faces.h"
 #include "flow_io/wet_spots.h"
 #include "require.h"
 

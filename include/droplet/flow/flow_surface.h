@@ -52,6 +52,7 @@ FlowSurface flowSurface(const std::vector<Vec3>& vertices, const std::vector<Tri
 
 /// The same surface with its long edges halved, until none is longer than a length: what droplets do to a face, they do
 /// to the whole of it. Faces keep their `source`; the report stays that of the mesh.
+/// @param surface  made by flowSurface()
 /// @param longest  [m], > 0
 /// @return         the surface itself if that leads to triangles without an area, by rounding
 FlowSurface refined(const FlowSurface& surface, double longest);
