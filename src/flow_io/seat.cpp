@@ -255,6 +255,42 @@ Vec3 unit(Vec3 v)
     return size > 0.0 ? (1.0 / size) * v : v;
 }
 
+/// Middle of the area within a rim.
+Vec2 middleOf(const Rim& rim, std::size_t count)
+{
+    Vec2 sum;
+    double area = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Vec2 a = rim.seated(k).level;
+        const Vec2 b = rim.seated((k + 1) % count).level;
+        sum = sum + cross(a, b) * (a + b);
+        area += 3.0 * cross(a, b);
+    }
+    return area != 0.0 ? (1.0 / area) * sum : Vec2{};
+}
+
+/// Leans a droplet, and moves one whose rim is drawn back on one side, as at the edge of a leaf, to the other side:
+/// otherwise its liquid would stand as a fin on what is left of its base.
+DropletFrame inward(const FlowTerrain& terrain, const DropletFrame& frame, const std::vector<Vec2>& rim_points,
+                    double size)
+{
+    constexpr int kMoves = 3;
+    constexpr double kAside = 0.08;  // of the mean radius: less is no matter
+    DropletFrame at = frame;
+    DropletFrame leant = leaning(terrain, at, size);
+    for (int k = 0; k < kMoves; ++k) {
+        const Ground ground(terrain, leant, size);
+        const Vec2 middle = middleOf(Rim(ground, rim_points), rim_points.size());
+        const auto height = ground.at(middle);
+        if (length(middle) <= kAside * size || !height) {
+            break;
+        }
+        at.place = ground.toSpace({middle, *height});
+        leant = leaning(terrain, at, size);
+    }
+    return leant;
+}
+
 }  // namespace
 
 double volumeUnder(std::span<const Vec3> vertices, std::span<const Triangle> triangles, Vec3 origin)
@@ -299,7 +335,7 @@ std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, Fl
         area += 0.5 * cross(flat[k].level, flat[(k + 1) % droplet.rim].level);
     }
     const double size = std::sqrt(std::abs(area) / std::numbers::pi);
-    const DropletFrame leant = leaning(terrain, frame, size);
+    const DropletFrame leant = inward(terrain, frame, rim_points, size);
     const auto turned = [&](Vec3 v) {
         return dot(v, frame.ahead) * leant.ahead + dot(v, frame.left) * leant.left +
                dot(v, frame.normal) * leant.normal;

@@ -186,6 +186,35 @@ INSTANTIATE_TEST_SUITE_P(Objects, SeatedDropletsOn,
                                            Scene{"Box", box, 120e-9, 0.08}),
                          [](const auto& tested) { return tested.param.name; });
 
+// Half of its base would be beyond the edge: on the other half it would be a fin of twice the height.
+TEST(SeatedDroplets, AtTheEdgeOfASheetMoveOntoIt)
+{
+    const double half = 20e-3;
+    const FlowTerrain sheet(flowSurface(
+        {{-half, -half, 0.0}, {half, -half, 0.0}, {half, half, 0.0}, {-half, half, 0.0}}, {{0, 1, 2}, {0, 2, 3}}));
+    FlowSample sample;
+    sample.contact = FlowContact::Still;
+    sample.normal = {0.0, 0.0, 1.0};
+    sample.volume = 20e-9;
+    const auto highest = [&](const Surface& surface) {
+        double height = 0.0;
+        for (const Vec3& p : surface.vertices) {
+            height = std::max(height, p.z);
+        }
+        return height;
+    };
+    sample.place = {half - 10e-6, 3e-3, 0.0};
+    sample.face = sheet.nearest(sample.place).face;
+    const std::vector<FlowSample> samples{sample};
+    const Surface seated = seatedDroplets(sheet, samples, bodies(), kGravity);
+    EXPECT_TRUE(isClosed(seated));
+    EXPECT_NEAR(enclosedVolume(seated) / sample.volume, 1.0, 0.01);
+    for (const Vec3& p : seated.vertices) {
+        EXPECT_TRUE(p.z > 1e-9 || p.x <= half + 0.1e-3) << "the rim is on the sheet";
+    }
+    EXPECT_LT(highest(seated), 1.25 * highest(dropletSurfaces(samples, bodies(), kGravity)));
+}
+
 TEST(SeatedDroplets, DoNotDependOnThreads)
 {
     const FlowTerrain terrain = wavyBall();
