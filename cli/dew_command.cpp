@@ -97,7 +97,7 @@ RunEnd made(const DewCommandOptions& options)
                              const bool is_json = lowerExtension(*options.droplets) == ".json";
                              droplet::FlowTable table(out,
                                                       is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv);
-                             table.add(1, 0.0, shown, terrain.surface());
+                             table.add(1, 0.0, droplet::flowPoints(shown, terrain, bodies, dew.gravity));
                              table.finish();
                          }});
     }

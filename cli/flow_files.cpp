@@ -39,7 +39,11 @@ RunFiles filesOf(const FlowOptions& options)
     } else {
         files.writes("OUTPUT", options.output);
     }
-    files.writes("--droplets", options.droplets);
+    if (options.point_files) {
+        files.writesFrames("--droplets", *options.point_files, numbers);
+    } else {
+        files.writes("--droplets", options.droplets);
+    }
     if (options.streak_files) {
         files.writesFrames("--streaks", *options.streak_files, numbers);
     } else {

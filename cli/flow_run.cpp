@@ -82,6 +82,7 @@ private:
     /// Files of the preview, which are drawn when they are written.
     std::vector<OutputFile> previewOutputs();
     /// Droplets of a moment, without bases.
+    [[nodiscard]] std::vector<droplet::FlowPoint> pointsOf(const Moment& moment) const;
     [[nodiscard]] droplet::Surface dropletsOf(const Moment& moment) const;
     /// Wets the object, and writes the files of a frame.
     void draw(const Moment& moment);
@@ -242,7 +243,7 @@ droplet::FlowReport FlowRun::execute()
                          }});
     }
     film_.write(
-        options_.droplets, [&](std::ostream* table) { run(table); }, files);
+        options_.point_files ? std::nullopt : options_.droplets, [&](std::ostream* table) { run(table); }, files);
     finish();
     return std::move(report_);
 }
@@ -281,7 +282,7 @@ std::function<void()> FlowRun::frame(std::size_t number)
     Moment moment{number, state_.time, droplet::sampleFlow(state_, plan_.terrain, plan_.parameters),
                   std::exchange(tracks_, {})};
     if (table_) {
-        table_->add(number, moment.time, moment.samples, plan_.terrain.surface());
+        table_->add(number, moment.time, pointsOf(moment));
     }
     if (animation_) {
         animation_->add(moment.time, moment.samples);
@@ -380,6 +381,11 @@ void FlowRun::advance(double until)
     }
 }
 
+std::vector<droplet::FlowPoint> FlowRun::pointsOf(const Moment& moment) const
+{
+    return droplet::flowPoints(moment.samples, plan_.terrain, bodies_, gravityAt(moment.time));
+}
+
 void FlowRun::draw(const Moment& moment)
 {
     for (const std::vector<droplet::FlowTrack>& tracks : moment.tracks) {
@@ -389,6 +395,13 @@ void FlowRun::draw(const Moment& moment)
         if (mapper_) {
             mapper_->add(tracks);
         }
+    }
+    if (options_.point_files) {
+        std::vector<droplet::FlowPoint> points = pointsOf(moment);
+        turnToFile(points, options_.reading);
+        droplet::writeAtomically(
+            options_.point_files->at(moment.number), [&](std::ostream& out) { droplet::writePointsAsPly(points, out); },
+            options_.run.files);
     }
     if (options_.streak_files) {
         writeSurface(moment.streaks, options_.streak_files->at(moment.number), droplet::Compression::None);

@@ -71,15 +71,35 @@ Vec3 direction(const Given& given)
     return (1.0 / length(d)) * d;
 }
 
+namespace {
+
+void turn(droplet::Vec3& v)
+{
+    v = {v.x, v.z, 0.0 - v.y};
+}
+
+}  // namespace
+
 void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet::FlowObjectOptions& reading)
 {
     const bool is_z_up_file = format == droplet::Format::Ply || format == droplet::Format::Stl;
     if (!is_z_up_file || reading.up == droplet::UpAxis::Z) {
         return;
     }
-    const auto turn = [](droplet::Vec3& v) { v = {v.x, v.z, 0.0 - v.y}; };
     std::for_each(surface.vertices.begin(), surface.vertices.end(), turn);
     std::for_each(surface.normals.begin(), surface.normals.end(), turn);
+}
+
+void turnToFile(std::vector<droplet::FlowPoint>& points, const droplet::FlowObjectOptions& reading)
+{
+    if (reading.up == droplet::UpAxis::Z) {
+        return;
+    }
+    for (droplet::FlowPoint& point : points) {
+        turn(point.place);
+        turn(point.velocity);
+        std::for_each(point.axes.begin(), point.axes.end(), turn);
+    }
 }
 
 }  // namespace cli

@@ -6,6 +6,7 @@
 
 #include "command_line.h"
 #include "droplet/flow_io/flow_object.h"
+#include "droplet/flow_io/flow_points.h"
 #include "droplet/scene/format.h"
 #include "droplet/surface/surface.h"
 #include "droplet/vector.h"
@@ -30,5 +31,8 @@ droplet::Vec3 direction(const Given& given);
 
 /// Turns a surface to the axes of the object's file, for formats that are written z up.
 void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet::FlowObjectOptions& reading);
+
+/// The same for points of a PLY.
+void turnToFile(std::vector<droplet::FlowPoint>& points, const droplet::FlowObjectOptions& reading);
 
 }  // namespace cli

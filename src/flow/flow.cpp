@@ -59,6 +59,7 @@ public:
         droplet.id = s_.next_id++;
         droplet.volume = start.volume;
         droplet.has_grown = true;
+        droplet.born = begin_;
         droplet.leg = {begin_, start.place, start.velocity, {}, 0.0};
         const WalkForces forces = forcesOf(droplet);
         const FlowTerrain::Point point = terrain_.nearest(start.place);
@@ -514,6 +515,7 @@ private:
                 bead.volume = trail.volume;
                 bead.drying = trail.drying;
                 bead.has_grown = true;
+                bead.born = begin_;
                 const WalkForces forces = forcesOf(bead);
                 putOnFace(walkField(), forces, bead, trail.face, {begin_, trail.place, {}, {}, 0.0});
                 s_.droplets.push_back(bead);
@@ -689,7 +691,7 @@ std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowTerrain& te
     for (const FlowDroplet& d : shown->droplets) {
         const bool is_airborne = d.contact == FlowContact::Air;
         samples.push_back({d.id, d.contact, is_airborne ? std::nullopt : std::optional(d.face), d.leg.placeAt(time),
-                           d.leg.velocityAt(time), terrain.surface().faces[d.face].normal, d.volume});
+                           d.leg.velocityAt(time), terrain.surface().faces[d.face].normal, d.volume, time - d.born});
     }
     return samples;
 }

@@ -26,7 +26,7 @@ std::string bytesOf(const FlowState& state)
     scalars(out, state);
     out.put(std::uint64_t{state.droplets.size()});
     for (const FlowDroplet& d : state.droplets) {
-        out.all(d.id, d.volume, d.drying, std::uint64_t{d.has_grown}, static_cast<std::uint64_t>(d.contact),
+        out.all(d.id, d.volume, d.drying, d.born, std::uint64_t{d.has_grown}, static_cast<std::uint64_t>(d.contact),
                 std::uint64_t{d.face}, std::uint64_t{d.side}, d.leg.begin, d.leg.place, d.leg.velocity, d.leg.push,
                 d.leg.decay, d.heading);
     }
@@ -57,13 +57,13 @@ FlowState flowStateFromBytes(std::string_view bytes, std::size_t faces, const st
     FlowState state;
     scalars(in, state);
     in.require(state.time >= 0.0);
-    state.droplets.resize(in.count(21 * sizeof(double)));
+    state.droplets.resize(in.count(22 * sizeof(double)));
     std::uint64_t previous_id = 0;
     for (FlowDroplet& d : state.droplets) {
         std::uint64_t has_grown = 0;
         std::uint64_t contact = 0;
         std::uint64_t side = 0;
-        in.all(d.id, d.volume, d.drying, has_grown, contact);
+        in.all(d.id, d.volume, d.drying, d.born, has_grown, contact);
         face(d.face);
         in.all(side, d.leg.begin, d.leg.place, d.leg.velocity, d.leg.push, d.leg.decay, d.heading);
         in.require(d.volume > 0.0 && d.drying >= 0.0 && d.leg.decay >= 0.0 && d.id > previous_id &&

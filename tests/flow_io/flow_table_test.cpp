@@ -12,25 +12,20 @@
 namespace droplet {
 namespace {
 
-/// A surface whose second face is triangle 1234567 of the mesh.
-FlowSurface surface()
+std::vector<FlowPoint> points()
 {
-    FlowSurface surface;
-    surface.faces.resize(2);
-    surface.faces[1].source = 1234567;
-    return surface;
-}
-
-std::vector<FlowSample> samples()
-{
-    FlowSample on_face;
+    FlowPoint on_face;
     on_face.id = 18446744073709551615ULL;
-    on_face.contact = FlowContact::Face;
-    on_face.face = 1;
+    on_face.face = 1234567;
+    on_face.axes = {Vec3{0.0, 1.0, 0.0}, {-1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+    on_face.radius = 2.5e-3;
+    on_face.elongation = 1.25;
+    on_face.age = 0.75;
     on_face.place = {0.1 + 0.2, 1.0 / 3.0, -1e-17};
     on_face.velocity = {-0.0, -0.7, 1e300};
     on_face.volume = 1.0 / 7e9;
-    FlowSample falling;
+    FlowPoint falling;
+    falling.axes = {Vec3{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     falling.id = 3;
     falling.volume = 1e-9;
     return {on_face, falling};
@@ -40,14 +35,15 @@ TEST(FlowTable, CsvReadsBackToTheSameNumbersWithYUp)
 {
     std::ostringstream out;
     FlowTable table(out, TableFormat::Csv);
-    table.add(0, 0.1 + 0.2, samples(), surface());
-    table.add(100000, 1.0, {}, surface());
+    table.add(0, 0.1 + 0.2, points());
+    table.add(100000, 1.0, {});
     table.finish();
     std::istringstream lines(out.str());
     std::string line;
     std::getline(lines, line);
     EXPECT_EQ(line,
-              "frame,time_s,id,x_m,y_m,z_m,velocity_x_m_per_s,velocity_y_m_per_s,velocity_z_m_per_s,volume_m3,face");
+              "frame,time_s,id,x_m,y_m,z_m,velocity_x_m_per_s,velocity_y_m_per_s,velocity_z_m_per_s,volume_m3,face,"
+              "radius_m,elongation,rotation_x,rotation_y,rotation_z,rotation_w,age_s");
     std::vector<std::vector<std::string>> rows;
     while (std::getline(lines, line)) {
         std::istringstream cells(line);
@@ -55,7 +51,7 @@ TEST(FlowTable, CsvReadsBackToTheSameNumbersWithYUp)
         for (std::string cell; std::getline(cells, cell, ',');) {
             rows.back().push_back(cell);
         }
-        ASSERT_EQ(rows.back().size(), 11U);
+        ASSERT_EQ(rows.back().size(), 18U);
     }
     ASSERT_EQ(rows.size(), 2U);
     EXPECT_EQ(rows[0][0], "0");
@@ -69,20 +65,32 @@ TEST(FlowTable, CsvReadsBackToTheSameNumbersWithYUp)
     }
     EXPECT_EQ(rows[0][10], "1234567") << "the number in the mesh";
     EXPECT_EQ(rows[1][10], "-1") << "in the air";
+    EXPECT_EQ(rows[0][11], "0.0025");
+    EXPECT_EQ(rows[0][12], "1.25");
+    EXPECT_EQ(rows[0][17], "0.75");
+    // With +Y up x is turned to −z, y to −x and z to y.
+    const std::vector<double> turn{-0.5, 0.5, 0.5, 0.5};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_NEAR(std::stod(rows[0][13 + i]), turn[i], 1e-15) << i;
+    }
 }
 
 TEST(FlowTable, JsonHasTheSameRows)
 {
     std::ostringstream out;
     FlowTable table(out, TableFormat::Json);
-    table.add(5, 2.0, samples(), surface());
-    table.add(6, 2.5, samples(), surface());
+    table.add(5, 2.0, points());
+    table.add(6, 2.5, points());
     table.finish();
     const auto json = nlohmann::json::parse(out.str());
     EXPECT_EQ(json.at("schema"), "droplet-shape.flow-droplets/1");
-    EXPECT_EQ(json.at("columns").size(), 11U);
+    EXPECT_EQ(json.at("columns").size(), 18U);
     ASSERT_EQ(json.at("rows").size(), 4U);
-    EXPECT_EQ(json.at("rows").at(3), nlohmann::json({6, 2.5, 3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-9, -1}));
+    nlohmann::json row = json.at("rows").at(3);
+    ASSERT_EQ(row.size(), 18U);
+    EXPECT_NEAR(row.at(13).get<double>(), -std::sqrt(0.5), 1e-15) << "z is turned to y";
+    row.erase(row.begin() + 11, row.end());
+    EXPECT_EQ(row, nlohmann::json({6, 2.5, 3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-9, -1}));
     EXPECT_EQ(json.at("rows").at(0).at(10), 1234567);
 }
 

@@ -136,6 +136,7 @@ struct FlowSample {
     Vec3 velocity;        ///< in the object's frame [m/s]
     Vec3 normal;          ///< of the surface, unit; in the air, of the face that it left
     double volume = 0.0;  ///< [m³]
+    double age = 0.0;     ///< time since it was released, or became a bead [s]
 };
 
 /// All droplets at the state's time, in the order of their ids.

@@ -22,6 +22,7 @@ struct FlowDroplet {
     std::uint64_t id = 0;                    ///< unique; selects the droplet's random stream
     double volume = 0.0;                     ///< [m³], > 0
     double drying = 0.0;                     ///< volume that evaporates in a second [m³/s], ≥ 0
+    double born = 0.0;                       ///< when it came to be [s]
     bool has_grown = false;                  ///< since neighbours were searched for
     FlowContact contact = FlowContact::Air;  ///< what it touches
     std::uint32_t face = 0;                  ///< number in FlowSurface::faces; in the air, the last one

@@ -6,8 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "droplet/flow/flow.h"
-#include "droplet/flow/flow_surface.h"
+#include "droplet/flow_io/flow_points.h"
 #include "droplet/io/table_format.h"
 
 namespace droplet {
@@ -18,8 +17,9 @@ class TableRows;
 /// memory.
 ///
 /// Columns, all in SI units: frame, time_s, id, x_m, y_m, z_m, velocity_x_m_per_s, velocity_y_m_per_s,
-/// velocity_z_m_per_s, volume_m3 and face. Places and velocities are in the object's frame, +Y up. The face is the
-/// number of the triangle in the object's mesh, −1 in the air. Numbers are the shortest that read back as the same
+/// velocity_z_m_per_s, volume_m3, face, radius_m, elongation, rotation_x, rotation_y, rotation_z, rotation_w and age_s,
+/// as in FlowPoint. Places, velocities and rotations are in the object's frame, +Y up. The face is the number of the
+/// triangle in the object's mesh, −1 in the air. A rotation turns x ahead and z to the ground's normal. Numbers are the shortest that read back as the same
 /// doubles; times are rounded to whole nanoseconds. CSV has a header; JSON is an object with `schema`
 /// "droplet-shape.flow-droplets/1", `columns` and `rows`, an array of arrays.
 class FlowTable {
@@ -33,11 +33,10 @@ public:
     FlowTable& operator=(FlowTable&&) noexcept;  ///< Moves the table.
 
     /// Writes the rows of one frame.
-    /// @param frame    number of the frame
-    /// @param time     [s]
-    /// @param samples  of that time
-    /// @param surface  that the samples' faces belong to
-    void add(std::size_t frame, double time, std::span<const FlowSample> samples, const FlowSurface& surface);
+    /// @param frame   number of the frame
+    /// @param time    [s]
+    /// @param points  of that time
+    void add(std::size_t frame, double time, std::span<const FlowPoint> points);
 
     /// Writes the text after the last row. The stream is in a failed state if a write failed.
     void finish();

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "droplet/body/droplet_body.h"
+#include "droplet/flow/flow.h"
+#include "droplet/flow/flow_terrain.h"
+#include "droplet/vector.h"
+
+namespace droplet {
+
+/// A droplet as a point with what instances of a unit droplet need.
+struct FlowPoint {
+    std::uint64_t id = 0;               ///< of the droplet
+    Vec3 place;                         ///< on the surface, or the centre in the air [m]
+    Vec3 velocity;                      ///< [m/s]
+    double volume = 0.0;                ///< [m³]
+    double radius = 0.0;                ///< half the width of the contact area, or of the ball in the air [m]
+    double elongation = 1.0;            ///< length over width of the contact area, ≥ 1 for most
+    std::array<Vec3, 3> axes;           ///< ahead, to the left, and the ground's normal; unit
+    double age = 0.0;                   ///< [s]
+    std::optional<std::uint32_t> face;  ///< number of the triangle in the object's mesh; empty in the air
+};
+
+/// Points of droplets, in the order of the samples, in the object's frame.
+/// @param samples  of sampleFlow()
+/// @param terrain  below them
+/// @param bodies   their shapes
+/// @param gravity  in the object's frame [m/s²]
+std::vector<FlowPoint> flowPoints(std::span<const FlowSample> samples, const FlowTerrain& terrain,
+                                  const DropletBodies& bodies, Vec3 gravity);
+
+/// Writes points as PLY, binary: x, y, z, the normal nx, ny, nz, velocity_x, velocity_y, velocity_z, the quaternion
+/// rotation_x, rotation_y, rotation_z, rotation_w that turns x ahead and z to the normal, radius, elongation, volume,
+/// age, all as floats in SI units, and id and face as integers, face −1 in the air, ids modulo 2³².
+/// The stream is in a failed state if a write failed.
+/// @param points  in the axes of the file
+/// @param out     takes the bytes
+/// @return        number of bytes
+std::uint64_t writePointsAsPly(std::span<const FlowPoint> points, std::ostream& out);
+
+/// A quaternion (x, y, z, w) that turns the x, y and z axes to a point's axes; w ≥ 0.
+std::array<double, 4> rotationOf(const FlowPoint& point);
+
+}  // namespace droplet
