@@ -117,11 +117,11 @@ std::vector<double> meansOverFaces(const HeightMap& picture, const FlowObject& o
     std::vector<double> means;
     means.reserve(surface.faces.size());
     for (const FlowSurface::Face& face : surface.faces) {
-        const auto& [a, b, c] = object.triangles[face.source];
+        const Triangle& triangle = object.triangles[face.source];
         const auto weights = cornerWeights(object, face);
         std::array<Vec2, 3> corners;
         std::transform(weights.begin(), weights.end(), corners.begin(), [&](const std::array<double, 3>& w) {
-            return w[0] * object.uvs[a] + w[1] * object.uvs[b] + w[2] * object.uvs[c];
+            return w[0] * object.uvs[triangle[0]] + w[1] * object.uvs[triangle[1]] + w[2] * object.uvs[triangle[2]];
         });
         means.push_back(meanOver(picture, corners));
     }

@@ -60,8 +60,8 @@ std::array<double, 4> rotationOf(const FlowPoint& point)
 std::uint64_t writePointsAsPly(std::span<const FlowPoint> points, std::ostream& out)
 {
     ByteStream bytes(out);
-    std::string head = "ply\nformat binary_little_endian 1.0\ncomment droplet-shape " + kVersion + "\nelement vertex " +
-                       std::to_string(points.size()) + "\n";
+    std::string head = std::string("ply\nformat binary_little_endian 1.0\ncomment droplet-shape ") + kVersion +
+                       "\nelement vertex " + std::to_string(points.size()) + "\n";
     for (const char* const name :
          {"x", "y", "z", "nx", "ny", "nz", "velocity_x", "velocity_y", "velocity_z", "rotation_x", "rotation_y",
           "rotation_z", "rotation_w", "radius", "elongation", "volume", "age"}) {

@@ -255,8 +255,13 @@ Vec3 unit(Vec3 v)
     return size > 0.0 ? (1.0 / size) * v : v;
 }
 
-/// Middle of the area within a rim.
-Vec2 middleOf(const Rim& rim, std::size_t count)
+/// What a rim encloses.
+struct Base {
+    double area = 0.0;
+    Vec2 middle;
+};
+
+Base baseOf(const Rim& rim, std::size_t count)
 {
     Vec2 sum;
     double area = 0.0;
@@ -264,31 +269,37 @@ Vec2 middleOf(const Rim& rim, std::size_t count)
         const Vec2 a = rim.seated(k).level;
         const Vec2 b = rim.seated((k + 1) % count).level;
         sum = sum + cross(a, b) * (a + b);
-        area += 3.0 * cross(a, b);
+        area += 0.5 * cross(a, b);
     }
-    return area != 0.0 ? (1.0 / area) * sum : Vec2{};
+    return {area, area != 0.0 ? (1.0 / (6.0 * area)) * sum : Vec2{}};
 }
 
-/// Leans a droplet, and moves one whose rim is drawn back on one side, as at the edge of a leaf, to the other side:
-/// otherwise its liquid would stand as a fin on what is left of its base.
+/// Leans a droplet, and moves one whose rim is drawn back on one side, as at the edge of a leaf, to the other side, as
+/// long as its base grows: otherwise its liquid would stand as a fin on what is left of its base.
 DropletFrame inward(const FlowTerrain& terrain, const DropletFrame& frame, const std::vector<Vec2>& rim_points,
                     double size)
 {
     constexpr int kMoves = 3;
     constexpr double kAside = 0.08;  // of the mean radius: less is no matter
     DropletFrame at = frame;
-    DropletFrame leant = leaning(terrain, at, size);
-    for (int k = 0; k < kMoves; ++k) {
+    DropletFrame best = frame;
+    double largest = 0.0;
+    for (int k = 0; k <= kMoves; ++k) {
+        const DropletFrame leant = leaning(terrain, at, size);
         const Ground ground(terrain, leant, size);
-        const Vec2 middle = middleOf(Rim(ground, rim_points), rim_points.size());
-        const auto height = ground.at(middle);
-        if (length(middle) <= kAside * size || !height) {
+        const Base base = baseOf(Rim(ground, rim_points), rim_points.size());
+        if (std::abs(base.area) <= largest) {
             break;
         }
-        at.place = ground.toSpace({middle, *height});
-        leant = leaning(terrain, at, size);
+        best = leant;
+        largest = std::abs(base.area);
+        const auto height = ground.at(base.middle);
+        if (length(base.middle) <= kAside * size || !height) {
+            break;
+        }
+        at.place = ground.toSpace({base.middle, *height});
     }
-    return leant;
+    return best;
 }
 
 }  // namespace

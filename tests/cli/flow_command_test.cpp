@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -72,7 +75,7 @@ protected:
         std::getline(lines, line);
         EXPECT_EQ(line,
                   "frame,time_s,id,x_m,y_m,z_m,velocity_x_m_per_s,velocity_y_m_per_s,velocity_z_m_per_s,volume_m3,"
-                  "face");
+                  "face,radius_m,elongation,rotation_x,rotation_y,rotation_z,rotation_w,age_s");
         while (std::getline(lines, line)) {
             std::istringstream cells(line);
             all.emplace_back();
@@ -264,7 +267,7 @@ TEST_F(FlowCommand, ShowsPresetsWithTheirOwnObjects)
     EXPECT_EQ(report["input"]["path"], "preset tear");
     EXPECT_EQ(report["model"]["motion"], "paper");
     EXPECT_EQ(report["counts"]["launches"], 1);
-    EXPECT_EQ(rows("tear.csv").front().size(), 11U);
+    EXPECT_EQ(rows("tear.csv").front().size(), 18U);
     EXPECT_EQ(preset({"bottle", path("b.glb"), "--time", "0.1s", "--quiet"}).exit_code, 0);
     EXPECT_THAT(preset({"tears", path("x.glb")}).error, HasSubstr("masses, viscosities, adhesions"));
     EXPECT_THAT(preset({"tear", path("slope.obj"), path("x.glb")}).error, HasSubstr("its own object"));
@@ -285,10 +288,13 @@ TEST_F(FlowCommand, TellsOfFullCoverAndOfTrianglesThatDoNotJoin)
         return lines;
     };
     EXPECT_THAT(warned("slope.obj", {"--object-size", "2cm", "--drops", "10"}), IsEmpty());
-    const auto at_edges = HasSubstr(" of 100 droplets at the end sit where the object ends");
     EXPECT_THAT(warned("slope.obj", {"--object-size", "2cm", "--drops", "100"}),
-                ElementsAre(AllOf(HasSubstr("--drops: 100 droplets cover"), HasSubstr("cm2")), at_edges));
-    EXPECT_THAT(warned("slope.obj", {"--object-size", "2cm", "--drops", "100", "--no-merge"}), ElementsAre(at_edges));
+                ElementsAre(AllOf(HasSubstr("--drops: 100 droplets cover"), HasSubstr("cm2"))));
+    EXPECT_THAT(warned("slope.obj", {"--object-size", "2cm", "--drops", "100", "--no-merge"}), IsEmpty());
+    // A strip narrower than a droplet.
+    testing::writeFile(path("strip.obj"), "v 0 0 0\nv 1 0 0\nv 1 50 -50\nv 0 50 -50\nf 1 2 3 4\n");
+    EXPECT_THAT(warned("strip.obj", {"--drops", "3"}),
+                ElementsAre(HasSubstr("3 of 3 droplets at the end sit where the object ends")));
     // Two triangles whose common corners differ by rounding.
     testing::writeFile(path("soup.obj"),
                        "v 0 0 0\nv 100 0 0\nv 100 50 -100\nv 0.001 0 0\nv 100.001 50 -100\nv 0 50 -100\n"
@@ -354,6 +360,38 @@ TEST_F(FlowCommand, RefusesWhatItCannotUse)
     testing::writeFile(path("tent.obj"),
                        "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
     expectRefused({"--emitter", "0.01,0.01,0.01,5uL/s"}, 2, "inside", "tent.obj");
+}
+
+TEST_F(FlowCommand, PointsOfEveryFrameAreThoseOfTheTable)
+{
+    const std::vector<std::string> scene{"--drops", "7", "--volume-spread", "0.5", "--time", "0.3s", "--fps", "10"};
+    const auto with = [&](const std::string& droplets) {
+        std::vector<std::string> arguments = scene;
+        arguments.insert(arguments.end(), {"--droplets", droplets});
+        return flow("out.glb", arguments).exit_code;
+    };
+    ASSERT_EQ(with(path("rows.csv")), 0);
+    ASSERT_EQ(with(path("points/%02d.ply")), 0);
+    const auto table = rows("rows.csv");
+    const std::string ply = readFile(path("points/02.ply"));
+    const std::size_t head = ply.find("end_header\n") + 11;
+    std::size_t count = 0;
+    for (const std::vector<double>& row : table) {
+        if (row[0] != 2.0) {
+            continue;
+        }
+        std::array<float, 18> point{};
+        std::memcpy(point.data(), ply.data() + head + 76 * count, 72);
+        const std::array<std::pair<std::size_t, std::size_t>, 5> same{{{0, 3}, {1, 4}, {2, 5}, {13, 11}, {15, 9}}};
+        for (const auto& [column, of_table] : same) {
+            EXPECT_NEAR(static_cast<double>(point[column]), row[of_table], 1e-6 * std::abs(row[of_table])) << column;
+        }
+        EXPECT_EQ(std::bit_cast<std::uint32_t>(point[17]), static_cast<std::uint32_t>(row[2]));
+        ++count;
+    }
+    EXPECT_EQ(ply.size(), head + 76 * count);
+    EXPECT_GT(count, 0U);
+    expectRefused({"--drops", "3", "--droplets", path("points.ply")}, 2, "points/%04d.ply");
 }
 
 TEST_F(FlowCommand, StreaksOfEveryFrameGrow)
