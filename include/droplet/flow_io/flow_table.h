@@ -19,9 +19,9 @@ class TableRows;
 /// Columns, all in SI units: frame, time_s, id, x_m, y_m, z_m, velocity_x_m_per_s, velocity_y_m_per_s,
 /// velocity_z_m_per_s, volume_m3, face, radius_m, elongation, rotation_x, rotation_y, rotation_z, rotation_w and age_s,
 /// as in FlowPoint. Places, velocities and rotations are in the object's frame, +Y up. The face is the number of the
-/// triangle in the object's mesh, −1 in the air. A rotation turns x ahead and z to the ground's normal. Numbers are the shortest that read back as the same
-/// doubles; times are rounded to whole nanoseconds. CSV has a header; JSON is an object with `schema`
-/// "droplet-shape.flow-droplets/1", `columns` and `rows`, an array of arrays.
+/// triangle in the object's mesh, −1 in the air. A rotation turns x ahead and z to the ground's normal. Numbers are the
+/// shortest that read back as the same doubles; times are rounded to whole nanoseconds. CSV has a header; JSON is an
+/// object with `schema` "droplet-shape.flow-droplets/1", `columns` and `rows`, an array of arrays.
 class FlowTable {
 public:
     /// Writes the text before the first row.
