@@ -60,8 +60,19 @@ Station between(const Station& a, const Station& b, double along)
             along};
 }
 
+/// Lifetime in an animation with frames of a duration: what becomes beads stays up to √2 times as long, so that few
+/// different lifetimes occur and few parts of the mesh vanish by themselves.
+double shownFor(const TrailFilm& film, const Passage& passage, std::optional<double> frame)
+{
+    const double life = lifetime(film, passage);
+    if (!frame || !std::isfinite(life) || life == film.drying) {
+        return life;
+    }
+    return *frame * std::exp2(0.5 * std::ceil(2.0 * std::log2(std::max(life / *frame, 1.0))));
+}
+
 /// Adds a piece of a ribbon.
-void append(std::span<const Station> stations, const TrailFilm& film, StreakMesh& mesh)
+void append(std::span<const Station> stations, const TrailFilm& film, std::optional<double> frame, StreakMesh& mesh)
 {
     Surface& surface = mesh.surface;
     constexpr auto kCount = static_cast<std::uint32_t>(kAcross.size());
@@ -87,7 +98,7 @@ void append(std::span<const Station> stations, const TrailFilm& film, StreakMesh
             surface.triangles.push_back({a, a + 1, a + kCount + 1});
             surface.triangles.push_back({a, a + kCount + 1, a + kCount});
             mesh.wetted.insert(mesh.wetted.end(), 2, passage.time);
-            mesh.gone.insert(mesh.gone.end(), 2, passage.time + lifetime(film, passage));
+            mesh.gone.insert(mesh.gone.end(), 2, passage.time + shownFor(film, passage, frame));
         }
     }
 }
@@ -218,7 +229,7 @@ StreakMesh StreakRibbons::meshOf(std::optional<double> time, std::optional<doubl
             std::optional<Station> dry;  // the last station, if nothing is there
             const auto end = [&] {
                 if (piece.size() > 1) {
-                    append(piece, film_, mesh);
+                    append(piece, film_, step, mesh);
                 }
                 piece.clear();
             };

@@ -19,7 +19,7 @@ namespace droplet {
 struct StreakMesh {
     Surface surface;             ///< without triangles if there are no streaks
     std::vector<double> wetted;  ///< when each triangle was wetted [s]
-    std::vector<double> gone;    ///< when nothing of it is left [s]; infinity: it stays
+    std::vector<double> gone;    ///< when nothing of it is left, or up to √2 times as long after `wetted` [s]
 };
 
 /// Mesh of the streaks behind droplets: a ribbon along the path of each droplet, from face to face. Where a droplet has
