@@ -59,13 +59,13 @@ void addStreaks(const StreakMesh& streaks, std::size_t object, std::uint32_t fra
     const std::size_t all = scene.addNode({"streaks"}, object);
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Triangle>> by_frames;
     const double rate = scene.frames_per_second;
-    const auto frameOf = [&](double time) {
+    const auto frame_of = [&](double time) {
         constexpr double kRounding = 1e-6;
         return static_cast<std::uint32_t>(
             std::clamp(std::ceil(time * rate - kRounding), 0.0, static_cast<double>(frames)));
     };
     for (std::size_t i = 0; i < streaks.wetted.size(); ++i) {
-        const std::pair when{frameOf(streaks.wetted[i]), frameOf(streaks.gone[i])};
+        const std::pair when{frame_of(streaks.wetted[i]), frame_of(streaks.gone[i])};
         if (when.first < when.second) {
             by_frames[when].push_back(streaks.surface.triangles[i]);
         }
