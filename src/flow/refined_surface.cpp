@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether an edge is halved depends on its ends alone, so both of its triangles agree and the result has no gaps. The
 // middle of two points is the same number from either side, by which flowSurface() joins the pieces.
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -60,7 +62,7 @@ std::size_t split(const Piece& whole, double longest, std::vector<Piece>& pieces
 
 }  // namespace
 
-FlowSurface refined(const FlowSurface& surface, double longest)
+FlowSurface refined(const FlowSurface& surface, double longest, std::size_t most)
 {
     std::vector<Piece> pieces;
     for (std::uint32_t f = 0; f < surface.faces.size(); ++f) {
@@ -72,6 +74,9 @@ FlowSurface refined(const FlowSurface& surface, double longest)
         next.reserve(2 * pieces.size());
         for (const Piece& piece : pieces) {
             has_split |= split(piece, longest, next) > 1;
+        }
+        if (next.size() > std::max(most, 2 * surface.faces.size())) {
+            break;
         }
         pieces = std::move(next);
     }

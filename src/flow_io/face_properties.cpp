@@ -120,9 +120,8 @@ std::vector<double> meansOverFaces(const HeightMap& picture, const FlowObject& o
         const Triangle& triangle = object.triangles[face.source];
         const auto weights = cornerWeights(object, face);
         std::array<Vec2, 3> corners;
-        std::transform(weights.begin(), weights.end(), corners.begin(), [&](const std::array<double, 3>& w) {
-            return w[0] * object.uvs[triangle[0]] + w[1] * object.uvs[triangle[1]] + w[2] * object.uvs[triangle[2]];
-        });
+        std::transform(weights.begin(), weights.end(), corners.begin(),
+                       [&](const std::array<double, 3>& w) { return mixed(object.uvs, triangle, w); });
         means.push_back(meanOver(picture, corners));
     }
     return means;
@@ -166,16 +165,8 @@ std::function<double(const FlowTerrain::Point&)> coverageOver(const Mask& mask, 
 {
     requireUv(object, "a mask");
     return [&](const FlowTerrain::Point& point) {
-        const auto& [a, b, c] = object.triangles[surface.faces[point.face].source];
-        // Barycentric coordinates from areas.
-        const Vec3 p = object.vertices[b] - object.vertices[a];
-        const Vec3 q = object.vertices[c] - object.vertices[a];
-        const Vec3 r = point.place - object.vertices[a];
-        const Vec3 normal = cross(p, q);
-        const double area = dot(normal, normal);
-        const double s = dot(cross(r, q), normal) / area;
-        const double t = dot(cross(p, r), normal) / area;
-        const Vec2 uv = (1.0 - s - t) * object.uvs[a] + s * object.uvs[b] + t * object.uvs[c];
+        const Triangle& triangle = object.triangles[surface.faces[point.face].source];
+        const Vec2 uv = mixed(object.uvs, triangle, weightsAt(object, triangle, point.place));
         constexpr double kCovered = 65535.0;
         return mask.at(pixelAt(uv.x, mask.width), pixelAt(uv.y, mask.height)) / kCovered;
     };

@@ -74,8 +74,8 @@ struct FlowPainter::Content {
         stand.vertices = std::move(own.vertices);
         stand.normals = std::move(own.normals);
         stand.triangles = std::move(own.triangles);
-        if (!own.looks.empty() && !own.materials.empty()) {
-            render.stand_looks = std::move(own.looks);
+        if (!object.looks.empty() && !own.materials.empty()) {
+            render.stand_looks = object.looks;
             render.stand_materials = std::move(own.materials);
         }
         stand.uvs = own.uvs.empty() ? std::vector<Vec2>(stand.vertices.size()) : std::move(own.uvs);

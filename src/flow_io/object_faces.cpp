@@ -6,19 +6,23 @@
 
 namespace droplet {
 
-std::array<std::array<double, 3>, 3> cornerWeights(const FlowObject& object, const FlowSurface::Face& face)
+std::array<double, 3> weightsAt(const FlowObject& object, const Triangle& triangle, Vec3 place)
 {
-    const Triangle& triangle = object.triangles[face.source];
     const Vec3 a = object.vertices[triangle[0]];
     const Vec3 p = object.vertices[triangle[1]] - a;
     const Vec3 q = object.vertices[triangle[2]] - a;
     const Vec3 across = cross(p, q);
+    const Vec3 d = place - a;
+    const double v = dot(cross(d, q), across) / dot(across, across);
+    const double w = dot(cross(p, d), across) / dot(across, across);
+    return {1.0 - v - w, v, w};
+}
+
+std::array<std::array<double, 3>, 3> cornerWeights(const FlowObject& object, const FlowSurface::Face& face)
+{
     std::array<std::array<double, 3>, 3> weights{};
     for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 d = face.corners[k] - a;
-        const double v = dot(cross(d, q), across) / dot(across, across);
-        const double w = dot(cross(p, d), across) / dot(across, across);
-        weights[k] = {1.0 - v - w, v, w};
+        weights[k] = weightsAt(object, object.triangles[face.source], face.corners[k]);
     }
     return weights;
 }
@@ -27,21 +31,16 @@ FlowObject onFaces(const FlowObject& object, const FlowSurface& surface)
 {
     FlowObject result;
     result.material_names = object.material_names;
-    result.looks = object.looks;
     for (const FlowSurface::Face& face : surface.faces) {
         const Triangle& triangle = object.triangles[face.source];
         const auto weights = cornerWeights(object, face);
         const auto first = static_cast<std::uint32_t>(result.vertices.size());
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto mixed = [&](const auto& values) {
-                return weights[k][0] * values[triangle[0]] + weights[k][1] * values[triangle[1]] +
-                       weights[k][2] * values[triangle[2]];
-            };
-            const Vec3 normal = mixed(object.normals);
+            const Vec3 normal = mixed(object.normals, triangle, weights[k]);
             result.vertices.push_back(face.corners[k]);
             result.normals.push_back(length(normal) > 0.0 ? (1.0 / length(normal)) * normal : face.normal);
             if (!object.uvs.empty()) {
-                result.uvs.push_back(mixed(object.uvs));
+                result.uvs.push_back(mixed(object.uvs, triangle, weights[k]));
             }
         }
         result.triangles.push_back({first, first + 1, first + 2});

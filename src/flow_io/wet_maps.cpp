@@ -75,9 +75,8 @@ std::vector<Vec3> tangentsOn(const FlowSurface& surface, const FlowObject& objec
     }
     std::vector<Vec3> on_faces;
     for (const FlowSurface::Face& face : surface.faces) {
-        const auto& [a, b, c] = object.triangles[face.source];
-        for (const std::array<double, 3>& w : cornerWeights(object, face)) {
-            on_faces.push_back(w[0] * tangents[a] + w[1] * tangents[b] + w[2] * tangents[c]);
+        for (const std::array<double, 3>& weights : cornerWeights(object, face)) {
+            on_faces.push_back(mixed(tangents, object.triangles[face.source], weights));
         }
     }
     return on_faces;
@@ -170,11 +169,6 @@ struct WetMapper::Content {
         return length(cross(p, q)) / std::abs(t.twice);
     }
 
-    static Vec3 mixed(const std::vector<Vec3>& values, const Triangle& triangle, const std::array<double, 3>& weights)
-    {
-        return weights[0] * values[triangle[0]] + weights[1] * values[triangle[1]] + weights[2] * values[triangle[2]];
-    }
-
     // Texels beside the islands repeat them.
     void fillGutter(std::vector<std::uint32_t>& owner)
     {
@@ -209,14 +203,9 @@ struct WetMapper::Content {
     [[nodiscard]] Vec3 inTangentFrame(Vec3 normal, const WaterAt& at) const
     {
         const Triangle& triangle = object.triangles[at.face];
-        const Vec3 a = object.vertices[triangle[0]];
-        const Vec3 p = object.vertices[triangle[1]] - a;
-        const Vec3 q = object.vertices[triangle[2]] - a;
-        const Vec3 across = cross(p, q);
-        const Vec3 d = spots.place(at.spot) - a;
-        const double v = dot(cross(d, q), across) / dot(across, across);
-        const double w = dot(cross(p, d), across) / dot(across, across);
-        const std::array<double, 3> weights{1.0 - v - w, v, w};
+        const Vec3 across = cross(object.vertices[triangle[1]] - object.vertices[triangle[0]],
+                                  object.vertices[triangle[2]] - object.vertices[triangle[0]]);
+        const std::array<double, 3> weights = weightsAt(object, triangle, spots.place(at.spot));
         const Vec3 up = unit(mixed(object.normals, triangle, weights));
         const Vec3 tangent = mixed(tangents, triangle, weights);
         const Vec3 x = unit(tangent - dot(tangent, up) * up);

@@ -258,16 +258,23 @@ private:
         return trace({meeting.place, direction}, next);
     }
 
+    // Share of light that matter mirrors upright, and how far it goes to all of it at a slant (C. Schlick, Computer
+    // Graphics Forum 13 (1994) 233).
+    // @param outside  refractive index
+    static Vec3f reflectance(const Look& look, Vec3f colour, double outside)
+    {
+        const auto ratio = static_cast<float>((look.ior - outside) / (look.ior + outside));
+        return mix(grey(ratio * ratio), colour, static_cast<float>(look.metallic));
+    }
+    static float grazing(float cosine) { return std::pow(1.0F - cosine, 5.0F); }
+
     [[nodiscard]] Vec3f opaque(const RayF& ray, const Meeting& meeting, Vec3f normal, const Way& way) const
     {
         const Look& look = lookAt(media_.dropletAt(scene_, meeting));
         const Vec3f colour = mapAt(ray, meeting, way) * toFloats(look.colour);
         const auto metal = static_cast<float>(look.metallic);
         const float cosine = std::clamp(-dot(ray.direction, normal), 0.0F, 1.0F);
-        const float grazing = std::pow(1.0F - cosine, 5.0F);
-        const auto ratio = static_cast<float>((look.ior - 1.0) / (look.ior + 1.0));
-        const Vec3f upright = mix(grey(ratio * ratio), colour, metal);
-        const Vec3f mirror_share = mix(upright, grey(1.0F), grazing);
+        const Vec3f mirror_share = mix(reflectance(look, colour, 1.0), grey(1.0F), grazing(cosine));
         const Vec3f mirror = mirrored(ray.direction, normal);
         // Rough materials reflect a blurred room.
         const Vec3f gloss =
@@ -357,7 +364,10 @@ private:
         const auto metal = static_cast<float>(look.metallic);
         const Vec3f normal = facing(ray.direction, meeting.normal);
         const double outside = way.inside ? lookAt(way.droplet).ior : 1.0;
-        const Vec3f mirror_share = reflectance(look, matter, -dot(ray.direction, normal), outside);
+        const float cosine = std::clamp(-dot(ray.direction, normal), 0.0F, 1.0F);
+        // Rough matter has no bright edges.
+        const Vec3f mirror_share = mix(reflectance(look, matter, outside), grey(1.0F),
+                                       grazing(cosine) * (1.0F - static_cast<float>(look.roughness)));
         const Vec3f mirror = mirrored(ray.direction, normal);
         const float blur = smoothstep(0.0F, 0.4F, static_cast<float>(look.roughness));
         const Vec3f sharp = blur < 1.0F ? onward(before(meeting, ray, way.inside), mirror, way,
@@ -370,16 +380,6 @@ private:
             seen = mix(seen, throughWall(ray, meeting, way, matter), passes);
         }
         return seen;
-    }
-
-    // Share of light that matter mirrors (C. Schlick, Computer Graphics Forum 13 (1994) 233).
-    static Vec3f reflectance(const Look& look, Vec3f colour, float cosine, double outside)
-    {
-        const auto ratio = static_cast<float>((look.ior - outside) / (look.ior + outside));
-        const Vec3f upright = mix(grey(ratio * ratio), colour, static_cast<float>(look.metallic));
-        const float grazing = std::pow(1.0F - std::clamp(cosine, 0.0F, 1.0F), 5.0F);
-        // Rough matter has no bright edges.
-        return mix(upright, grey(1.0F), grazing * (1.0F - static_cast<float>(look.roughness)));
     }
 
     // A meeting with ground whose facet points out of the liquid, or towards the ray in air.

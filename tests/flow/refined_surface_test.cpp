@@ -53,6 +53,37 @@ TEST(RefinedSurface, HasNoLongEdgesAndNoGaps)
     }
 }
 
+TEST(RefinedSurface, OfNeedlesHasABoundedNumberOfFacesAndNoGaps)
+{
+    // A strip 40 mm wide and 2 m high of needles: to halve edges down to 4 mm would take millions of faces.
+    std::vector<Vec3> vertices;
+    std::vector<Triangle> triangles;
+    for (std::uint32_t k = 0; k <= 40; ++k) {
+        vertices.push_back({1e-3 * k, 0.0, 0.0});
+        vertices.push_back({1e-3 * k, 0.0, 2.0});
+    }
+    for (std::uint32_t k = 0; k < 40; ++k) {
+        triangles.push_back({2 * k, 2 * k + 2, 2 * k + 3});
+        triangles.push_back({2 * k, 2 * k + 3, 2 * k + 1});
+    }
+    const FlowSurface coarse = flowSurface(vertices, triangles);
+    const FlowSurface fine = refined(coarse, 4e-3, 20'000);
+    EXPECT_GT(fine.faces.size(), 4000U);
+    EXPECT_LE(fine.faces.size(), 20'000U);
+    EXPECT_NEAR(areaOf(fine), areaOf(coarse), 1e-9);
+    std::size_t boundary = 0;
+    for (const FlowSurface::Face& face : fine.faces) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 middle = 0.5 * (face.corners[k] + face.corners[(k + 1) % 3]);
+            const bool is_inside =
+                middle.x > 1e-9 && middle.x < 0.04 - 1e-9 && middle.z > 1e-9 && middle.z < 2.0 - 1e-9;
+            boundary += face.neighbour[k] == FlowSurface::kNone ? 1 : 0;
+            EXPECT_TRUE(!is_inside || face.neighbour[k] != FlowSurface::kNone);
+        }
+    }
+    EXPECT_GT(boundary, 0U);
+}
+
 TEST(RefinedSurface, IsTheSameIfNoEdgeIsLong)
 {
     const FlowSurface coarse = tetrahedron();

@@ -65,6 +65,13 @@ std::array<double, 3> meanOf(const Picture& picture, int left = 24, int right = 
     return mean;
 }
 
+void expectAlike(const Picture& a, const Picture& b)
+{
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+        EXPECT_NEAR(a.rgb[i], b.rgb[i], 1) << i;
+    }
+}
+
 StandLook opaqueLook(Vec3 colour)
 {
     StandLook look;
@@ -154,9 +161,7 @@ TEST(StandLook, ADropletOfAirOnAPaneIsInvisible)
     options.look.ior = 1.0;
     const Picture without = render(Surface(), options);
     const Picture with = render(cap(), options);
-    for (std::size_t i = 0; i < with.rgb.size(); ++i) {
-        EXPECT_NEAR(with.rgb[i], without.rgb[i], 1) << i;
-    }
+    expectAlike(with, without);
     options.look.ior = 1.333;
     EXPECT_NE(render(cap(), options), without) << "one of water refracts";
 }
@@ -169,9 +174,7 @@ TEST(StandLook, ADropletIsInvisibleOrRefractsFromBehind)
     options.look.ior = 1.0;
     const Picture without = render(Surface(), options);
     const Picture with = render(cap(), options);
-    for (std::size_t i = 0; i < with.rgb.size(); ++i) {
-        EXPECT_NEAR(with.rgb[i], without.rgb[i], 1) << i;
-    }
+    expectAlike(with, without);
     options.look.ior = 1.333;
     const auto dark = meanOf(render(cap(), options));
     EXPECT_GT(dark[1], 0.2 * meanOf(without)[1]) << "light passes";

@@ -54,7 +54,8 @@ FlowSurface flowSurface(const std::vector<Vec3>& vertices, const std::vector<Tri
 /// to the whole of it. Faces keep their `source`; the report stays that of the mesh.
 /// @param surface  made by flowSurface()
 /// @param longest  [m], > 0
+/// @param most     halving ends before there are more faces, and twice as many as there were: needles need very many
 /// @return         the surface itself if that leads to triangles without an area, by rounding
-FlowSurface refined(const FlowSurface& surface, double longest);
+FlowSurface refined(const FlowSurface& surface, double longest, std::size_t most = 600'000);
 
 }  // namespace droplet
