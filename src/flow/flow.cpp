@@ -622,7 +622,7 @@ void requireFits(double volume, const FlowTerrain& terrain, const FlowParameters
     const double width = 2.0 * contactRadius(parameters, volume);
     if (!(width < terrain.diameter())) {
         refuseValue(
-            "a droplet's volume", volume,
+            "a droplet's volume", numberText(volume) + " m3",
             "smaller: it is " + numberText(width) + " m wide, and the object " + numberText(terrain.diameter()) + " m");
     }
 }

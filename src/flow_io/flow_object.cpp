@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/flow_io/flow_object.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -84,6 +87,14 @@ void resize(FileMesh& mesh, const FlowObjectOptions& options, const std::string&
         for (Vec3& p : mesh.vertices) {
             p = factor * p;
         }
+        for (FileMaterial& material : mesh.looks) {
+            if (material.thickness) {
+                *material.thickness *= factor;
+            }
+            if (material.absorption) {
+                material.absorption->distance *= factor;
+            }
+        }
     }
     if (!hasArea(mesh)) {
         refuse("has no triangle with an area");
@@ -106,22 +117,81 @@ ObjectMotion motionOf(const FileMotion& from)
     return motion;
 }
 
-/// Look of a file's material; an image that cannot be read is left out, with a warning.
-StandLook lookOf(const FileMaterial& material, const std::string& name, std::vector<std::string>& warnings)
+/// Takes a texture's picture, and its bytes where files can have them. What cannot be shown is a warning.
+/// @param name      of the object's file
+/// @param warnings  get a line
+std::optional<Picture> takeTexture(const FileTexture& texture, const std::string& name, std::string& bytes,
+                                   std::vector<std::string>& warnings)
 {
-    StandLook look{material.look, material.opacity, {}};
-    std::string fault = material.image_fault;
-    if (!material.image.empty()) {
+    std::optional<Picture> picture;
+    std::string fault = texture.fault;
+    if (!texture.image.empty()) {
         try {
-            look.colours = decodePicture(material.image);
+            picture = decodePicture(texture.image);
+            const std::string_view image(reinterpret_cast<const char*>(texture.image.data()), texture.image.size());
+            if (image.starts_with("\x89PNG") || image.starts_with("\xff\xd8")) {
+                bytes = image;
+            }
         } catch (const Error& error) {
-            fault = std::string("an image: ") + error.what();
+            fault = error.what();
         }
     }
     if (!fault.empty()) {
-        warnings.push_back(name + " is shown without a texture: " + fault);
+        warnings.push_back(picture ? name + ": " + texture.name + " " + fault
+                                   : name + " is shown without a texture: " + texture.name + " " + fault);
     }
-    return look;
+    return picture;
+}
+
+/// Whether a picture is of directions: its colours differ, and are bluish on average. Heights are grey.
+bool hasDirections(const Picture& picture)
+{
+    std::array<double, 3> sum{};
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
+        sum[i % 3] += picture.rgb[i];
+    }
+    return sum[2] > 1.2 * std::max(sum[0], sum[1]);
+}
+
+void takeLook(const FileMaterial& material, const std::string& name, FlowObject& object)
+{
+    LookImages& images = object.images.emplace_back();
+    StandLook& look = object.looks.emplace_back(StandLook{.look = material.look,
+                                                          .opacity = material.opacity,
+                                                          .thickness = material.thickness,
+                                                          .absorption = material.absorption,
+                                                          .relief = material.relief});
+    look.colours = takeTexture(material.colours, name, images.colours, object.warnings);
+    look.normals = takeTexture(material.normals, name, images.normals, object.warnings);
+    look.finish = takeTexture(material.finish, name, images.finish, object.warnings);
+    if (look.normals && !hasDirections(*look.normals)) {
+        object.warnings.push_back(name + " is shown without " + material.normals.name +
+                                  ", which has heights instead of directions");
+        look.normals.reset();
+        images.normals.clear();
+    }
+}
+
+/// Thickness of matter for viewers, where the file does not tell it: that of a plate of its volume and area.
+void guessThickness(FlowObject& object)
+{
+    std::vector<double> volumes(object.looks.size());
+    std::vector<double> areas(object.looks.size());
+    for (std::size_t i = 0; !object.looks.empty() && i < object.materials.size(); ++i) {
+        const auto [a, b, c] = object.triangles[i];
+        const Vec3 p = object.vertices[a] - object.vertices[0];
+        const Vec3 q = object.vertices[b] - object.vertices[0];
+        const Vec3 r = object.vertices[c] - object.vertices[0];
+        volumes[object.materials[i]] += dot(p, cross(q, r)) / 6.0;
+        areas[object.materials[i]] += 0.5 * length(cross(q - p, r - p));
+    }
+    for (std::size_t m = 0; m < object.looks.size(); ++m) {
+        std::optional<double>& thickness = object.looks[m].thickness;
+        const double plate = 2.0 * std::abs(volumes[m]) / areas[m];
+        if (thickness && *thickness == 0.0) {
+            thickness = plate > 0.0 && std::isfinite(plate) ? plate : 1e-3;
+        }
+    }
 }
 
 }  // namespace
@@ -139,6 +209,7 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
     const bool is_ply = readableFormat(path) == Format::Ply;
     FileMesh mesh = readFileMesh(path, {.uvs = true,
                                         .polygons = true,
+                                        .creases = true,
                                         .looks = true,
                                         .motion = true,
                                         .y_up = options.up.value_or(is_ply ? UpAxis::Z : UpAxis::Y) == UpAxis::Y});
@@ -160,12 +231,13 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
     object.triangles = std::move(mesh.triangles);
     object.materials = std::move(mesh.materials);
     object.material_names = std::move(mesh.material_names);
-    for (const FileMaterial& material : mesh.looks) {
-        const std::string_view image(reinterpret_cast<const char*>(material.image.data()), material.image.size());
-        const bool fits_files = image.starts_with("\x89PNG") || image.starts_with("\xff\xd8");
-        object.looks.push_back(lookOf(material, name, object.warnings));
-        object.images.emplace_back(fits_files && object.looks.back().colours ? image : std::string_view{});
+    for (const std::string& fault : mesh.look_faults) {
+        object.warnings.push_back(fmt::format("{} is shown without all of its materials: {}", name, fault));
     }
+    for (const FileMaterial& material : mesh.looks) {
+        takeLook(material, name, object);
+    }
+    guessThickness(object);
     if (mesh.motion) {
         object.motion = motionOf(*mesh.motion);
     }

@@ -77,6 +77,7 @@ struct FlowPainter::Content {
         if (!object.looks.empty() && !own.materials.empty()) {
             render.stand_looks = object.looks;
             render.stand_materials = std::move(own.materials);
+            render.shows_room = isSeenThrough();
         }
         stand.uvs = own.uvs.empty() ? std::vector<Vec2>(stand.vertices.size()) : std::move(own.uvs);
         water.divisions.resize(stand.triangles.size());
@@ -90,6 +91,22 @@ struct FlowPainter::Content {
         spots.first.push_back(static_cast<std::uint32_t>(spots.places.size()));
         water.film.resize(spots.places.size());
         wet.emplace(spots.places.size(), options.film);
+    }
+
+    // Whether most of the object, by area, lets light pass.
+    [[nodiscard]] bool isSeenThrough() const
+    {
+        double clear = 0.0;
+        double all = 0.0;
+        for (std::size_t i = 0; i < stand.triangles.size(); ++i) {
+            const auto [a, b, c] = stand.triangles[i];
+            const double area =
+                length(cross(stand.vertices[b] - stand.vertices[a], stand.vertices[c] - stand.vertices[a]));
+            const StandLook& look = options.render.stand_looks[options.render.stand_materials[i]];
+            all += area;
+            clear += look.look.transmission + (1.0 - look.opacity) > 0.5 ? area : 0.0;
+        }
+        return clear > 0.5 * all;
     }
 
     void addPlaces(std::uint32_t triangle)

@@ -34,10 +34,18 @@ std::size_t addObject(const FlowObject& object, Scene& scene)
             SceneMaterial material = opaqueMaterial(names[i], 0.6);
             material.look.colour = {0.6, 0.6, 0.6};
             if (!object.looks.empty()) {
-                material.look = object.looks[i].look;
+                const StandLook& look = object.looks[i];
+                const LookImages& images = object.images[i];
+                material = {.look = look.look,
+                            .thickness = look.thickness,
+                            .absorption = look.absorption,
+                            .opacity = look.opacity,
+                            .both_sides = !look.thickness,
+                            .image = images.colours,
+                            .normal_image = images.normals,
+                            .relief = look.relief,
+                            .finish_image = images.finish};
                 material.look.name = names[i];
-                material.opacity = object.looks[i].opacity;
-                material.image = object.images[i];
             }
             parts[i].material = scene.addMaterial(std::move(material));
             geometry.parts.push_back(std::move(parts[i]));

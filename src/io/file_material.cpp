@@ -2,11 +2,13 @@
 #include "io/file_material.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <locale>
 #include <optional>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 namespace droplet {
 namespace {
@@ -14,15 +16,37 @@ namespace {
 constexpr std::uint64_t kMaxImage = std::uint64_t{256} << 20U;   // [bytes]
 constexpr std::uint64_t kMaxLibrary = std::uint64_t{16} << 20U;  // [bytes], of a .mtl
 
+/// File that another one names: a path to a place in its folder, or else the last part of any path, since programs
+/// write the places of the computer that they ran on.
 std::optional<std::filesystem::path> beside(const std::filesystem::path& folder, std::string name)
 {
     std::replace(name.begin(), name.end(), '\\', '/');
     const std::filesystem::path path(std::u8string(name.begin(), name.end()));
-    const bool is_inside = !name.empty() && path.is_relative() && name.find(':') == std::string::npos &&
+    const bool is_inside = path.is_relative() && name.find(':') == std::string::npos &&
                            std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
     std::error_code none;
-    return is_inside && std::filesystem::is_regular_file(folder / path, none) ? std::optional(folder / path)
-                                                                              : std::nullopt;
+    for (const std::filesystem::path& inside : {is_inside ? path : std::filesystem::path(), path.filename()}) {
+        if (!inside.empty() && std::filesystem::is_regular_file(folder / inside, none)) {
+            return folder / inside;
+        }
+    }
+    return std::nullopt;
+}
+
+/// A name as it may be meant: with blanks, in quotes, or before a comment.
+/// @return  the first that is a file beside another one, else the first
+std::string meant(const std::string& written, const std::filesystem::path& folder)
+{
+    std::vector<std::string> names{written};
+    if (const std::size_t comment = written.find(" #"); comment != std::string::npos) {
+        names.push_back(written.substr(0, written.find_last_not_of(" \t", comment) + 1));
+    }
+    if (const std::string& last = names.back(); last.size() > 2 && last.front() == '"' && last.back() == '"') {
+        names.push_back(last.substr(1, last.size() - 2));
+    }
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [&](const std::string& name) { return beside(folder, name).has_value(); });
+    return found != names.end() ? *found : names.back();
 }
 
 std::string restOf(std::istringstream& line)
@@ -33,56 +57,189 @@ std::string restOf(std::istringstream& line)
     return rest;
 }
 
+std::string_view withoutMark(std::string_view text)
+{
+    constexpr std::string_view kMark = "\xef\xbb\xbf";  // UTF-8's byte order mark
+    return text.substr(text.starts_with(kMark) ? kMark.size() : 0);
+}
+
+/// Statement of a texture: options, then the name of a file.
+struct TextureLine {
+    std::string name;
+    double bump = 1.0;       ///< option -bm
+    std::string is_ignored;  ///< an option that changes what is seen; or empty
+};
+
+std::optional<double> numberIn(const std::string& word)
+{
+    std::istringstream in(word);
+    in.imbue(std::locale::classic());
+    double value = 0.0;
+    return in >> value && in.eof() && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+TextureLine textureLine(std::istringstream& line)
+{
+    TextureLine texture;
+    std::string rest = restOf(line);
+    const auto take_word = [&] {
+        const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
+        std::string word = rest.substr(0, end);
+        rest.erase(0, std::min(rest.find_first_not_of(" \t", end), rest.size()));
+        return word;
+    };
+    while (rest.starts_with('-')) {
+        const std::string option = take_word();
+        if (option == "-s" || option == "-o" || option == "-t") {
+            const double usual = option == "-s" ? 1.0 : 0.0;
+            for (int k = 0; k < 3; ++k) {
+                const auto value = numberIn(rest.substr(0, rest.find_first_of(" \t")));
+                if (!value) {
+                    break;
+                }
+                take_word();
+                texture.is_ignored = *value != usual ? option : texture.is_ignored;
+            }
+        } else if (option == "-mm") {
+            take_word();
+            take_word();
+            texture.is_ignored = option;
+        } else {
+            const std::string value = take_word();
+            texture.bump = option == "-bm" ? numberIn(value).value_or(1.0) : texture.bump;
+        }
+    }
+    texture.name = std::move(rest);
+    return texture;
+}
+
+FileTexture readTexture(const TextureLine& line, const std::filesystem::path& folder)
+{
+    FileTexture texture = readTextureBeside(folder, meant(line.name, folder));
+    if (texture.fault.empty() && !line.is_ignored.empty()) {
+        texture.fault = "is shown without the material's option " + line.is_ignored;
+    }
+    return texture;
+}
+
+/// What a library says of a material, and what follows from all of it.
+struct ObjMaterial {
+    FileMaterial material = plainMaterial();
+    std::optional<Vec3> filter;  ///< Tf
+    bool has_opacity = false;
+    int illumination = 2;
+
+    FileMaterial finish() &&
+    {
+        constexpr std::array<int, 2> kRefracts = {6, 7};
+        if (std::find(kRefracts.begin(), kRefracts.end(), illumination) != kRefracts.end()) {
+            material.thickness = 0.0;
+            material.look.transmission = has_opacity ? 1.0 - material.opacity : 1.0;
+            material.opacity = 1.0;
+            material.look.colour = filter.value_or(material.look.colour);
+        }
+        return std::move(material);
+    }
+};
+
+/// Channels of a colour; those that are missing are the first.
+std::optional<Vec3> colourIn(std::istringstream& line)
+{
+    Vec3 colour;
+    if (!(line >> colour.x)) {
+        return std::nullopt;
+    }
+    if (!(line >> colour.y >> colour.z)) {
+        colour.y = colour.z = colour.x;
+    }
+    const auto share = [](double a) { return std::isfinite(a) ? std::clamp(a, 0.0, 1.0) : 1.0; };
+    return Vec3{share(colour.x), share(colour.y), share(colour.z)};
+}
+
+void readStatement(const std::string& key, std::istringstream& line, const std::filesystem::path& folder,
+                   ObjMaterial& to)
+{
+    FileMaterial& material = to.material;
+    Look& look = material.look;
+    const auto number = [&]() -> std::optional<double> {
+        double value = 0.0;
+        return line >> value && std::isfinite(value) ? std::optional(value) : std::nullopt;
+    };
+    const auto share = [&](double otherwise) { return std::clamp(number().value_or(otherwise), 0.0, 1.0); };
+    if (key == "Kd") {
+        look.colour = colourIn(line).value_or(look.colour);
+    } else if (key == "Tf") {
+        to.filter = colourIn(line);
+    } else if (key == "d" || key == "Tr") {
+        const double value = share(key == "d" ? 1.0 : 0.0);
+        material.opacity = key == "d" ? value : 1.0 - value;
+        to.has_opacity = material.opacity < 1.0;  // "d 1" stands in files of all kinds of glass
+    } else if (key == "illum") {
+        to.illumination = static_cast<int>(std::clamp(number().value_or(2.0), 0.0, 10.0));
+    } else if (key == "Pr") {
+        look.roughness = share(look.roughness);
+    } else if (key == "Pm") {
+        look.metallic = share(look.metallic);
+    } else if (key == "Ns") {
+        // Blinn's exponent as roughness: B. Burley, "Physically Based Shading at Disney" (2012), α = r².
+        if (const auto value = number(); value && *value >= 0.0) {
+            look.roughness = std::pow(2.0 / (*value + 2.0), 0.25);
+        }
+    } else if (key == "Ni") {
+        if (const auto value = number(); value && *value >= 1.0 && *value <= 4.0) {
+            look.ior = *value;
+        }
+    } else if (key == "map_Kd") {
+        material.colours = readTexture(textureLine(line), folder);
+    } else if (key == "norm" || key == "map_Bump" || key == "map_bump" || key == "bump") {
+        const TextureLine texture = textureLine(line);
+        material.normals = readTexture(texture, folder);
+        material.relief = texture.bump;
+    }
+}
+
 void readLibrary(std::string_view text, const std::filesystem::path& folder,
                  std::map<std::string, FileMaterial>& materials)
 {
-    std::istringstream in{std::string(text)};
-    FileMaterial* material = nullptr;
+    std::istringstream in{std::string(withoutMark(text))};
+    std::optional<std::string> name;
+    ObjMaterial material;
+    const auto keep = [&] {
+        if (name) {
+            materials.insert_or_assign(*name, std::exchange(material, {}).finish());
+        }
+    };
     for (std::string written; std::getline(in, written);) {
         std::istringstream line(written);
         line.imbue(std::locale::classic());
         std::string key;
         line >> key;
         if (key == "newmtl") {
-            material = &materials.insert_or_assign(restOf(line), plainMaterial()).first->second;
-            continue;
-        }
-        if (material == nullptr) {
-            continue;
-        }
-        Look& look = material->look;
-        const auto share = [&](const auto& set) {
-            if (double value = 0.0; line >> value && std::isfinite(value)) {
-                set(std::clamp(value, 0.0, 1.0));
-            }
-        };
-        if (key == "Kd") {
-            share([&](double value) { look.colour = {value, value, value}; });
-            share([&](double value) { look.colour.y = value; });
-            share([&](double value) { look.colour.z = value; });
-        } else if (key == "d") {
-            share([&](double value) { material->opacity = value; });
-        } else if (key == "Tr") {
-            share([&](double value) { material->opacity = 1.0 - value; });
-        } else if (key == "Pr") {
-            share([&](double value) { look.roughness = value; });
-        } else if (key == "Pm") {
-            share([&](double value) { look.metallic = value; });
-        } else if (key == "Ns") {
-            // Blinn's exponent as roughness: B. Burley, "Physically Based Shading at Disney" (2012), α = r².
-            if (double value = 0.0; line >> value && value >= 0.0) {
-                look.roughness = std::pow(2.0 / (value + 2.0), 0.25);
-            }
-        } else if (key == "Ni") {
-            if (double value = 0.0; line >> value && value >= 1.0 && value <= 4.0) {
-                look.ior = value;
-            }
-        } else if (key == "map_Kd") {
-            if (const std::string name = restOf(line); !name.starts_with('-')) {
-                readImageBeside(folder, name, *material);
-            }
+            keep();
+            name = restOf(line);
+        } else if (name) {
+            readStatement(key, line, folder, material);
         }
     }
+    keep();
+}
+
+/// Names in a statement of libraries: one with blanks if that is a file, else words.
+std::vector<std::string> librariesIn(std::istringstream& line, const std::filesystem::path& folder)
+{
+    const std::string rest = restOf(line);
+    const std::string whole = meant(rest, folder);
+    if (beside(folder, whole)) {
+        return {whole};
+    }
+    std::istringstream words(rest);
+    std::vector<std::string> names;
+    for (std::string word; words >> word && word != "#";) {
+        names.push_back(word);
+    }
+    const bool are_files = std::any_of(names.begin(), names.end(),
+                                       [&](const std::string& name) { return beside(folder, name).has_value(); });
+    return are_files ? names : std::vector{whole};
 }
 
 }  // namespace
@@ -97,38 +254,47 @@ FileMaterial plainMaterial()
     return material;
 }
 
-void readImageBeside(const std::filesystem::path& folder, const std::string& name, FileMaterial& material)
+FileTexture readTextureBeside(const std::filesystem::path& folder, const std::string& name)
 {
+    FileTexture texture;
+    texture.name = name;
     const auto path = beside(folder, name);
     if (!path) {
-        material.image_fault = name + " is not a file beside it";
-        return;
+        texture.fault = "is not a file beside it or in a folder there";
+        return texture;
     }
     try {
-        material.image = readBytes(*path, kMaxImage, [](std::byte) { return true; });
+        texture.image = readBytes(*path, kMaxImage, [](std::byte) { return true; });
+        texture.fault = texture.image.empty() ? "is empty" : "";
     } catch (const Damage& damage) {
-        material.image_fault = name + " " + damage.what();
+        texture.fault = damage.what();
     }
+    return texture;
 }
 
-std::map<std::string, FileMaterial> objMaterials(std::string_view text, const std::filesystem::path& folder)
+ObjMaterials objMaterials(std::string_view text, const std::filesystem::path& folder)
 {
-    std::map<std::string, FileMaterial> materials;
+    ObjMaterials materials;
     constexpr std::string_view kKey = "mtllib";
+    text = withoutMark(text);
     for (std::size_t at = text.find(kKey); at != std::string_view::npos; at = text.find(kKey, at + kKey.size())) {
         if (at > 0 && text[at - 1] != '\n') {
             continue;
         }
         std::istringstream line(std::string(text.substr(at + kKey.size(), text.find('\n', at) - at - kKey.size())));
-        const auto path = beside(folder, restOf(line));
-        if (!path) {
-            continue;
-        }
-        try {
-            const Bytes bytes = readBytes(*path, kMaxLibrary, [](std::byte) { return true; });
-            readLibrary({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path->parent_path(), materials);
-        } catch (const Damage&) {
-            continue;  // as if it were not there
+        for (const std::string& name : librariesIn(line, folder)) {
+            const auto path = beside(folder, name);
+            if (!path) {
+                materials.faults.push_back(name + " is not a file beside it or in a folder there");
+                continue;
+            }
+            try {
+                const Bytes bytes = readBytes(*path, kMaxLibrary, [](std::byte) { return true; });
+                readLibrary({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path->parent_path(),
+                            materials.by_name);
+            } catch (const Damage& damage) {
+                materials.faults.push_back(name + ": " + damage.what());
+            }
         }
     }
     return materials;

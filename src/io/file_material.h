@@ -3,34 +3,53 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "droplet/surface/material.h"
 #include "file_bytes.h"
 
 namespace droplet {
 
+/// Picture that a file names.
+struct FileTexture {
+    Bytes image = {};   ///< encoded; or empty
+    std::string name;   ///< for messages
+    std::string fault;  ///< why it is not, or not wholly, as the file wants it; or empty
+};
+
 /// Look of triangles in a file.
 struct FileMaterial {
     Look look;
     double opacity = 1.0;
-    Bytes image = {};         ///< encoded picture whose colours multiply the look's; or empty
-    std::string image_fault;  ///< why it could not be read; or empty
+    std::optional<double> thickness = {};        ///< of matter that light enters [m]; 0: unknown; empty: a thin wall
+    std::optional<Attenuation> absorption = {};  ///< in it
+    FileTexture colours;                         ///< its colours multiply the look's
+    FileTexture normals;                         ///< directions in tangent space, as in glTF
+    double relief = 1.0;                         ///< factor on the parts of these along the surface
+    FileTexture finish;                          ///< its green multiplies the roughness, its blue the metal
 };
 
 /// What stands for a material of which nothing is known: grey and matt.
 FileMaterial plainMaterial();
 
-/// Materials that an OBJ names (Wavefront, "Advanced Visualizer Manual", appendix B1; Pr and Pm as in Clara.io's
-/// extension): Kd, d or Tr, Ns, Pr, Pm, Ni, and map_Kd without options. Files must lie beside the OBJ or in folders
-/// there.
+/// Materials of an OBJ.
+struct ObjMaterials {
+    std::map<std::string, FileMaterial> by_name;
+    std::vector<std::string> faults;  ///< of libraries that are not there or cannot be read
+};
+
+/// Materials that an OBJ names (Wavefront, "Advanced Visualizer Manual", appendix B1; Pr, Pm and norm as in Clara.io's
+/// extension): Kd, Tf, d or Tr, illum 6 and 7 for matter that refracts, Ns, Pr, Pm, Ni, map_Kd, norm, and map_Bump
+/// where that is a picture of directions, as Blender writes it. Files must lie beside the OBJ or in folders there; of
+/// other paths the name alone is looked for there.
 /// @param text    of the OBJ
 /// @param folder  of the OBJ
-/// @return        by name; files that cannot be read leave theirs out
-std::map<std::string, FileMaterial> objMaterials(std::string_view text, const std::filesystem::path& folder);
+ObjMaterials objMaterials(std::string_view text, const std::filesystem::path& folder);
 
-/// Bytes of an image that a file names, if it lies beside that file or in a folder there.
-void readImageBeside(const std::filesystem::path& folder, const std::string& name, FileMaterial& material);
+/// Reads an image that a file names, if it lies beside that file or in a folder there.
+FileTexture readTextureBeside(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace droplet

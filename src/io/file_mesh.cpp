@@ -160,7 +160,8 @@ public:
 
     FileMesh read(std::string_view text)
     {
-        Lines lines(text);
+        constexpr std::string_view kMark = "\xef\xbb\xbf";  // UTF-8's byte order mark
+        Lines lines(text.substr(text.starts_with(kMark) ? kMark.size() : 0));
         for (std::string_view line; lines.next(line);) {
             const std::string_view key = nextWord(line);
             if (key == "v" || key == "vn") {
@@ -597,7 +598,7 @@ FileMesh readPly(std::string_view text, const FileMeshOptions& options)
 
 /// Reads STL. Normals are computed from the facets; those in the file are ignored. The checks are needed, since CGAL
 /// ignores data after the last facet and treats a file that ends within the first as empty.
-FileMesh readStl(std::string_view text)
+FileMesh readStl(std::string_view text, const FileMeshOptions& options)
 {
     constexpr std::size_t kHeader = 84;
     constexpr std::size_t kFacet = 50;
@@ -633,7 +634,7 @@ FileMesh readStl(std::string_view text)
         addTriangle(mesh, begin, begin + 1, begin + 2);
         const Vec3 a = mesh.vertices[begin];
         const Vec3 normal = cross(mesh.vertices[begin + 1] - a, mesh.vertices[begin + 2] - a);
-        mesh.normals.insert(mesh.normals.end(), 3, normal);
+        mesh.normals.insert(mesh.normals.end(), 3, options.creases ? Vec3{} : normal);
     }
     return mesh;
 }
@@ -641,7 +642,7 @@ FileMesh readStl(std::string_view text)
 // ----------------------------------------------------------------------------------------------------- the end
 
 /// Fills in normals and welds.
-void complete(FileMesh& mesh)
+void complete(FileMesh& mesh, const FileMeshOptions& options)
 {
     if (mesh.triangles.empty()) {
         throw Damage("it has no triangles");
@@ -659,7 +660,7 @@ void complete(FileMesh& mesh)
     if (mesh.weld.empty()) {
         mesh.weld = firstAtPlace(mesh.vertices);
     }
-    fillNormals(mesh.vertices, mesh.triangles, mesh.weld, mesh.normals);
+    completeNormals(mesh, options.creases);
 }
 
 /// Unit that this library states in a comment at the beginning of its files; millimetre for other files.
@@ -680,7 +681,7 @@ double unitIn(std::string_view text)
 FileMesh readAs(Format format, std::string_view text, const FileMeshOptions& options)
 {
     FileMesh mesh = format == Format::Obj   ? ObjReader(options).read(text)
-                    : format == Format::Stl ? readStl(text)
+                    : format == Format::Stl ? readStl(text, options)
                                             : readPly(text, options);
     const double unit = format == Format::Ply ? 1.0 : unitIn(text);
     const bool turns = options.y_up.value_or(format == Format::Obj);
@@ -690,11 +691,51 @@ FileMesh readAs(Format format, std::string_view text, const FileMeshOptions& opt
     for (Vec3& n : mesh.normals) {
         n = turns ? zUp(n) : n;
     }
-    complete(mesh);
+    complete(mesh, options);
     return mesh;
 }
 
+/// Looks of an OBJ's materials; those that no library has are plain.
+void takeLooks(ObjMaterials known, FileMesh& mesh)
+{
+    mesh.look_faults = std::move(known.faults);
+    if (known.by_name.empty()) {
+        return;
+    }
+    std::string missing;
+    for (const std::string& name : mesh.material_names) {
+        const auto found = known.by_name.find(name);
+        mesh.looks.push_back(found != known.by_name.end() ? std::move(found->second) : plainMaterial());
+        if (found == known.by_name.end() && !name.empty()) {
+            missing += (missing.empty() ? "" : ", ") + name;
+        }
+    }
+    if (!missing.empty()) {
+        mesh.look_faults.push_back("its material library lacks " + missing);
+    }
+}
+
 }  // namespace
+
+void completeNormals(FileMesh& mesh, bool creases)
+{
+    if (creases) {
+        CreasedTriangles creased = divideAtCreases(mesh.vertices, mesh.triangles, mesh.weld, mesh.normals);
+        mesh.triangles = std::move(creased.triangles);
+        mesh.normals = std::move(creased.normals);
+        for (const std::uint32_t v : creased.copies) {
+            mesh.vertices.push_back(mesh.vertices[v]);
+            mesh.weld.push_back(mesh.weld[v]);
+            if (!mesh.uvs.empty()) {
+                mesh.uvs.push_back(mesh.uvs[v]);
+            }
+            if (!mesh.contact_angles.empty()) {
+                mesh.contact_angles.push_back(mesh.contact_angles[v]);
+            }
+        }
+    }
+    fillNormals(mesh.vertices, mesh.triangles, mesh.weld, mesh.normals);
+}
 
 FileMesh readFileMesh(const std::filesystem::path& path, const FileMeshOptions& options)
 {
@@ -702,7 +743,7 @@ FileMesh readFileMesh(const std::filesystem::path& path, const FileMeshOptions& 
     FileMesh mesh;
     readFile(path, [&] {
         if (format == Format::Glb || format == Format::Gltf) {
-            mesh = readScene(path, {.motion = options.motion, .looks = options.looks});
+            mesh = readScene(path, {.motion = options.motion, .creases = options.creases, .looks = options.looks});
             return;
         }
         std::error_code none;
@@ -713,10 +754,7 @@ FileMesh readFileMesh(const std::filesystem::path& path, const FileMeshOptions& 
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         mesh = readAs(format, text, options);
         if (format == Format::Obj && options.looks && !mesh.material_names.empty()) {
-            auto known = objMaterials(text, path.parent_path());
-            for (const std::string& name : known.empty() ? std::vector<std::string>{} : mesh.material_names) {
-                mesh.looks.push_back(known.contains(name) ? std::move(known[name]) : plainMaterial());
-            }
+            takeLooks(objMaterials(text, path.parent_path()), mesh);
         }
     });
     return mesh;

@@ -38,6 +38,7 @@ struct FileMesh {
     std::vector<std::uint32_t> materials;     ///< of every triangle, in material_names; empty: none has one
     std::vector<std::string> material_names;  ///< "": no name
     std::vector<FileMaterial> looks;          ///< of every material name, if asked for and any is known; or empty
+    std::vector<std::string> look_faults;     ///< why looks are not as the file wants them, one line each
     std::optional<FileMotion> motion;
     bool deforms = false;            ///< the file has skins or morph targets, which are ignored
     bool ignores_animation = false;  ///< the file has an animation that `motion` does not hold
@@ -47,10 +48,18 @@ struct FileMesh {
 struct FileMeshOptions {
     bool uvs = false;               ///< read the texture coordinates of OBJ and PLY
     bool polygons = false;          ///< divide faces with more than three corners; otherwise they are damage
-    bool looks = false;             ///< read materials and the images of their colours
+    bool creases = false;           ///< divide vertices without a normal, and all of STL, at creases; see
+                                    ///< divideAtCreases. Otherwise those at one place share a normal, and STL has
+                                    ///< its facets'
+    bool looks = false;             ///< read materials and their images
     bool motion = false;            ///< read the animation of the node of a glTF scene that carries all meshes
     std::optional<bool> y_up = {};  ///< the file's y axis points up; empty: in OBJ; ignored for glTF
 };
+
+/// Fills in the normals that vertices lack (0), and makes all of unit length.
+/// @param mesh     its other invariants hold
+/// @param creases  FileMeshOptions::creases
+void completeNormals(FileMesh& mesh, bool creases);
 
 /// Reads .glb, .gltf, .obj, .ply or .stl. OBJ and STL are in millimetres, unless a comment of this library states
 /// another unit.

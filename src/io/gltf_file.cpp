@@ -229,21 +229,22 @@ std::vector<std::string> materialNamesOf(const Json& root)
     return names;
 }
 
-/// Material with the place of its image: a file, or a view of a buffer.
-struct ReadMaterial {
-    FileMaterial material;
+/// Place of a texture's image: a file, or a view of a buffer.
+struct ReadTexture {
     std::string uri;
     std::optional<int> view;
+    std::string ignored;  ///< what of the texture is not read; or empty
 };
 
-/// Metallic-roughness materials, KHR_materials_transmission and KHR_materials_ior. What is not as specified is left
-/// out.
-std::vector<ReadMaterial> materialsOf(const Json& root)
+struct ReadMaterial {
+    FileMaterial material;
+    ReadTexture colours;
+    ReadTexture normals;
+    ReadTexture finish;
+};
+
+ReadTexture textureOf(const Json& root, const Json& from)
 {
-    std::vector<ReadMaterial> materials;
-    const auto share = [](const Json& value, double otherwise) {
-        return value.is_number() ? std::clamp(value.get<double>(), 0.0, 1.0) : otherwise;
-    };
     const auto element = [](const Json& list, const Json& index) -> const Json& {
         static const Json none;
         const auto at = indexOf(index);
@@ -251,9 +252,34 @@ std::vector<ReadMaterial> materialsOf(const Json& root)
                    ? list[static_cast<std::size_t>(*at)]
                    : none;
     };
+    const Json& texture = element(memberOf(root, "textures"), memberOf(from, "index"));
+    const Json& image = element(memberOf(root, "images"), memberOf(texture, "source"));
+    ReadTexture read{textOf(memberOf(image, "uri"), ""), indexOf(memberOf(image, "bufferView")), ""};
+    if (memberOf(memberOf(from, "extensions"), "KHR_texture_transform").is_object()) {
+        read.ignored = "is shown without its KHR_texture_transform";
+    } else if (indexOf(memberOf(from, "texCoord")).value_or(0) != 0) {
+        read.ignored = "is shown over TEXCOORD_0, not its own";
+    }
+    return read;
+}
+
+/// Metallic-roughness materials, KHR_materials_transmission, KHR_materials_volume and KHR_materials_ior. What is not as
+/// specified is left out.
+std::vector<ReadMaterial> materialsOf(const Json& root)
+{
+    std::vector<ReadMaterial> materials;
+    const auto share = [](const Json& value, double otherwise) {
+        return value.is_number() ? std::clamp(value.get<double>(), 0.0, 1.0) : otherwise;
+    };
+    const auto positive = [](const Json& value) {
+        return value.is_number() && value.get<double>() > 0.0 && std::isfinite(value.get<double>())
+                   ? std::optional(value.get<double>())
+                   : std::nullopt;
+    };
     for (const Json& from : memberOf(root, "materials")) {
         ReadMaterial& read = materials.emplace_back();
-        Look& look = read.material.look;
+        FileMaterial& material = read.material;
+        Look& look = material.look;
         const Json& surface = memberOf(from, "pbrMetallicRoughness");
         const Json& colour = memberOf(surface, "baseColorFactor");
         const auto channel = [&](std::size_t k) {
@@ -263,23 +289,28 @@ std::vector<ReadMaterial> materialsOf(const Json& root)
         look.metallic = share(memberOf(surface, "metallicFactor"), 1.0);
         look.roughness = share(memberOf(surface, "roughnessFactor"), 1.0);
         if (textOf(memberOf(from, "alphaMode"), "OPAQUE") == "BLEND") {
-            read.material.opacity = channel(3);
+            material.opacity = channel(3);
         }
         const Json& extensions = memberOf(from, "extensions");
         look.transmission =
             share(memberOf(memberOf(extensions, "KHR_materials_transmission"), "transmissionFactor"), 0.0);
         const Json& ior = memberOf(memberOf(extensions, "KHR_materials_ior"), "ior");
         look.ior = ior.is_number() && ior.get<double>() >= 1.0 && ior.get<double>() <= 4.0 ? ior.get<double>() : 1.5;
-        const Json& texture =
-            element(memberOf(root, "textures"), memberOf(memberOf(surface, "baseColorTexture"), "index"));
-        const Json& image = element(memberOf(root, "images"), memberOf(texture, "source"));
-        read.uri = textOf(memberOf(image, "uri"), "");
-        read.view = indexOf(memberOf(image, "bufferView"));
-        // A texture of metal and roughness is not read; its factors are 1 then.
-        if (memberOf(surface, "metallicRoughnessTexture").is_object()) {
-            look.metallic = 0.0;
-            look.roughness = 0.5;
+        const Json& volume = memberOf(extensions, "KHR_materials_volume");
+        material.thickness = positive(memberOf(volume, "thicknessFactor"));
+        const Json& tint = memberOf(volume, "attenuationColor");
+        const auto distance = positive(memberOf(volume, "attenuationDistance"));
+        if (material.thickness && distance && tint.is_array() && tint.size() == 3) {
+            constexpr double kDark = 1e-3;  // black would be absorbed over no distance
+            const auto passes = [&](std::size_t k) { return std::max(share(tint[k], 1.0), kDark); };
+            material.absorption = Attenuation{{passes(0), passes(1), passes(2)}, *distance};
         }
+        read.colours = textureOf(root, memberOf(surface, "baseColorTexture"));
+        read.finish = textureOf(root, memberOf(surface, "metallicRoughnessTexture"));
+        const Json& normals = memberOf(from, "normalTexture");
+        read.normals = textureOf(root, normals);
+        const Json& scale = memberOf(normals, "scale");
+        material.relief = scale.is_number() && std::isfinite(scale.get<double>()) ? scale.get<double>() : 1.0;
     }
     return materials;
 }
@@ -302,37 +333,50 @@ std::string unescaped(std::string_view uri)
     return text;
 }
 
+FileTexture withImage(const ReadTexture& read, const tinygltf::Model& model, const std::filesystem::path& folder)
+{
+    FileTexture texture;
+    if (read.view) {
+        const auto view = static_cast<std::size_t>(*read.view);
+        texture.name = "the image in bufferView " + std::to_string(view);
+        const tinygltf::BufferView* const part = view < model.bufferViews.size() ? &model.bufferViews[view] : nullptr;
+        const auto buffer = part != nullptr ? static_cast<std::size_t>(part->buffer) : model.buffers.size();
+        if (buffer < model.buffers.size() && part->byteOffset <= model.buffers[buffer].data.size() &&
+            part->byteLength <= model.buffers[buffer].data.size() - part->byteOffset) {
+            const auto bytes = std::as_bytes(std::span(model.buffers[buffer].data));
+            const auto image = bytes.subspan(part->byteOffset, part->byteLength);
+            texture.image.assign(image.begin(), image.end());
+        } else {
+            texture.fault = "is outside of its buffer";
+        }
+    } else if (read.uri.starts_with("data:")) {
+        texture.name = "an embedded image";
+        std::vector<unsigned char> decoded;
+        std::string type;
+        if (tinygltf::DecodeDataURI(&decoded, type, read.uri, 0, false)) {
+            const auto image = std::as_bytes(std::span(decoded));
+            texture.image.assign(image.begin(), image.end());
+        } else {
+            texture.fault = "is not base64";
+        }
+    } else if (!read.uri.empty()) {
+        texture = readTextureBeside(folder, unescaped(read.uri));
+    }
+    if (texture.fault.empty()) {
+        texture.fault = read.ignored;
+    }
+    return texture;
+}
+
 std::vector<FileMaterial> withImages(std::vector<ReadMaterial> all, const tinygltf::Model& model,
                                      const std::filesystem::path& folder)
 {
     std::vector<FileMaterial> materials;
     for (ReadMaterial& read : all) {
         FileMaterial& material = materials.emplace_back(std::move(read.material));
-        if (read.view) {
-            const auto view = static_cast<std::size_t>(*read.view);
-            const tinygltf::BufferView* const part =
-                view < model.bufferViews.size() ? &model.bufferViews[view] : nullptr;
-            const auto buffer = part != nullptr ? static_cast<std::size_t>(part->buffer) : model.buffers.size();
-            if (buffer < model.buffers.size() && part->byteOffset <= model.buffers[buffer].data.size() &&
-                part->byteLength <= model.buffers[buffer].data.size() - part->byteOffset) {
-                const auto bytes = std::as_bytes(std::span(model.buffers[buffer].data));
-                const auto image = bytes.subspan(part->byteOffset, part->byteLength);
-                material.image.assign(image.begin(), image.end());
-            } else {
-                material.image_fault = "an image is outside of its buffer";
-            }
-        } else if (read.uri.starts_with("data:")) {
-            std::vector<unsigned char> decoded;
-            std::string type;
-            if (tinygltf::DecodeDataURI(&decoded, type, read.uri, 0, false)) {
-                const auto image = std::as_bytes(std::span(decoded));
-                material.image.assign(image.begin(), image.end());
-            } else {
-                material.image_fault = "an embedded image is not base64";
-            }
-        } else if (!read.uri.empty()) {
-            readImageBeside(folder, unescaped(read.uri), material);
-        }
+        material.colours = withImage(read.colours, model, folder);
+        material.normals = withImage(read.normals, model, folder);
+        material.finish = withImage(read.finish, model, folder);
     }
     return materials;
 }
@@ -485,7 +529,7 @@ GltfFile readGltfFile(const std::filesystem::path& path, bool reads_materials)
     file.animations = animationsOf(root);
     std::vector<ReadMaterial> materials;
     if (reads_materials) {
-        const bool is_extended = container.json.find("KHR_materials_") != std::string_view::npos;
+        const bool is_extended = container.json.find("\"KHR_") != std::string_view::npos;
         materials = materialsOf(is_extended ? parsed(container.json, true) : root);
     }
     Json kept = Json::object();

@@ -398,7 +398,7 @@ public:
         }
         dropEmptyColumns();
         mesh_.weld = firstAtPlace(mesh_.vertices);
-        fillNormals(mesh_.vertices, mesh_.triangles, mesh_.weld, mesh_.normals);
+        completeNormals(mesh_, options_.creases);
         for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
             mesh_.vertices[v] = zUp(mesh_.vertices[v]);
             mesh_.normals[v] = zUp(mesh_.normals[v]);

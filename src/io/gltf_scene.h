@@ -10,7 +10,8 @@ namespace droplet {
 struct SceneOptions {
     bool needs_uv = false;  ///< reject triangles without uv as damage
     bool motion = false;    ///< read the animation of the node that carries all meshes
-    bool looks = false;     ///< read materials and the images of their colours
+    bool creases = false;   ///< divide vertices without a normal at creases
+    bool looks = false;     ///< read materials and their images
 };
 
 /// Reads glTF 2.0: .glb, or .gltf with its buffers embedded or beside it.

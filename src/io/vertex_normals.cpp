@@ -7,8 +7,58 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <unordered_map>
+
+#include "union_find.h"
 
 namespace droplet {
+namespace {
+
+// From here on, an edge is a crease, as in three.js (BufferGeometryUtils.toCreasedNormals). Prisms of seven sides are
+// round, those of six are not.
+constexpr double kCosCrease = 0.5 + 1e-6;
+
+/// Normal of a triangle with the length of twice its area.
+Vec3 areaOf(const std::vector<Vec3>& p, const Triangle& t)
+{
+    return cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
+}
+
+/// Share of a triangle in the normal at one of its corners: its unit normal times its angle there.
+Vec3 shareAt(const std::vector<Vec3>& p, const Triangle& t, std::size_t k)
+{
+    const Vec3 normal = areaOf(p, t);
+    const double size = length(normal);
+    const Vec3 a = p[t[(k + 1) % 3]] - p[t[k]];
+    const Vec3 b = p[t[(k + 2) % 3]] - p[t[k]];
+    return size > 0.0 ? (std::atan2(size, dot(a, b)) / size) * normal : Vec3{};
+}
+
+/// Side of a triangle, from the first to the second corner's place.
+struct Side {
+    std::uint32_t low = 0;    ///< place with the smaller index
+    std::uint32_t high = 0;   ///< the other place
+    bool descends = false;    ///< whether it goes from high to low
+    std::uint32_t first = 0;  ///< corner of all triangles where it begins
+};
+
+std::vector<Side> sidesOf(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& place)
+{
+    std::vector<Side> sides;
+    sides.reserve(3 * triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t from = place[triangles[t][k]];
+            const std::uint32_t to = place[triangles[t][(k + 1) % 3]];
+            sides.push_back({std::min(from, to), std::max(from, to), from > to, static_cast<std::uint32_t>(3 * t + k)});
+        }
+    }
+    const auto key = [](const Side& side) { return std::array{side.low, side.high, side.first}; };
+    std::sort(sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return key(a) < key(b); });
+    return sides;
+}
+
+}  // namespace
 
 std::vector<std::uint32_t> firstAtPlace(const std::vector<Vec3>& vertices)
 {
@@ -34,13 +84,9 @@ void fillNormals(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
     const std::vector<Vec3>& p = vertices;
     std::vector<Vec3> sums(p.size());
     for (const Triangle& t : triangles) {
-        const Vec3 normal = cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
-        const double size = length(normal);
-        for (std::size_t k = 0; size > 0.0 && k < 3; ++k) {
-            const Vec3 a = p[t[(k + 1) % 3]] - p[t[k]];
-            const Vec3 b = p[t[(k + 2) % 3]] - p[t[k]];
+        for (std::size_t k = 0; k < 3; ++k) {
             Vec3& sum = sums[place[t[k]]];
-            sum = sum + (std::atan2(size, dot(a, b)) / size) * normal;
+            sum = sum + shareAt(p, t, k);
         }
     }
     for (std::size_t v = 0; v < p.size(); ++v) {
@@ -57,6 +103,58 @@ void fillNormals(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
             n = {0.0, 1.0, 0.0};  // no triangle with an area
         }
     }
+}
+
+CreasedTriangles divideAtCreases(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
+                                 const std::vector<std::uint32_t>& place, const std::vector<Vec3>& normals)
+{
+    // Corners that one side of all creases at their place shares.
+    UnionFind shared(3 * triangles.size());
+    const auto next = [](std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
+    const std::vector<Side> sides = sidesOf(triangles, place);
+    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+        while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) {
+            ++end;
+        }
+        if (end - i != 2 || sides[i].descends == sides[i + 1].descends) {
+            continue;
+        }
+        const std::uint32_t a = sides[i].first;
+        const std::uint32_t b = sides[i + 1].first;
+        const Vec3 on_a = areaOf(vertices, triangles[a / 3]);
+        const Vec3 on_b = areaOf(vertices, triangles[b / 3]);
+        const double both = length(on_a) * length(on_b);
+        if (both == 0.0 || dot(on_a, on_b) > kCosCrease * both) {
+            shared.join(a, next(b));
+            shared.join(next(a), b);
+        }
+    }
+    std::vector<Vec3> sums(3 * triangles.size());
+    for (std::uint32_t c = 0; c < sums.size(); ++c) {
+        Vec3& sum = sums[shared.find(c)];
+        sum = sum + shareAt(vertices, triangles[c / 3], c % 3);
+    }
+    CreasedTriangles creased{triangles, {}, normals};
+    std::unordered_map<std::uint64_t, std::uint32_t> vertex_of;  // of every vertex and set of corners
+    std::vector<bool> is_taken(vertices.size());
+    for (std::uint32_t c = 0; c < sums.size(); ++c) {
+        std::uint32_t& corner = creased.triangles[c / 3][c % 3];
+        if (normals[corner] != Vec3{}) {
+            continue;
+        }
+        const std::uint64_t set = shared.find(c);
+        const auto added = static_cast<std::uint32_t>(vertices.size() + creased.copies.size());
+        const auto [found, is_new] =
+            vertex_of.try_emplace(std::uint64_t{corner} << 32U | set, is_taken[corner] ? added : corner);
+        if (is_new && found->second == added) {
+            creased.copies.push_back(corner);
+            creased.normals.emplace_back();
+        }
+        is_taken[corner] = true;
+        creased.normals[found->second] = sums[set];
+        corner = found->second;
+    }
+    return creased;
 }
 
 }  // namespace droplet

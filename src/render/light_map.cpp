@@ -12,6 +12,15 @@
 namespace droplet {
 namespace {
 
+/// Coefficients of absorption, per length of a scene with this unit.
+Vec3f absorptionOf(const Attenuation& attenuation, double scale)
+{
+    const auto per_length = [&](double share) {
+        return static_cast<float>(-std::log(share) / attenuation.distance * scale);
+    };
+    return {per_length(attenuation.colour.x), per_length(attenuation.colour.y), per_length(attenuation.colour.z)};
+}
+
 constexpr float kOne =
     static_cast<float>(1 << 24);  // value 1 in the sums: resolution 1e-7 of a cell's light, range 2³⁹ times 1
 
@@ -200,18 +209,16 @@ void blurMap(LightMap& map, float deviation)
 
 Medium mediumOf(const Look& look, double mean_height, double scale)
 {
-    Medium medium;
-    medium.clear = look.transmission > 0.0;
-    medium.ior = static_cast<float>(look.ior);
+    Medium medium{look.transmission > 0.0, static_cast<float>(look.ior), {}};
     if (look.tinted && mean_height > 0.0) {
-        const Attenuation attenuation = attenuationOf(look, mean_height);
-        const auto per_length = [&](double share) {
-            return static_cast<float>(-std::log(share) / attenuation.distance * scale);
-        };
-        const Vec3& colour = attenuation.colour;
-        medium.absorption = {per_length(colour.x), per_length(colour.y), per_length(colour.z)};
+        medium.absorption = absorptionOf(attenuationOf(look, mean_height), scale);
     }
     return medium;
+}
+
+Medium mediumOf(const StandLook& look, double scale)
+{
+    return {true, static_cast<float>(look.look.ior), look.absorption ? absorptionOf(*look.absorption, scale) : Vec3f{}};
 }
 
 Media mediaOf(const Surface& surface, const RenderOptions& options, double scale)

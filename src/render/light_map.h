@@ -27,6 +27,9 @@ struct Medium {
 /// @param scale        unit of length [m]
 Medium mediumOf(const Look& look, double mean_height, double scale);
 
+/// Medium that light enters at a stand. Without an absorption it takes nothing.
+Medium mediumOf(const StandLook& look, double scale);
+
 /// Media of all droplets.
 struct Media {
     Medium only;                              ///< of all, unless there are several

@@ -73,8 +73,7 @@ public:
         : options_(options),
           turn_(turnedBack(options.azimuth)),
           scene_(surface, options),
-          studio_(options.lighting, options.stand && options.shows_whole_stand, turn_,
-                  options.environment ? &*options.environment : nullptr),
+          studio_(options, turn_),
           media_(mediaOf(surface, options, scene_.scale())),
           camera_(framedPoints(), options,
                   options.paint ? legendWidth(*options.paint, options.width, options.height) : 0)
@@ -88,9 +87,17 @@ public:
         if (options.ground) {
             picture_.emplace(*options.ground);
         }
+        const auto pyramid = [](const std::optional<Picture>& picture, PicturePyramid::Levels levels) {
+            return picture ? std::optional<PicturePyramid>(std::in_place, *picture, levels) : std::nullopt;
+        };
         for (const StandLook& one : options.stand_looks) {
             stand_looks_.push_back(
-                {one, one.colours && !options.ground ? std::optional<PicturePyramid>(*one.colours) : std::nullopt});
+                {one, options.ground ? std::nullopt : pyramid(one.colours, PicturePyramid::Levels::Colours),
+                 pyramid(one.normals, PicturePyramid::Levels::Numbers),
+                 pyramid(one.finish, PicturePyramid::Levels::Numbers), mediumOf(one, scene_.scale())});
+        }
+        if (!stand_looks_.empty()) {
+            charts_ = chartsOf(*options.stand);
         }
         const Vec3f size = scene_.high() - scene_.low();
         table_.emplace(std::max(size.x, size.y), size.x * size.y, turn_({-0.75F, 0.66F, 0.0F}), options.light_table);
@@ -130,7 +137,7 @@ public:
     [[nodiscard]] Vec3f shown(float x, float y, Part part) const
     {
         const RayF ray = camera_.ray(x, y);
-        const Vec3f light = trace(ray, {1.0F, false, 0, 0.0F, part, 0});
+        const Vec3f light = trace(ray, {.part = part});
         if (part == Part::Through) {
             return {std::min(light.x, 1.0F), std::min(light.y, 1.0F), std::min(light.z, 1.0F)};
         }
@@ -152,16 +159,20 @@ private:
     struct ShownLook {
         const StandLook& from;
         std::optional<PicturePyramid> colours;
+        std::optional<PicturePyramid> normals;
+        std::optional<PicturePyramid> finish;
+        Medium inside;  // of what light enters
     };
 
     struct Way {
-        float weight;    // weight of the ray in the pixel
-        bool inside;     // inside the liquid
-        int meetings;    // number of surfaces met so far
-        float distance;  // length of the path so far
-        Part part;
-        std::uint32_t droplet;  // that the ray is inside of
-        bool mirrored = false;  // reflected on its way, outside of the liquid
+        float weight = 1.0F;    // weight of the ray in the pixel
+        bool inside = false;    // inside the liquid
+        int meetings = 0;       // number of surfaces met so far
+        float distance = 0.0F;  // length of the path so far
+        Part part = Part::All;
+        std::uint32_t droplet = 0;         // that the ray is inside of
+        bool mirrored = false;             // reflected on its way, outside of the liquid
+        const ShownLook* solid = nullptr;  // that the ray is inside of
     };
 
     [[nodiscard]] const Look& lookAt(std::uint32_t droplet) const
@@ -171,15 +182,20 @@ private:
 
     [[nodiscard]] Vec3f trace(const RayF& ray, const Way& way) const
     {
-        const Meeting meeting = way.inside ? scene_.fromLiquid(ray) : scene_.fromAir(ray);
+        const Meeting meeting = way.solid != nullptr ? scene_.dry(ray)
+                                : way.inside         ? scene_.fromLiquid(ray)
+                                                     : scene_.fromAir(ray);
         if (meeting.what == Meeting::What::Nothing) {
             if (way.meetings == 0 && way.part != Part::All) {
                 return grey(way.part == Part::Own ? 0.0F : 1.0F);
             }
             return way.meetings == 0 ? studio_.backdrop(ray.direction) : roomLight(ray.direction, way.part);
         }
-        Vec3f light = meeting.what == Meeting::What::Ground ? onGround(ray, meeting, way) : onLiquid(ray, meeting, way);
-        return way.inside ? passed(media_.of(way.droplet), meeting.distance) * light : light;
+        const Vec3f light =
+            meeting.what == Meeting::What::Ground ? onGround(ray, meeting, way) : onLiquid(ray, meeting, way);
+        return way.solid != nullptr ? passed(way.solid->inside, meeting.distance) * light
+               : way.inside         ? passed(media_.of(way.droplet), meeting.distance) * light
+                                    : light;
     }
 
     [[nodiscard]] Vec3f roomLight(Vec3f direction, Part part) const
@@ -238,6 +254,7 @@ private:
         return meeting.what == Meeting::What::Liquid ? media_.dropletAt(scene_, meeting) : way.droplet;
     }
 
+    // @param inside  of liquid
     [[nodiscard]] Vec3f onward(const Meeting& meeting, Vec3f direction, const Way& way, float share, bool inside) const
     {
         const Way next{share * way.weight,
@@ -246,7 +263,8 @@ private:
                        way.distance + meeting.distance,
                        way.part,
                        inside ? entered(meeting, way) : 0,
-                       way.mirrored || (!inside && !way.inside)};
+                       way.mirrored || (!inside && !way.inside),
+                       inside ? nullptr : way.solid};
         // A direction from a smooth normal may point through the facet; it is bent to graze the facet.
         const float side = (inside ? -1.0F : 1.0F) * dot(direction, meeting.facet);
         if (side < 1e-3F) {
@@ -260,11 +278,11 @@ private:
 
     // Share of light that matter mirrors upright, and how far it goes to all of it at a slant (C. Schlick, Computer
     // Graphics Forum 13 (1994) 233).
-    // @param outside  refractive index
-    static Vec3f reflectance(const Look& look, Vec3f colour, double outside)
+    // @param ratio  of refractive indices, inside over outside
+    static Vec3f reflectance(double ratio, Vec3f colour, float metal)
     {
-        const auto ratio = static_cast<float>((look.ior - outside) / (look.ior + outside));
-        return mix(grey(ratio * ratio), colour, static_cast<float>(look.metallic));
+        const auto root = static_cast<float>((ratio - 1.0) / (ratio + 1.0));
+        return mix(grey(root * root), colour, metal);
     }
     static float grazing(float cosine) { return std::pow(1.0F - cosine, 5.0F); }
 
@@ -274,7 +292,7 @@ private:
         const Vec3f colour = mapAt(ray, meeting, way) * toFloats(look.colour);
         const auto metal = static_cast<float>(look.metallic);
         const float cosine = std::clamp(-dot(ray.direction, normal), 0.0F, 1.0F);
-        const Vec3f mirror_share = mix(reflectance(look, colour, 1.0), grey(1.0F), grazing(cosine));
+        const Vec3f mirror_share = mix(reflectance(look.ior, colour, metal), grey(1.0F), grazing(cosine));
         const Vec3f mirror = mirrored(ray.direction, normal);
         // Rough materials reflect a blurred room.
         const Vec3f gloss =
@@ -316,39 +334,49 @@ private:
         return std::sqrt(static_cast<double>(dot(gradient, gradient) + along * along));
     }
 
-    [[nodiscard]] Vec3f onGround(const RayF& ray, const Meeting& meeting, const Way& way) const
+    [[nodiscard]] Vec3f onGround(const RayF& ray, const Meeting& met, const Way& way) const
     {
         if (way.part != Part::All && scene_.onPlane()) {
-            return leftOut(meeting, way);
+            return leftOut(met, way);
         }
         if (way.part == Part::Through) {
             return {};
         }
-        const Vec3f matter = albedo(meeting, pixelWidth(ray, meeting, way));
+        const float width = pixelWidth(ray, met, way);
         const bool wet = way.inside;
-        const ShownLook* const shown = studio_.uniform() ? nullptr : lookOfStand(meeting);
-        if (shown != nullptr && shown->from.look.transmission + (1.0 - shown->from.opacity) >= 1.0) {
-            return throughWall(ray, meeting, way, matter);
-        }
+        const ShownLook* const shown = studio_.uniform() ? nullptr : lookOfStand(met);
+        const std::optional<Matter> matter =
+            shown == nullptr ? std::nullopt : std::optional(matterAt(*shown, met, width));
+        const Vec3f colour = matter ? matter->colour : albedo(met, width);
         if (studio_.uniform()) {
-            return wet ? matter * wetness(matter, 1.0F - returned_[way.droplet], way.droplet) : matter;
+            return wet ? colour * wetness(colour, 1.0F - returned_[way.droplet], way.droplet) : colour;
+        }
+        Meeting meeting = met;
+        if (shown != nullptr && shown->normals) {
+            meeting.normal = withRelief(*shown, met, width);
+        }
+        if (matter && matter->clear >= 1.0F) {
+            return throughClear(*matter, ray, meeting, way, {});
         }
         const Vec3f light = light_ ? light_->at(meeting.place) : lightOnStand(meeting);
-        Vec3f seen = matter * light;
+        Vec3f seen = colour * light;
         if (options_.paint) {
             seen = (kPi / level_.y) * 0.82F * Vec3f{light.y, light.y, light.y};
             seen = mix(seen, grey(0.82F), 0.35F);
         }
         if (wet) {
-            seen = seen * wetness(matter, squeezed_[way.droplet], way.droplet);
+            seen = seen * wetness(colour, squeezed_[way.droplet], way.droplet);
         }
         if (scene_.onPlane() && !options_.paint) {
             seen = faded(seen, meeting.place);
         }
-        if (shown != nullptr) {
-            seen = finished(*shown, ray, meeting, way, seen, matter);
+        if (matter && matter->clear > 0.0F) {
+            return throughClear(*matter, ray, meeting, way, seen);
         }
-        return film_ && !wet && media_.of(0).clear ? underFilm(ray, meeting, way, seen, matter) : seen;
+        if (matter) {
+            seen = finished(*matter, ray, meeting, way, seen);
+        }
+        return film_ && !wet && media_.of(0).clear ? underFilm(ray, meeting, way, seen, colour) : seen;
     }
 
     [[nodiscard]] const ShownLook* lookOfStand(const Meeting& meeting) const
@@ -356,85 +384,174 @@ private:
         return stand_looks_.empty() ? nullptr : &stand_looks_[options_.stand_materials[meeting.triangle]];
     }
 
-    // Matter that also mirrors, and of which a part lets light pass.
-    [[nodiscard]] Vec3f finished(const ShownLook& shown, const RayF& ray, const Meeting& meeting, const Way& way,
-                                 Vec3f scattered, Vec3f matter) const
+    // Directions of uv on a triangle of the stand.
+    struct Chart {
+        Vec3f right;         // unit, along uv's x; or 0
+        Vec3f up;            // unit, against uv's y; or 0
+        float scale = 0.0F;  // length in uv over length in the scene
+    };
+
+    [[nodiscard]] std::vector<Chart> chartsOf(const TexturedMesh& stand) const
+    {
+        std::vector<Chart> charts(stand.triangles.size());
+        for (std::size_t i = 0; i < charts.size(); ++i) {
+            const auto [a, b, c] = stand.triangles[i];
+            const Vec3 p = stand.vertices[b] - stand.vertices[a];
+            const Vec3 q = stand.vertices[c] - stand.vertices[a];
+            const Vec2 s = stand.uvs[b] - stand.uvs[a];
+            const Vec2 t = stand.uvs[c] - stand.uvs[a];
+            const double turn = s.x * t.y - t.x * s.y;
+            const double area = length(cross(p, q));
+            if (turn != 0.0 && area > 0.0) {
+                const double side = turn > 0.0 ? 1.0 : -1.0;
+                charts[i] = {unit(toFloats(side / length(p) * (t.y * p - s.y * q))),
+                             unit(toFloats(side / length(p) * (t.x * p - s.x * q))),
+                             static_cast<float>(std::sqrt(std::abs(turn) / area) * scene_.scale())};
+            }
+        }
+        return charts;
+    }
+
+    // Width in uv of an area on the stand.
+    [[nodiscard]] double inTexture(const Meeting& meeting, float width) const
+    {
+        return width * charts_[meeting.triangle].scale;
+    }
+
+    [[nodiscard]] Vec3f withRelief(const ShownLook& shown, const Meeting& meeting, float width) const
+    {
+        const Vec3f level = shown.normals->at(repeated(meeting.uv), inTexture(meeting, width));
+        const Chart& chart = charts_[meeting.triangle];
+        const auto relief = static_cast<float>(shown.from.relief);
+        const auto along_surface = [&](Vec3f direction) {
+            const Vec3f flat = direction - dot(direction, meeting.normal) * meeting.normal;
+            return dot(flat, flat) > 0.0F ? unit(flat) : Vec3f{};
+        };
+        return unit((relief * (2.0F * level.x - 1.0F)) * along_surface(chart.right) +
+                    (relief * (2.0F * level.y - 1.0F)) * along_surface(chart.up) +
+                    std::max(2.0F * level.z - 1.0F, 1e-3F) * meeting.normal);
+    }
+
+    // Matter of a stand at a place.
+    struct Matter {
+        const ShownLook& shown;
+        Vec3f colour;
+        float metal;      // 0 … 1
+        float roughness;  // 0 … 1
+        float clear;      // share of what is not mirrored that passes, 0 … 1
+    };
+
+    [[nodiscard]] Matter matterAt(const ShownLook& shown, const Meeting& meeting, float width) const
     {
         const Look& look = shown.from.look;
-        const auto metal = static_cast<float>(look.metallic);
+        Matter matter{shown, albedo(meeting, width), static_cast<float>(look.metallic),
+                      static_cast<float>(look.roughness), 0.0F};
+        if (shown.finish) {
+            const Vec3f factor = shown.finish->at(repeated(meeting.uv), inTexture(meeting, width));
+            matter.roughness *= factor.y;
+            matter.metal *= factor.z;
+        }
+        matter.clear =
+            (1.0F - matter.metal) * std::min(static_cast<float>(look.transmission + (1.0 - shown.from.opacity)), 1.0F);
+        return matter;
+    }
+
+    // What matter mirrors towards a ray; rough matter mirrors a blurred room.
+    [[nodiscard]] Vec3f glossOf(const Matter& matter, const RayF& ray, const Meeting& meeting, Vec3f normal,
+                                const Way& way, float share) const
+    {
+        const Vec3f mirror = mirrored(ray.direction, normal);
+        const float blur = smoothstep(0.0F, 0.4F, matter.roughness);
+        const Vec3f sharp = blur < 1.0F ? onward(towards(meeting, ray, false, way.inside), mirror, way,
+                                                 (1.0F - blur) * share, way.inside)
+                                        : Vec3f{};
+        return blur > 0.0F ? mix(sharp, studio_.diffuse(mirror), blur) : sharp;
+    }
+
+    // Light from matter that lets none pass.
+    [[nodiscard]] Vec3f finished(const Matter& matter, const RayF& ray, const Meeting& meeting, const Way& way,
+                                 Vec3f scattered) const
+    {
         const Vec3f normal = facing(ray.direction, meeting.normal);
         const double outside = way.inside ? lookAt(way.droplet).ior : 1.0;
         const float cosine = std::clamp(-dot(ray.direction, normal), 0.0F, 1.0F);
         // Rough matter has no bright edges.
-        const Vec3f mirror_share = mix(reflectance(look, matter, outside), grey(1.0F),
-                                       grazing(cosine) * (1.0F - static_cast<float>(look.roughness)));
-        const Vec3f mirror = mirrored(ray.direction, normal);
-        const float blur = smoothstep(0.0F, 0.4F, static_cast<float>(look.roughness));
-        const Vec3f sharp = blur < 1.0F ? onward(before(meeting, ray, way.inside), mirror, way,
-                                                 (1.0F - blur) * largest(mirror_share), way.inside)
-                                        : Vec3f{};
-        const Vec3f gloss = mix(sharp, studio_.diffuse(mirror), blur);
-        Vec3f seen = mirror_share * gloss + (1.0F - metal) * (grey(1.0F) - mirror_share) * scattered;
-        const auto passes = static_cast<float>(look.transmission + (1.0 - shown.from.opacity));
-        if (passes > 0.0F) {
-            seen = mix(seen, throughWall(ray, meeting, way, matter), passes);
-        }
-        return seen;
+        const Vec3f share = mix(reflectance(matter.shown.from.look.ior / outside, matter.colour, matter.metal),
+                                grey(1.0F), grazing(cosine) * (1.0F - matter.roughness));
+        return share * glossOf(matter, ray, meeting, normal, way, largest(share)) +
+               (1.0F - matter.metal) * (grey(1.0F) - share) * scattered;
     }
 
-    // A meeting with ground whose facet points out of the liquid, or towards the ray in air.
-    static Meeting before(Meeting meeting, const RayF& ray, bool inside)
+    // A meeting with ground whose facet points to the side that a ray goes on to.
+    // @param goes_on  through the ground; otherwise it stays on its side
+    [[nodiscard]] static Meeting towards(Meeting meeting, const RayF& ray, bool goes_on, bool inside)
     {
-        if ((dot(ray.direction, meeting.facet) < 0.0F) == inside) {
+        // onward() expects facets that point out of the liquid.
+        const bool points_ahead = dot(ray.direction, meeting.facet) > 0.0F;
+        if ((points_ahead == goes_on) == inside) {
             meeting.facet = -1.0F * meeting.facet;
         }
         return meeting;
     }
 
-    // A thin wall bends no ray by itself. A droplet on its outside refracts there: its water ends at the wall.
-    [[nodiscard]] Vec3f throughWall(const RayF& ray, const Meeting& meeting, const Way& way, Vec3f tint) const
+    // Droplet that stands on the other side of ground: a way beyond leaves it next.
+    [[nodiscard]] std::optional<std::uint32_t> dropletBehind(const RayF& ray, const Meeting& meeting) const
+    {
+        const Meeting next = scene_.fromAir({meeting.place, ray.direction});
+        return next.what == Meeting::What::Liquid && dot(ray.direction, next.facet) > 0.0F
+                   ? std::optional(media_.dropletAt(scene_, next))
+                   : std::nullopt;
+    }
+
+    // Light from matter that lets light pass. A thin wall bends no way by itself and tints what passes; a droplet on
+    // its outside refracts there, as its water ends at the wall. Matter with a thickness refracts, and tints what
+    // enters.
+    [[nodiscard]] Vec3f throughClear(const Matter& matter, const RayF& ray, const Meeting& meeting, const Way& way,
+                                     Vec3f scattered) const
     {
         const bool is_front = dot(ray.direction, meeting.facet) < 0.0F;
-        const Vec3f facet = is_front ? meeting.facet : -1.0F * meeting.facet;
-        const StandFilm::Here film = film_ && !way.inside && is_front && media_.of(0).clear
-                                         ? film_->at(meeting)
-                                         : StandFilm::Here{0.0F, meeting.normal};
-        const Vec3f outer = facing(ray.direction, is_front ? film.normal : -1.0F * meeting.normal);
-        const Vec3f mirror = mirrored(ray.direction, outer);
-        Interface there;
-        bool enters_water = false;
-        std::uint32_t droplet = way.droplet;
-        if (way.inside) {
-            there = atInterface(ray.direction, outer, media_.of(way.droplet).ior);
-        } else {
-            if (!is_front) {
-                // Water stands on the other side if the way leaves it next.
-                const Meeting next = scene_.fromAir({meeting.place, ray.direction});
-                enters_water = next.what == Meeting::What::Liquid && dot(ray.direction, next.facet) > 0.0F;
-                droplet = enters_water ? media_.dropletAt(scene_, next) : droplet;
-            }
-            const float ior =
-                enters_water ? media_.of(droplet).ior : static_cast<float>(lookOfStand(meeting)->from.look.ior);
-            there = atInterface(ray.direction, outer, 1.0F / ior);
-            if (film.thickness > 0.0F) {
-                there = atInterface(ray.direction, outer, 1.0F / media_.of(0).ior);
-                const Interface below =
-                    atInterface(there.transmitted, facing(there.transmitted, facet), media_.of(0).ior);
-                there.transmitted = below.reflected < 1.0F ? below.transmitted : ray.direction;
-            } else if (!enters_water) {
-                there.transmitted = ray.direction;
-                there.reflected *= 2.0F / (1.0F + there.reflected);  // both sides of the wall
-            }
+        const bool is_matter = matter.shown.from.thickness.has_value();
+        const auto behind = is_front ? std::nullopt : dropletBehind(ray, meeting);
+        // There is film on the outside alone, and none below droplets.
+        const bool may_have_film = film_ && !way.inside && !behind && (is_front || is_matter) && media_.of(0).clear;
+        const StandFilm::Here film = may_have_film ? film_->at(meeting) : StandFilm::Here{0.0F, meeting.normal};
+        const Vec3f ground = is_front ? meeting.normal : -1.0F * meeting.normal;
+        const Vec3f water = is_front ? film.normal : -1.0F * film.normal;
+        const Vec3f normal = facing(ray.direction, is_front ? water : ground);
+        const float look_ior = static_cast<float>(matter.shown.from.look.ior);
+        const float near = is_matter && !is_front ? look_ior : way.inside ? media_.of(way.droplet).ior : 1.0F;
+        const float far = is_matter && is_front ? look_ior : behind ? media_.of(*behind).ior : 1.0F;
+        Way next = way;
+        next.inside = behind.has_value();
+        next.droplet = behind.value_or(way.droplet);
+        if (is_matter) {
+            next.solid = is_front ? &matter.shown : nullptr;
         }
-        Vec3f light =
-            there.reflected * onward(before(meeting, ray, way.inside), mirror, way, there.reflected, way.inside);
-        if (there.reflected < 1.0F) {
-            Way next = way;
-            next.droplet = droplet;
-            Meeting beyond = meeting;
-            beyond.facet = enters_water ? facet : -1.0F * facet;
-            const Vec3f through = onward(beyond, there.transmitted, next, (1.0F - there.reflected), enters_water);
-            light = light + (1.0F - there.reflected) * tint * through;
+        Interface split;
+        if (film.thickness > 0.0F) {
+            const float ior = media_.of(0).ior;
+            split = atInterface(ray.direction, normal, near / ior);
+            if (split.reflected < 1.0F) {
+                const Vec3f other = facing(split.transmitted, is_front ? ground : water);
+                const Interface second = atInterface(split.transmitted, other, ior / far);
+                split.transmitted = second.transmitted;
+                split.reflected += (1.0F - split.reflected) * second.reflected;
+            }
+        } else if (is_matter || way.inside || behind) {
+            split = atInterface(ray.direction, normal, near / far);
+        } else {
+            split = atInterface(ray.direction, normal, 1.0F / look_ior);
+            split.transmitted = ray.direction;
+            split.reflected *= 2.0F / (1.0F + split.reflected);  // both sides of the wall
+        }
+        const float passes = (1.0F - split.reflected) * matter.clear;
+        Vec3f light = split.reflected * glossOf(matter, ray, meeting, normal, way, split.reflected) +
+                      (1.0F - split.reflected) * (1.0F - matter.clear) * scattered;
+        if (passes > 0.0F) {
+            const Vec3f tint = is_matter && !is_front ? grey(1.0F) : matter.colour;
+            light = light +
+                    passes * tint *
+                        onward(towards(meeting, ray, true, next.inside), split.transmitted, next, passes, next.inside);
         }
         return light;
     }
@@ -525,7 +642,8 @@ private:
         }
         if (const ShownLook* const shown = lookOfStand(meeting)) {
             const Vec3f colour = toFloats(shown->from.look.colour);
-            return shown->colours ? colour * shown->colours->at(repeated(meeting.uv), inPicture(width)) : colour;
+            return shown->colours ? colour * shown->colours->at(repeated(meeting.uv), inTexture(meeting, width))
+                                  : colour;
         }
         // An object is plain; curved ground has the table's ruling, projected from above.
         return options_.stand && options_.shows_whole_stand ? Vec3f{0.42F, 0.45F, 0.46F}
@@ -545,7 +663,8 @@ private:
     std::optional<BaseLight> base_light_;  // light on a stand below many droplets
     std::optional<StandFilm> film_;
     std::vector<ShownLook> stand_looks_;
-    Vec3f key_;  // direction toward the key light
+    std::vector<Chart> charts_;  // of every triangle of the stand that has looks
+    Vec3f key_;                  // direction toward the key light
     Vec3f level_;
     float exposure_ = 1.0F;
     float span_ = 1.0F;
@@ -714,8 +833,24 @@ void RenderOptions::validate() const
             require(one.look.ior >= 1.0 && one.look.ior <= 4.0, "options.stand_looks.ior", one.look.ior, "from 1 to 4");
             require(one.opacity >= 0.0 && one.opacity <= 1.0, "options.stand_looks.opacity", one.opacity,
                     "from 0 to 1");
-            if (one.colours) {
-                one.colours->validate();
+            require(std::isfinite(one.relief), "options.stand_looks.relief", one.relief, "finite");
+            if (one.thickness) {
+                require(*one.thickness > 0.0 && std::isfinite(*one.thickness), "options.stand_looks.thickness",
+                        *one.thickness, "finite and more than 0 m");
+            }
+            if (one.absorption) {
+                const auto& [colour, distance] = *one.absorption;
+                const auto is_share = [](double a) { return a > 0.0 && a <= 1.0; };
+                if (!is_share(colour.x) || !is_share(colour.y) || !is_share(colour.z)) {
+                    refuse("stand_looks.absorption.colour must be above 0, to 1");
+                }
+                require(distance > 0.0 && std::isfinite(distance), "options.stand_looks.absorption.distance", distance,
+                        "finite and more than 0 m");
+            }
+            for (const std::optional<Picture>* const picture : {&one.colours, &one.normals, &one.finish}) {
+                if (*picture) {
+                    (*picture)->validate();
+                }
             }
         }
     }

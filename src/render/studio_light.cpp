@@ -113,17 +113,20 @@ Vec3f SoftBox::seen(Vec3f direction) const
     return (1.0F - smoothstep(0.90F, 1.06F, reach)) * cloth * radiance;
 }
 
-StudioLight::StudioLight(Lighting lighting, bool upright, CameraTurn turn, const Environment* environment)
-    : uniform_(lighting == Lighting::Uniform), back_{turn.cosine, -turn.sine}, harmonics_{}
+StudioLight::StudioLight(const RenderOptions& options, CameraTurn turn)
+    : uniform_(options.lighting == Lighting::Uniform),
+      shows_room_(options.shows_room),
+      back_{turn.cosine, -turn.sine},
+      harmonics_{}
 {
     constexpr float kIrradiance = 6.0F;  // about the studio's
-    if (environment != nullptr && !uniform_) {
-        sky_.emplace(*environment, kIrradiance);
+    if (options.environment && !uniform_) {
+        sky_.emplace(*options.environment, kIrradiance);
         addSky(turn);
         return;
     }
     if (!uniform_) {
-        addBoxes(upright, turn);
+        addBoxes(options.stand && options.shows_whole_stand, turn);
     }
     addRoom(turn);
     constexpr int kDirections = 4096;
@@ -272,6 +275,9 @@ Vec3f StudioLight::backdrop(Vec3f direction) const
     }
     if (sky_) {
         return skyAt(direction);
+    }
+    if (shows_room_) {
+        return radiance(direction);
     }
     return mix(kDistance, {0.20F, 0.27F, 0.32F}, smoothstep(0.0F, 0.6F, direction.z));
 }

@@ -45,8 +45,8 @@ struct Light {
 /// front on the left, and two lights are at the sides.
 class StudioLight {
 public:
-    /// @param environment  replaces the room; null: none
-    StudioLight(Lighting lighting, bool upright, CameraTurn turn, const Environment* environment = nullptr);
+    /// @param options  lighting, stand, and an environment that replaces the room
+    StudioLight(const RenderOptions& options, CameraTurn turn);
 
     /// Radiance from a direction.
     [[nodiscard]] Vec3f radiance(Vec3f direction) const;
@@ -67,6 +67,7 @@ private:
     [[nodiscard]] Vec3f skyAt(Vec3f direction) const;
 
     bool uniform_;
+    bool shows_room_;
     std::optional<Sky> sky_;
     CameraTurn back_;  ///< from directions in the scene to directions in the sky
     std::vector<SoftBox> boxes_;

@@ -19,13 +19,16 @@ double folded(double a)
 
 }  // namespace
 
-PicturePyramid::PicturePyramid(const Picture& picture)
+PicturePyramid::PicturePyramid(const Picture& picture, Levels levels)
 {
     Level first{picture.width, picture.height, {}};
     first.texels.reserve(picture.rgb.size() / 3);
-    const std::array<float, 256>& linear = displayLevels();
+    std::array<float, 256> shares = displayLevels();
+    for (std::size_t level = 0; levels == Levels::Numbers && level < shares.size(); ++level) {
+        shares[level] = static_cast<float>(level) / 255.0F;
+    }
     for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
-        first.texels.push_back({linear[picture.rgb[i]], linear[picture.rgb[i + 1]], linear[picture.rgb[i + 2]]});
+        first.texels.push_back({shares[picture.rgb[i]], shares[picture.rgb[i + 1]], shares[picture.rgb[i + 2]]});
     }
     levels_.push_back(std::move(first));
     while (levels_.back().width > 1 || levels_.back().height > 1) {

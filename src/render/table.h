@@ -12,7 +12,13 @@ namespace droplet {
 /// Linear colours of a picture in a pyramid of halved sizes, for views from afar.
 class PicturePyramid {
 public:
-    explicit PicturePyramid(const Picture& picture);
+    /// What the levels of a picture, 0 … 255, mean.
+    enum class Levels {
+        Colours,  ///< light, as on a display
+        Numbers,  ///< shares of 1
+    };
+
+    explicit PicturePyramid(const Picture& picture, Levels levels = Levels::Colours);
 
     /// @param uv     (0,0) is the top left, (1,1) the bottom right; beyond, the picture is mirrored repeatedly
     /// @param width  width of the area to average, in uv

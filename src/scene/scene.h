@@ -24,12 +24,16 @@ using Float4 = std::array<float, 4>;
 /// Look of triangles.
 struct SceneMaterial {
     Look look;
-    /// Thickness of the liquid under a closed surface, for viewers that do not measure it [m] > 0; empty: no inside.
+    /// Thickness of the matter under a closed surface, for viewers that do not measure it [m] > 0; empty: no inside.
     std::optional<double> thickness = {};
-    double opacity = 1.0;     ///< below 1: what lies behind shines through
-    bool both_sides = false;  ///< whether triangles are also seen from behind
-    /// PNG or JPEG that multiplies the colour, repeated over the texture coordinates; in glTF alone. Empty: none.
-    std::string image = {};
+    std::optional<Attenuation> absorption = {};  ///< in matter with an inside; empty: by the look
+    double opacity = 1.0;                        ///< below 1: what lies behind shines through
+    bool both_sides = false;                     ///< whether triangles are also seen from behind
+    /// PNG or JPEG over the texture coordinates, repeated; in glTF alone. Empty: none.
+    std::string image = {};         ///< multiplies the colour
+    std::string normal_image = {};  ///< directions in tangent space
+    double relief = 1.0;            ///< factor on their parts along the surface
+    std::string finish_image = {};  ///< green multiplies the roughness, blue the metal
 };
 
 /// Material of a liquid.

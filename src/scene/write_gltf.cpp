@@ -92,8 +92,8 @@ tinygltf::Material materialOf(const SceneMaterial& from, double side)
     if (has_volume) {
         // The thickness is in the mesh's unit; the distance of attenuation is not.
         Value::Object volume{{"thicknessFactor", Value(*from.thickness / side)}};
-        if (look.tinted) {
-            const auto [colour, distance] = attenuationOf(look, *from.thickness);
+        if (look.tinted || from.absorption) {
+            const auto [colour, distance] = from.absorption ? *from.absorption : attenuationOf(look, *from.thickness);
             volume["attenuationColor"] = Value(Value::Array{Value(colour.x), Value(colour.y), Value(colour.z)});
             volume["attenuationDistance"] = Value(distance);
         }
@@ -766,10 +766,9 @@ private:
     void addImages()
     {
         std::map<std::string_view, int> textures;
-        for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
-            const std::string& bytes = scene_.materials[m].image;
+        const auto indexOf = [&](const std::string& bytes) {
             if (bytes.empty()) {
-                continue;
+                return -1;
             }
             const auto [found, is_new] = textures.try_emplace(bytes, static_cast<int>(model_.textures.size()));
             if (is_new) {
@@ -781,7 +780,17 @@ private:
                 model_.images.push_back(std::move(image));
                 model_.textures.push_back(std::move(texture));
             }
-            model_.materials[m].pbrMetallicRoughness.baseColorTexture.index = found->second;
+            return found->second;
+        };
+        for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
+            const SceneMaterial& from = scene_.materials[m];
+            tinygltf::Material& material = model_.materials[m];
+            if (!scene_.picture) {
+                material.pbrMetallicRoughness.baseColorTexture.index = indexOf(from.image);
+            }
+            material.pbrMetallicRoughness.metallicRoughnessTexture.index = indexOf(from.finish_image);
+            material.normalTexture.index = indexOf(from.normal_image);
+            material.normalTexture.scale = from.relief;
         }
     }
 

@@ -113,7 +113,7 @@ TEST_F(FlowObjectFile, ObjHasUvMaterialsAndPolygons)
     EXPECT_THAT(object.triangles, ::testing::SizeIs(3));
     EXPECT_THAT(object.material_names, ElementsAre("Wet Glass", "rough"));
     EXPECT_THAT(object.materials, ElementsAre(0, 0, 1));
-    EXPECT_THAT(object.warnings, IsEmpty());
+    EXPECT_THAT(object.warnings, ElementsAre(HasSubstr("ignored.mtl is not a file beside it")));
     // Four corners, and two of them again with another uv. Millimetres, y up; v counts from below.
     ASSERT_THAT(object.vertices, ::testing::SizeIs(6));
     EXPECT_EQ(object.vertices[2], (Vec3{1.0, 0.0, 2.0}));
@@ -149,9 +149,152 @@ TEST_F(FlowObjectFile, ObjHasTheLooksOfItsMaterialLibrary)
     const FlowObject painted = read("wall.obj", kObj);
     ASSERT_TRUE(painted.looks[1].colours);
     EXPECT_EQ(painted.looks[1].colours->rgb, (std::vector<std::uint8_t>{255, 0, 0}));
-    EXPECT_EQ(painted.images[1], png.str());
-    EXPECT_EQ(painted.images[0], "");
-    EXPECT_THAT(painted.warnings, ElementsAre(HasSubstr("without a texture: an image: ")));
+    EXPECT_EQ(painted.images[1].colours, png.str());
+    EXPECT_EQ(painted.images[0].colours, "");
+    EXPECT_THAT(painted.warnings, ElementsAre(HasSubstr("without a texture: broken.png ")));
+}
+
+std::string pngOf(std::vector<std::uint8_t> rgb)
+{
+    std::ostringstream png;
+    writePng(Picture{1, 1, std::move(rgb)}, png);
+    return png.str();
+}
+
+// As several programs write them.
+TEST_F(FlowObjectFile, ObjFindsTexturesHoweverTheyAreNamed)
+{
+    writeFile(folder() / "a b.png", pngOf({255, 0, 0}));
+    for (const char* const line :
+         {"map_Kd a b.png", "map_Kd \"a b.png\"", "map_Kd a b.png # red", "map_Kd \"a b.png\" # red",
+          "map_Kd -clamp on -bm 0.5 a b.png", "map_Kd -s 1 1 1 -o 0 0 -mm 0 1 a b.png", "map_Kd /home/else/a b.png",
+          "map_Kd C:\\Users\\else\\a b.png", "map_Kd ../a b.png"}) {
+        writeFile(folder() / "ignored.mtl", std::string("\xef\xbb\xbfnewmtl rough\n") + line + "\nnewmtl Wet Glass\n");
+        const FlowObject object = read("wall.obj", kObj);
+        ASSERT_TRUE(object.looks.at(1).colours) << line;
+        const bool changes = std::string(line).find("-mm") != std::string::npos;
+        EXPECT_THAT(object.warnings, ::testing::SizeIs(changes ? 1 : 0)) << line;
+    }
+    writeFile(folder() / "ignored.mtl", "newmtl rough\nmap_Kd -s 2 2 a b.png\nnewmtl Wet Glass\nmap_Kd empty.png\n");
+    writeFile(folder() / "empty.png", "");
+    EXPECT_THAT(
+        read("wall.obj", kObj).warnings,
+        ElementsAre(HasSubstr("empty.png is empty"), HasSubstr("a b.png is shown without the material's option -s")));
+}
+
+TEST_F(FlowObjectFile, ObjHasSeveralLibrariesAndTellsWhatTheyLack)
+{
+    writeFile(folder() / "one.mtl", "newmtl rough\nKd 1 0 0\n");
+    writeFile(folder() / "two.mtl", "newmtl Wet Glass\nKd 0 1 0\n");
+    const std::string faces = kObj.substr(kObj.find('\n') + 1);
+    const FlowObject both = read("wall.obj", "mtllib one.mtl two.mtl\n" + faces);
+    ASSERT_THAT(both.looks, ::testing::SizeIs(2));
+    EXPECT_EQ(both.looks[0].look.colour, (Vec3{0.0, 1.0, 0.0}));
+    EXPECT_EQ(both.looks[1].look.colour, (Vec3{1.0, 0.0, 0.0}));
+    EXPECT_THAT(both.warnings, IsEmpty());
+    EXPECT_THAT(read("wall.obj", "mtllib one.mtl\n" + faces).warnings, ElementsAre(HasSubstr("lacks Wet Glass")));
+    EXPECT_THAT(read("wall.obj", "mtllib one.mtl three.mtl\nmtllib two.mtl\n" + faces).warnings,
+                ElementsAre(HasSubstr("three.mtl is not a file")));
+}
+
+TEST_F(FlowObjectFile, ObjHasMatterThatRefractsAndDirections)
+{
+    writeFile(folder() / "blue.png", pngOf({128, 128, 255}));
+    writeFile(folder() / "grey.png", pngOf({128, 128, 128}));
+    writeFile(folder() / "ignored.mtl",
+              "newmtl Wet Glass\nKd 0 0 0\nTf 0.9 0.8 0.7\nillum 7\nNi 1.5\nmap_Bump -bm 0.25 blue.png\n"
+              "newmtl rough\nd 0.5\nillum 4\nbump grey.png\n");
+    const FlowObject object = read("wall.obj", kObj);
+    ASSERT_THAT(object.looks, ::testing::SizeIs(2));
+    EXPECT_TRUE(object.looks[0].thickness);
+    EXPECT_EQ(object.looks[0].look.transmission, 1.0);
+    EXPECT_EQ(object.looks[0].look.colour, (Vec3{0.9, 0.8, 0.7}));
+    EXPECT_TRUE(object.looks[0].normals);
+    EXPECT_EQ(object.looks[0].relief, 0.25);
+    EXPECT_FALSE(object.looks[1].thickness);
+    EXPECT_FALSE(object.looks[1].normals);
+    EXPECT_THAT(object.warnings, ElementsAre(HasSubstr("without grey.png, which has heights")));
+}
+
+/// Prism about the y axis, of unit radius and height, without normals.
+std::string prism(int sides)
+{
+    std::ostringstream obj;
+    for (int k = 0; k < sides; ++k) {
+        const double turn = 2.0 * std::numbers::pi * k / sides;
+        for (const double y : {0.0, 1.0}) {
+            obj << "v " << 1000.0 * std::cos(turn) << ' ' << 1000.0 * y << ' ' << 1000.0 * std::sin(turn) << '\n';
+        }
+    }
+    std::string lid = "f";
+    std::string ground = "f";
+    for (int k = 0; k < sides; ++k) {
+        const int next = (k + 1) % sides;
+        obj << "f " << 2 * k + 1 << ' ' << 2 * k + 2 << ' ' << 2 * next + 2 << ' ' << 2 * next + 1 << '\n';
+        lid = "f " + std::to_string(2 * k + 2) + lid.substr(1);
+        ground += " " + std::to_string(2 * k + 1);
+    }
+    return obj.str() + lid + "\n" + ground + "\n";
+}
+
+// Of a fine prism the side is round and the lids are flat; of a coarse one all faces are flat.
+TEST_F(FlowObjectFile, NormalsThatAFileLacksHaveCreases)
+{
+    const auto expectNormals = [](const FlowObject& object, const auto& wanted) {
+        for (const Triangle& triangle : object.triangles) {
+            const Vec3 a = object.vertices[triangle[0]];
+            const Vec3 facet = cross(object.vertices[triangle[1]] - a, object.vertices[triangle[2]] - a);
+            for (const std::uint32_t v : triangle) {
+                expectNear(object.normals[v], wanted(object.vertices[v], (1.0 / length(facet)) * facet), 1e-5);
+            }
+        }
+    };
+    const auto flat = [](Vec3 /*place*/, Vec3 facet) { return facet; };
+    const auto round = [](Vec3 place, Vec3 facet) {
+        return std::abs(facet.z) > 0.5 ? facet : Vec3{place.x, place.y, 0.0};
+    };
+    expectNormals(read("four.obj", prism(4)), flat);
+    expectNormals(read("six.obj", prism(6)), flat);
+    const FlowObject seven = read("seven.obj", prism(7));
+    expectNormals(seven, round);
+    EXPECT_THAT(seven.vertices, ::testing::SizeIs(28)) << "one for each side of the rims";
+    EXPECT_THAT(
+        read("with.obj", "vn 0 1 0\nv 0 0 0\nv 1000 0 0\nv 0 0 1000\nv 0 1000 0\nf 1//1 2//1 3//1\nf 1//1 2//1 4//1\n")
+            .normals,
+        ::testing::Each(Vec3{0.0, 0.0, 1.0}))
+        << "given normals stay";
+}
+
+// STL repeats corners and has the normals of its facets.
+TEST_F(FlowObjectFile, StlIsRoundWhereItHasNoCreases)
+{
+    std::ostringstream stl;
+    stl << "solid ball\n";
+    const auto point = [&](int ring, int k) {
+        const double tilt = std::numbers::pi * ring / 8;
+        const double turn = std::numbers::pi * (k % 16) / 8;
+        const double radius = ring % 8 == 0 ? 0.0 : std::sin(tilt);
+        stl << "vertex " << radius * std::cos(turn) << ' ' << radius * std::sin(turn) << ' ' << std::cos(tilt) << '\n';
+    };
+    for (int ring = 0; ring < 8; ++ring) {
+        for (int k = 0; k < 16; ++k) {
+            for (const bool lower : {false, true}) {
+                if (ring == (lower ? 7 : 0)) {
+                    continue;
+                }
+                stl << "facet normal 0 0 0\nouter loop\n";
+                point(ring, k);
+                lower ? point(ring + 1, k) : point(ring + 1, k + 1);
+                lower ? point(ring + 1, k + 1) : point(ring, k + 1);
+                stl << "endloop\nendfacet\n";
+            }
+        }
+    }
+    stl << "endsolid ball\n";
+    const FlowObject object = read("ball.stl", stl.str(), {.up = UpAxis::Z});
+    for (std::size_t v = 0; v < object.vertices.size(); ++v) {
+        EXPECT_GT(dot(object.normals[v], object.vertices[v]), 0.99 * length(object.vertices[v]));
+    }
 }
 
 TEST_F(FlowObjectFile, HasScaleSizeAndUpAxis)
@@ -261,7 +404,7 @@ TEST_F(FlowObjectFile, GltfHasTheLooksOfItsMaterials)
         const FlowObject object = with(textured, image);
         ASSERT_TRUE(object.looks.at(0).colours) << image;
         EXPECT_EQ(object.looks[0].colours->rgb, (std::vector<std::uint8_t>{0, 0, 255}));
-        EXPECT_EQ(object.images[0], png.str());
+        EXPECT_EQ(object.images[0].colours, png.str());
         EXPECT_THAT(object.warnings, IsEmpty());
     }
     for (const char* const image : {R"({"uri":"/etc/passwd"})", R"({"uri":"../x.png"})", R"({"bufferView":99})",
@@ -271,6 +414,27 @@ TEST_F(FlowObjectFile, GltfHasTheLooksOfItsMaterials)
         EXPECT_THAT(object.warnings, ElementsAre(HasSubstr("without a texture: "))) << image;
     }
     EXPECT_THAT(with(R"({"name":"a","pbrMetallicRoughness":7})", "{}").looks, ::testing::SizeIs(1));
+    const std::string image = R"({"uri":"a%20b.png"})";
+    const FlowObject full = with(
+        R"({"name":"a","normalTexture":{"index":0,"scale":0.5},"pbrMetallicRoughness":{"metallicRoughnessTexture":)"
+        R"({"index":0}},"extensions":{"KHR_materials_volume":{"thicknessFactor":0.01,"attenuationDistance":0.02,)"
+        R"("attenuationColor":[0.5,0.6,0.7]}}})",
+        image);
+    ASSERT_THAT(full.looks, ::testing::SizeIs(1));
+    EXPECT_TRUE(full.looks[0].normals);
+    EXPECT_EQ(full.looks[0].relief, 0.5);
+    EXPECT_TRUE(full.looks[0].finish);
+    EXPECT_EQ(full.images[0].normals, png.str());
+    EXPECT_EQ(full.images[0].finish, png.str());
+    EXPECT_EQ(full.looks[0].thickness, 0.01);
+    ASSERT_TRUE(full.looks[0].absorption);
+    EXPECT_EQ(full.looks[0].absorption->distance, 0.02);
+    EXPECT_EQ(full.looks[0].absorption->colour, (Vec3{0.5, 0.6, 0.7}));
+    EXPECT_THAT(with(R"({"name":"a","pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":)"
+                     R"({"KHR_texture_transform":{"scale":[2,2]}}}}})",
+                     image)
+                    .warnings,
+                ElementsAre(HasSubstr("a b.png is shown without its KHR_texture_transform")));
 }
 
 std::string animationOf(const std::string& channels, const std::string& samplers)

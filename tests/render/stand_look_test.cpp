@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "droplet/error.h"
@@ -180,6 +182,154 @@ TEST(StandLook, ADropletIsInvisibleOrRefractsFromBehind)
     EXPECT_GT(dark[1], 0.2 * meanOf(without)[1]) << "light passes";
 }
 
+/// Ball of 5 cm about (0, 0, 0.05 m).
+TexturedMesh ball()
+{
+    TexturedMesh mesh;
+    constexpr std::uint32_t kRings = 48;
+    constexpr std::uint32_t kAround = 96;
+    for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
+        for (std::uint32_t k = 0; k < kAround; ++k) {
+            const double tilt = std::numbers::pi * ring / kRings;
+            const double turn = 2.0 * std::numbers::pi * k / kAround;
+            const Vec3 normal{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
+            mesh.normals.push_back(normal);
+            mesh.vertices.push_back(0.05 * normal + Vec3{0.0, 0.0, 0.05});
+            if (ring < kRings) {
+                const std::uint32_t a = ring * kAround + k;
+                const std::uint32_t b = ring * kAround + (k + 1) % kAround;
+                mesh.triangles.push_back({a, a + kAround, b + kAround});
+                mesh.triangles.push_back({a, b + kAround, b});
+            }
+        }
+    }
+    mesh.uvs.resize(mesh.vertices.size());
+    return mesh;
+}
+
+RenderOptions ofBall(const StandLook& look)
+{
+    RenderOptions options = optionsOf(look);
+    options.stand = ball();
+    options.stand_materials.assign(options.stand->triangles.size(), 0);
+    options.shows_room = true;
+    return options;
+}
+
+// In matter of index 1 ways are straight, and light of 1 cm leaves a share after 10 cm: its tenth power.
+TEST(StandLook, MatterOfIndexOneOnlyAbsorbs)
+{
+    StandLook look = clearLook({1.0, 1.0, 1.0}, 1.0);
+    look.thickness = 0.1;
+    const Picture clear = render(Surface(), ofBall(look));
+    RenderOptions none = ofBall(look);
+    none.stand_looks[0].thickness.reset();
+    expectAlike(clear, render(Surface(), none));
+    look.absorption = Attenuation{{0.9, 0.95, 1.0}, 0.01};
+    const Picture tinted = render(Surface(), ofBall(look));
+    look.absorption.reset();
+    look.thickness.reset();
+    look.look.colour = {std::pow(0.9, 5.0), std::pow(0.95, 5.0), 1.0};
+    const Picture walls = render(Surface(), ofBall(look));
+    for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(meanOf(tinted, 31, 33)[c], meanOf(walls, 31, 33)[c], 3.0) << "two walls of the fifth power";
+    }
+    EXPECT_LT(meanOf(tinted)[0], meanOf(clear)[0] - 10.0);
+}
+
+// A ball of glass shows the room upside down: bright below, where a thin one is dark.
+TEST(StandLook, ABallOfGlassTurnsTheRoom)
+{
+    StandLook look = clearLook({1.0, 1.0, 1.0}, 1.5);
+    const auto upperOverLower = [](const Picture& picture) {
+        double upper = 0.0;
+        double lower = 0.0;
+        for (int y = 16; y < 48; ++y) {
+            for (int x = 28; x < 36; ++x) {
+                (y < 32 ? upper : lower) += picture.rgb[3 * static_cast<std::size_t>(y * picture.width + x) + 1];
+            }
+        }
+        return upper / lower;
+    };
+    EXPECT_GT(upperOverLower(render(Surface(), ofBall(look))), 1.05);
+    look.thickness = 0.1;
+    EXPECT_LT(upperOverLower(render(Surface(), ofBall(look))), 0.95);
+}
+
+// A plate of glass with parallel faces moves what is behind sideways, and turns nothing: far away nothing changes but
+// what its two faces mirror, which is what a thin wall mirrors.
+TEST(StandLook, APlateOfGlassIsAThinWallForWhatIsFar)
+{
+    const StandLook thin = clearLook({1.0, 1.0, 1.0}, 1.5);
+    StandLook matter = thin;
+    matter.thickness = 0.002;
+    RenderOptions options = optionsOf(matter, 2);
+    TexturedMesh& mesh = *options.stand;
+    for (std::size_t v = 4; v < 8; ++v) {
+        mesh.normals[v] = {0.0, 1.0, 0.0};
+    }
+    std::swap(mesh.triangles[2][1], mesh.triangles[2][2]);
+    std::swap(mesh.triangles[3][1], mesh.triangles[3][2]);
+    options.shows_room = true;
+    RenderOptions wall = optionsOf(thin);
+    wall.framed = ViewBox{{-0.05, 0.0, 0.0}, {0.05, 0.002, 0.1}};
+    wall.shows_room = true;
+    const auto thick = meanOf(render(Surface(), options));
+    const auto flat = meanOf(render(Surface(), wall));
+    for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(thick[c], flat[c], 3.0);
+    }
+}
+
+TEST(StandLook, DirectionsTurnTheLight)
+{
+    StandLook look = opaqueLook({0.6, 0.6, 0.6});
+    const Picture flat = render(Surface(), optionsOf(look));
+    look.normals = Picture{1, 1, {128, 128, 255}};
+    const Picture straight = render(Surface(), optionsOf(look));
+    for (std::size_t i = 0; i < flat.rgb.size(); ++i) {
+        EXPECT_NEAR(straight.rgb[i], flat.rgb[i], 2);  // 128 is not quite the middle
+    }
+    // Green is up, where uv's y decreases. The same plate tilted by 45 degrees has that light.
+    look.normals = Picture{1, 1, {128, 218, 218}};
+    const double up = meanOf(render(Surface(), optionsOf(look)))[1];
+    look.normals = Picture{1, 1, {128, 38, 218}};
+    const double down = meanOf(render(Surface(), optionsOf(look)))[1];
+    look.normals.reset();
+    RenderOptions tilted = optionsOf(look);
+    for (const double side : {1.0, -1.0}) {
+        for (Vec3& normal : tilted.stand->normals) {
+            normal = {0.0, -std::sqrt(0.5), side * std::sqrt(0.5)};
+        }
+        EXPECT_NEAR(meanOf(render(Surface(), tilted))[1], side > 0.0 ? up : down, 2.0);
+    }
+    EXPECT_GT(std::abs(up - down), 10.0);
+    look.normals = Picture{1, 1, {128, 218, 218}};
+    look.relief = 0.0;
+    EXPECT_EQ(render(Surface(), optionsOf(look)), flat);
+}
+
+TEST(StandLook, FinishIsRoughnessAndMetal)
+{
+    StandLook look = opaqueLook({0.9, 0.6, 0.3});
+    look.look.metallic = 1.0;
+    const Picture metal = render(Surface(), optionsOf(look));
+    look.finish = Picture{1, 1, {0, 255, 255}};
+    EXPECT_EQ(render(Surface(), optionsOf(look)), metal);
+    look.finish = Picture{1, 1, {0, 255, 0}};
+    const Picture matt = render(Surface(), optionsOf(look));
+    EXPECT_NE(matt, metal);
+    look.finish.reset();
+    look.look.metallic = 0.0;
+    EXPECT_EQ(render(Surface(), optionsOf(look)), matt);
+    look.look.metallic = 1.0;
+    look.finish = Picture{1, 1, {0, 0, 255}};
+    const Picture mirror = render(Surface(), optionsOf(look));
+    look.finish.reset();
+    look.look.roughness = 0.0;
+    EXPECT_EQ(render(Surface(), optionsOf(look)), mirror);
+}
+
 TEST(StandLook, RefusesWhatDoesNotFit)
 {
     RenderOptions options = optionsOf(opaqueLook({1.0, 1.0, 1.0}));
@@ -189,6 +339,12 @@ TEST(StandLook, RefusesWhatDoesNotFit)
     EXPECT_THROW(render(Surface(), options), Error);
     options.stand_materials = {0, 0};
     options.stand_looks[0].opacity = 2.0;
+    EXPECT_THROW(render(Surface(), options), Error);
+    options.stand_looks[0].opacity = 1.0;
+    options.stand_looks[0].thickness = 0.0;
+    EXPECT_THROW(render(Surface(), options), Error);
+    options.stand_looks[0].thickness = 1.0;
+    options.stand_looks[0].absorption = Attenuation{{0.0, 1.0, 1.0}, 1.0};
     EXPECT_THROW(render(Surface(), options), Error);
 }
 

@@ -14,6 +14,13 @@
 
 namespace droplet {
 
+/// Encoded pictures of a look, PNG or JPEG, for files; "": none.
+struct LookImages {
+    std::string colours;
+    std::string normals;
+    std::string finish;
+};
+
 /// Object that droplets run over.
 ///
 /// Invariants: numbers are finite; indices are in range; arrays of vertices have one length, but uvs may be empty.
@@ -25,7 +32,7 @@ struct FlowObject {
     std::vector<std::uint32_t> materials;     ///< index of every triangle's material in material_names; or empty
     std::vector<std::string> material_names;  ///< from the file
     std::vector<StandLook> looks;             ///< of every material; or empty: the object is plain
-    std::vector<std::string> images;          ///< PNG or JPEG of every look's colours, or ""; as many as looks
+    std::vector<LookImages> images;           ///< of every look
     ObjectMotion motion;                      ///< from the animation of the object's node, if the file has one
     std::vector<std::string> warnings;        ///< one line each
 };

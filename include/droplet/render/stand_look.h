@@ -13,8 +13,18 @@ struct StandLook {
     /// What is transmitted passes a thin wall straight, as through a pane, tinted by the colour; a droplet on it
     /// refracts.
     Look look;
-    double opacity = 1.0;                 ///< share that hides what is behind, 0 … 1
-    std::optional<Picture> colours = {};  ///< over the stand's uv, which repeats; multiplies the colour
+    double opacity = 1.0;  ///< share that hides what is behind, 0 … 1
+    /// What is transmitted enters matter of the look's index of refraction instead, and leaves it where it meets the
+    /// closed surface from inside. The value is the matter's usual thickness for viewers that do not follow light [m],
+    /// > 0. Empty: a thin wall
+    std::optional<double> thickness = {};
+    std::optional<Attenuation> absorption = {};  ///< in that matter
+    std::optional<Picture> colours = {};         ///< over the stand's uv, which repeats; multiplies the colour
+    /// Directions over the same uv: red and green are parts along uv's x and against its y, blue is outward, from -1 to
+    /// 1 (glTF 2.0, section 3.9.3).
+    std::optional<Picture> normals = {};
+    double relief = 1.0;                 ///< factor on those parts along the surface, finite
+    std::optional<Picture> finish = {};  ///< over the same uv: green multiplies the roughness, blue the metal
 };
 
 }  // namespace droplet
