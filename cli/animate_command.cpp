@@ -356,10 +356,7 @@ private:
     [[nodiscard]] droplet::RenderOptions cameraOf(const PreviewOptions& preview) const
     {
         droplet::RenderOptions render;
-        render.width = preview.width;
-        render.height = preview.height;
-        render.view = preview.view;
-        render.camera = preview.camera;
+        aim(preview, render);
         render.look = droplet::lookOf(options_.settings.material);
         render.extent = frame_->droplet.domain.extent;
         render.framed = bounds_;

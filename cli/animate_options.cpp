@@ -65,7 +65,7 @@ void readSequencePreview(const CommandLine& line, AnimateOptions& options)
     readView(line, preview);
     const auto path = line.value("--preview");
     if (!path) {
-        for (const char* option : {"--view", "--camera", "--preview-size"}) {
+        for (const char* option : {"--view", "--camera", "--look-at", "--preview-size"}) {
             if (line.value(option)) {
                 options.settings.warnings.push_back(std::string(option) + " has no effect without --preview");
             }
@@ -152,7 +152,7 @@ void readAnimation(const CommandLine& line, AnimateOptions& options)
     readOutput(line, options);
     options.fingerprint = optionsOfFrames(line, options.output,
                                           {"--verbose", "--html", "--contact-sheet", "--preview", "--preview-size",
-                                           "--view", "--camera", "--codec", "--quality"});
+                                           "--view", "--camera", "--look-at", "--codec", "--quality"});
 }
 
 std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* const* argv)

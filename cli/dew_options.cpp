@@ -123,6 +123,7 @@ void declare(CommandLine& line, DewCommandOptions& options)
     declareCompression(line, kOut);
     line.add(kOut, "--droplets", "FILE", "Write a table of all droplets, .csv or .json; flow can start with the .csv",
              into(options.droplets));
+    line.add(kOut, "--json", "FILE", "Write a report; - is standard output", into(options.json));
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
     declareCommon(line, kRun, "coverage = 0.3");
@@ -138,6 +139,7 @@ void readDroplets(const CommandLine& line, DewCommandOptions& options)
     if (preset == kPresets.end()) {
         refuse(*named, presetNames());
     }
+    options.preset = preset->name;
     dew.sizes = preset->sizes;
     if (const auto sizes = line.value("--sizes")) {
         if (sizes->text != "condensation" && sizes->text != "lognormal") {

@@ -23,6 +23,7 @@ void addInputs(RunFiles& files, const FlowOptions& options)
     files.reads("--motion", options.motion);
     files.reads("--roughness-map", options.roughness_map);
     files.reads("--friction-map", options.friction_map);
+    files.reads("--environment", options.view.environment);
 }
 
 }  // namespace

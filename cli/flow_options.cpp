@@ -163,6 +163,7 @@ void declare(CommandLine& line, FlowOptions& options)
     line.add("Picture", "--preview", "FILE",
              "Write a rendered picture of the last frame beside meshes, as PNG; - is standard output");
     declareView(line);
+    declareEnvironment(line);
     declareTurntable(line);
     declareCompression(line, kOut);
     line.add(kOut, "--streaks", "FILE",
@@ -417,7 +418,7 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     }
     const bool is_picture = options.kind != FlowOutput::Animation && options.kind != FlowOutput::Meshes;
     readFlowPreview(line, options, is_picture);
-    for (const char* option : {"--view", "--camera", "--preview-size"}) {
+    for (const char* option : {"--view", "--camera", "--look-at", "--environment", "--preview-size"}) {
         if (line.value(option) && !is_picture && !options.has_preview) {
             refuse(std::string(option) + " needs --preview, or pictures or a video as OUTPUT, not '" + options.output +
                    "'");
@@ -429,7 +430,9 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     if (line.value("--view")) {
         options.view.camera.reset();
     }
+    options.view.sees_below = true;
     readView(line, options.view);
+    options.view.environment = text(line, "--environment");
     const bool is_video = options.kind == FlowOutput::Video || (options.has_preview && isVideo(options.view.path));
     options.encoding = readVideoEncoding(line, is_video, "OUTPUT or --preview, not '" + options.output + "'");
     if (is_video) {

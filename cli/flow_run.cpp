@@ -169,13 +169,7 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
     }
     report_.input = nameOfObject(options_);
     report_.surface = plan_.terrain.surface().report;
-    droplet::Vec3 low = plan_.object.vertices.front();
-    droplet::Vec3 high = low;
-    for (const droplet::Vec3& p : plan_.object.vertices) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    report_.size = high - low;
+    report_.size = sizeOf(plan_.object);
     report_.output = options_.output;
     if (options_.preset) {
         report_.preset = options_.preset->name;
@@ -199,10 +193,10 @@ bool FlowRun::isPicture() const
 void FlowRun::preparePainter()
 {
     droplet::FlowPainterOptions painter;
-    painter.render.width = options_.view.width;
-    painter.render.height = options_.view.height;
-    painter.render.view = options_.view.view;
-    painter.render.camera = options_.view.camera;
+    aim(options_.view, painter.render);
+    if (options_.view.environment) {
+        painter.render.environment = droplet::readEnvironment(*options_.view.environment);
+    }
     painter.render.fit_all_azimuths = options_.view.turns.has_value();
     painter.render.look = droplet::lookOf(material_);
     const double end = static_cast<double>(plan_.frames - 1) / options_.frames_per_second;

@@ -173,8 +173,8 @@ void refuseInapplicable(const CommandLine& line, bool is_text)
         return;
     }
     for (const char* option : {"--align", "--line-spacing", "--onto", "--preview", "--view", "--preview-size",
-                               "--ground", "--camera", "--environment", "--preview-background", "--preview-colour",
-                               "--turntable", "--codec", "--quality", "--html"}) {
+                               "--ground", "--camera", "--look-at", "--environment", "--preview-background",
+                               "--preview-colour", "--turntable", "--codec", "--quality", "--html"}) {
         if (line.value(option)) {
             clash(option, "--text alone");
         }

@@ -17,18 +17,6 @@ namespace cli {
 /// Declares --scale, --object-size and --up.
 void declareReading(CommandLine& line, const char* group, droplet::FlowObjectOptions& reading);
 
-/// A number in SI units, or a quantity.
-double plainOr(const Given& given, const Range& range);
-
-/// Parts of a list with commas.
-std::vector<Given> partsOf(const Given& given);
-
-/// A vector of a file's frame, turned to z up.
-droplet::Vec3 vector(const Given& given, const Range& range);
-
-/// A unit vector of a file's frame, turned to z up.
-droplet::Vec3 direction(const Given& given);
-
 /// Turns a surface to the axes of the object's file, for formats that are written z up.
 void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet::FlowObjectOptions& reading);
 

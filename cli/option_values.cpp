@@ -94,4 +94,51 @@ std::size_t count(const Given& given, const CountRange& range)
     return static_cast<std::size_t>(value);
 }
 
+double plainOr(const Given& given, const Range& range)
+{
+    if (const auto plain = finiteNumber(given.text)) {
+        if (*plain < range.min || *plain > range.max) {
+            refuse(given, range.allowed);
+        }
+        return *plain;
+    }
+    return quantity(given, range);
+}
+
+std::vector<Given> partsOf(const Given& given)
+{
+    std::vector<Given> parts;
+    std::string_view rest = given.text;
+    for (;;) {
+        const std::size_t comma = rest.find(',');
+        parts.push_back({std::string(rest.substr(0, comma)), given.subject});
+        if (comma == std::string_view::npos) {
+            return parts;
+        }
+        rest.remove_prefix(comma + 1);
+    }
+}
+
+droplet::Vec3 vector(const Given& given, const Range& range)
+{
+    const std::vector<Given> parts = partsOf(given);
+    if (parts.size() != 3) {
+        refuse(given, "three numbers x,y,z");
+    }
+    const double x = plainOr(parts[0], range);
+    const double y = plainOr(parts[1], range);
+    const double z = plainOr(parts[2], range);
+    return {x, 0.0 - z, y};
+}
+
+droplet::Vec3 direction(const Given& given)
+{
+    constexpr Range kNumber{droplet::Dimension::Length, -1e6, 1e6, "three numbers x,y,z from -1e6 to 1e6"};
+    const droplet::Vec3 d = vector(given, kNumber);
+    if (!(length(d) > 0.0)) {
+        refuse(given, "a direction x,y,z other than 0,0,0");
+    }
+    return (1.0 / length(d)) * d;
+}
+
 }  // namespace cli

@@ -11,6 +11,7 @@
 
 #include "droplet/error.h"
 #include "droplet/units.h"
+#include "droplet/vector.h"
 
 namespace cli {
 
@@ -91,5 +92,17 @@ Value choice(const Given& given, std::initializer_list<std::pair<const char*, Va
 {
     return choiceOf(given, known);
 }
+
+/// A number in SI units, or a quantity.
+double plainOr(const Given& given, const Range& range);
+
+/// Parts of a list with commas.
+std::vector<Given> partsOf(const Given& given);
+
+/// A vector of a file's frame, turned to z up.
+droplet::Vec3 vector(const Given& given, const Range& range);
+
+/// A unit vector of a file's frame, turned to z up.
+droplet::Vec3 direction(const Given& given);
 
 }  // namespace cli

@@ -43,17 +43,24 @@ void readSize(const Given& given, PreviewOptions& options)
     options.height = side(text.substr(times + 1));
 }
 
-droplet::CameraPlace cameraOf(const Given& given)
+constexpr Range kDistance{droplet::Dimension::Length, 1e-6, 1e6, "from 1um to 1e6 m"};
+
+void readCamera(const Given& given, PreviewOptions& options)
 {
     constexpr Range kAzimuth{droplet::Dimension::Angle, -2 * std::numbers::pi, 2 * std::numbers::pi,
                              "from -360deg to 360deg"};
-    constexpr Range kElevation{droplet::Dimension::Angle, 0.0, 0.5 * std::numbers::pi, "from 0deg to 90deg"};
-    const auto comma = given.text.find(',');
-    if (comma == std::string::npos) {
-        refuse(given, "azimuth and elevation such as -60deg,30deg");
+    constexpr Range kAbove{droplet::Dimension::Angle, 0.0, 0.5 * std::numbers::pi, "from 0deg to 90deg"};
+    constexpr Range kAll{droplet::Dimension::Angle, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi,
+                         "from -90deg to 90deg"};
+    const std::vector<Given> parts = partsOf(given);
+    if (parts.size() < 2 || parts.size() > 3) {
+        refuse(given, "azimuth, elevation and perhaps a distance, such as -60deg,30deg or -60deg,30deg,40cm");
     }
-    return {quantity({given.text.substr(0, comma), given.subject + ": azimuth"}, kAzimuth),
-            quantity({given.text.substr(comma + 1), given.subject + ": elevation"}, kElevation)};
+    options.camera = {quantity({parts[0].text, given.subject + ": azimuth"}, kAzimuth),
+                      quantity({parts[1].text, given.subject + ": elevation"}, options.sees_below ? kAll : kAbove)};
+    if (parts.size() > 2) {
+        options.distance = quantity({parts[2].text, given.subject + ": distance"}, kDistance);
+    }
 }
 
 /// Numbered path: `name-007.png` from `name.png`.
@@ -86,10 +93,8 @@ int fittedHeight(const PreviewOptions& options, const droplet::Surface& surface)
 droplet::RenderOptions renderOptions(const PreviewOptions& options, const PreviewSubject& subject, std::size_t index)
 {
     droplet::RenderOptions render;
-    render.width = options.width;
+    aim(options, render);
     render.height = options.fits_height ? fittedHeight(options, subject.surface) : options.height;
-    render.view = options.view;
-    render.camera = options.camera;
     if (options.turns) {
         render.azimuth = turnOf(options, index);
         render.fit_all_azimuths = true;
@@ -132,9 +137,7 @@ void declarePreview(CommandLine& line, PreviewOf subject)
     line.add("Picture", "--ground", "PICTURE",
              "Picture on the ground, aligned with the footprint's picture; with --onto, the object's texture [a table "
              "with a ruling]");
-    line.add(
-        "Picture", "--environment", "FILE",
-        "Equirectangular picture that lights the scene instead of lamps; EXR and HDR hold linear light, others sRGB");
+    declareEnvironment(line);
     line.add("Picture", "--preview-background,--background", "ground|none",
              "none makes the preview transparent except for the droplet and its shadow [ground]");
     const bool is_taken = line.knows("--colour");
@@ -145,6 +148,23 @@ void declarePreview(CommandLine& line, PreviewOf subject)
         line.moveWords("--colour", {"look", "contours", "contact-angle"}, "--preview-colour");
     }
     declareTurntable(line);
+}
+
+void declareEnvironment(CommandLine& line)
+{
+    line.add(
+        "Picture", "--environment", "FILE",
+        "Equirectangular picture that lights the scene instead of lamps; EXR and HDR hold linear light, others sRGB");
+}
+
+void aim(const PreviewOptions& options, droplet::RenderOptions& render)
+{
+    render.width = options.width;
+    render.height = options.height;
+    render.view = options.view;
+    render.camera = options.camera;
+    render.look_at = options.look_at;
+    render.distance = options.distance;
 }
 
 void declareTurntable(CommandLine& line)
@@ -227,9 +247,12 @@ void declareView(CommandLine& line, PreviewOf subject)
         "Picture", "--view", "three-quarter|top|side",
         std::string("Direction of the preview's view ") + (is_text ? "[the front, from above]" : "[three-quarter]"));
     line.add("Picture", "--camera", "DIRECTION",
-             "Camera position, instead of --view: azimuth, counter-clockwise from the picture's right, and elevation, "
-             "such as -60deg,30deg");
+             "Camera position, instead of --view: azimuth, counter-clockwise from the picture's right, elevation, and "
+             "distance, such as -60deg,30deg or -60deg,30deg,40cm [all fits into the picture]");
     line.exclude({"--view", "--camera"});
+    line.add("Picture", "--look-at", "X,Y,Z",
+             "Point in the picture's middle, in the frame of the output, +Y up, such as 0cm,4cm,0cm [all is in the "
+             "middle]");
     line.add("Picture", "--preview-size", "SIZE",
              std::string("Width and height of the preview in pixels ") +
                  (is_text ? "[1280 wide, as high as the text needs]" : "[1280x960]"));
@@ -243,7 +266,11 @@ void readView(const CommandLine& line, PreviewOptions& options)
                                                      {"side", droplet::View::Side}});
     }
     if (const auto camera = line.value("--camera")) {
-        options.camera = cameraOf(*camera);
+        readCamera(*camera, options);
+    }
+    if (const auto look_at = line.value("--look-at")) {
+        constexpr Range kPlace{droplet::Dimension::Length, -1e6, 1e6, "three lengths x,y,z from -1e6 m to 1e6 m"};
+        options.look_at = vector(*look_at, kPlace);
     }
     if (const auto size = line.value("--preview-size")) {
         readSize(*size, options);

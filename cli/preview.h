@@ -28,6 +28,9 @@ struct PreviewOptions {
     std::string path;  ///< or kStandardStream; a turntable adds numbers before the extension
     droplet::View view = droplet::View::ThreeQuarter;
     std::optional<droplet::CameraPlace> camera;  ///< replaces `view`
+    std::optional<droplet::Vec3> look_at;        ///< as of RenderOptions [m]
+    std::optional<double> distance;              ///< as of RenderOptions [m]
+    bool sees_below = false;                     ///< whether the camera may be below the ground
     bool cut_out = false;                        ///< without ground and backdrop
     int width = 1280;                            ///< [px]
     int height = 960;                            ///< [px]
@@ -59,7 +62,13 @@ enum class PreviewOf { Picture, Text };
 /// Declares the options of the preview.
 void declarePreview(CommandLine& line, PreviewOf subject = PreviewOf::Picture);
 
-/// Declares --view, --camera and --preview-size alone.
+/// Sets size, view, camera and where it looks.
+void aim(const PreviewOptions& options, droplet::RenderOptions& render);
+
+/// Declares --environment.
+void declareEnvironment(CommandLine& line);
+
+/// Declares --view, --camera, --look-at and --preview-size alone.
 void declareView(CommandLine& line, PreviewOf subject = PreviewOf::Picture);
 
 /// Reads the options of declareView.

@@ -298,6 +298,26 @@ last frame; or a video, .mp4, .mkv, .mov or .webm, which needs ffmpeg.
         leave_out={"json"},
         run={"resume", "no_clobber", "threads"},
     ),
+    Function(
+        "dew",
+        "dew",
+        ["Object", "Droplets", "Slopes", "Coating", "Liquid", "Output"],
+        "object: Path, output: Path",
+        "DewReport",
+        """\
+Covers an object with droplets that rest on it, and writes them.
+
+object: mesh: .glb, .gltf, .obj, .ply or .stl.
+output: the object and its droplets, .glb, .gltf, .usda or .usdz; or the droplets alone, .obj, .ply or .stl.
+
+>>> report = dew("data/can.glb", "wet.glb", coverage=0.1, smallest="1mm", largest="2mm")
+>>> report.droplets.count > 10, report.preset
+(True, 'dew')
+""",
+        "_reports.DewReport.from_json(_core.dew(object, output, {tokens}))",
+        leave_out={"json"},
+        run={"no_clobber", "threads"},
+    ),
 ]
 
 
@@ -330,6 +350,7 @@ INPUT_OF = {
     "wind_tunnel": "never",
     "windshield": "a file cannot be read",
     "flow": "a file cannot be read, or there is no place for droplets",
+    "dew": "a file cannot be read, or there is no place for droplets",
 }
 
 
@@ -337,7 +358,7 @@ def raises_of(function):
     raises = ["InvalidArgument: a value is outside of its range"]
     if function.name != "wind_tunnel":
         raises.append(f"InvalidInput: {INPUT_OF[function.name]}")
-    if function.name in ("windshield", "flow"):
+    if function.name in ("windshield", "flow", "dew"):
         raises.append("OutputFailed: a file cannot be written")
     if function.name in ("make_droplet", "glyphs", "animate"):
         raises.append("NoSuchDroplet: no such droplet exists, or the solver failed")
@@ -439,6 +460,7 @@ ROOTS = {
     "wind-tunnel": ("WindTunnelReport", "WindTunnel", "Droplets in the wind tunnel."),
     "windshield": ("WindshieldReport", "Windshield", "Report on rain on a windshield."),
     "flow": ("FlowReport", "Flow", "Report on droplets that run over a mesh."),
+    "dew": ("DewReport", "Dew", "Report on droplets that rest on an object."),
 }
 NAMES = {
     "a": "surface",

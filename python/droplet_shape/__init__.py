@@ -14,13 +14,14 @@ units (metres, radians, cubic metres, …), or a text with a number and a unit s
 from ._core import Animation, Droplet, Mask, Surface
 from ._core import version as __version__
 from ._errors import Error, InputNotFound, InvalidArgument, InvalidInput, NoSuchDroplet, OutputFailed
-from ._functions import animate, compare, flow, glyphs, make_droplet, read_mask, wind_tunnel, windshield
+from ._functions import animate, compare, dew, flow, glyphs, make_droplet, read_mask, wind_tunnel, windshield
 
-_REPORTS = ("Comparison", "FlowReport", "Report", "SequenceReport", "WindTunnelReport", "WindshieldReport")
+_REPORTS = ("Comparison", "DewReport", "FlowReport", "Report", "SequenceReport", "WindTunnelReport", "WindshieldReport")
 
 __all__ = [
     "Animation",
     "Comparison",
+    "DewReport",
     "Droplet",
     "Error",
     "FlowReport",
@@ -37,6 +38,7 @@ __all__ = [
     "WindshieldReport",
     "animate",
     "compare",
+    "dew",
     "flow",
     "glyphs",
     "make_droplet",

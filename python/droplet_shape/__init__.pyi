@@ -11,6 +11,7 @@ from ._errors import NoSuchDroplet as NoSuchDroplet
 from ._errors import OutputFailed as OutputFailed
 from ._functions import animate as animate
 from ._functions import compare as compare
+from ._functions import dew as dew
 from ._functions import flow as flow
 from ._functions import glyphs as glyphs
 from ._functions import make_droplet as make_droplet
@@ -18,6 +19,7 @@ from ._functions import read_mask as read_mask
 from ._functions import wind_tunnel as wind_tunnel
 from ._functions import windshield as windshield
 from ._reports import Comparison as Comparison
+from ._reports import DewReport as DewReport
 from ._reports import FlowReport as FlowReport
 from ._reports import Report as Report
 from ._reports import SequenceReport as SequenceReport
@@ -27,6 +29,7 @@ from ._reports import WindTunnelReport as WindTunnelReport
 __all__ = [
     "Animation",
     "Comparison",
+    "DewReport",
     "Droplet",
     "Error",
     "FlowReport",
@@ -43,6 +46,7 @@ __all__ = [
     "WindshieldReport",
     "animate",
     "compare",
+    "dew",
     "flow",
     "glyphs",
     "make_droplet",

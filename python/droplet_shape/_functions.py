@@ -965,7 +965,9 @@ _FLOW = {
     "preview": "path",
     "view": "text",
     "camera": "list rad",
+    "look_at": "vector",
     "preview_size": "size",
+    "environment": "path",
     "turntable": "number",
     "codec": "text",
     "quality": "number",
@@ -1043,7 +1045,9 @@ def flow(
     preview: Path | None = None,
     view: Literal["three-quarter", "top", "side"] | None = None,
     camera: str | Sequence[float] | None = None,
+    look_at: str | Sequence[float] | None = None,
     preview_size: str | tuple[int, int] | None = None,
+    environment: Path | None = None,
     turntable: str | int | None = None,
     codec: str | None = None,
     quality: float | None = None,
@@ -1154,9 +1158,13 @@ def flow(
     Picture:
       preview: Write a rendered picture of the last frame beside meshes, as PNG
       view: three-quarter, top, side: Direction of the preview's view (default: three-quarter)
-      camera [rad]: Camera position, instead of view: azimuth, counter-clockwise from the picture's right, and
-        elevation, such as -60deg,30deg
+      camera [rad]: Camera position, instead of view: azimuth, counter-clockwise from the picture's right, elevation,
+        and distance, such as -60deg,30deg or -60deg,30deg,40cm (default: all fits into the picture)
+      look_at [m or m/s]: Point in the picture's middle, in the frame of the output, +Y up, such as 0cm,4cm,0cm
+        (default: all is in the middle)
       preview_size [px]: Width and height of the preview in pixels (default: 1280x960)
+      environment: Equirectangular picture that lights the scene instead of lamps; EXR and HDR hold linear light,
+        others sRGB
       turntable: Write N previews of a full turn, FILE-001.png and so on, or one video if preview names a .mp4, .mkv,
         .mov or .webm; up to 360. A video's FILE, without preview, gets 120
       codec: Encoder of ffmpeg (default: libx264, libvpx-vp9 for .webm)
@@ -1171,3 +1179,139 @@ def flow(
     for droplets; OutputFailed: a file cannot be written.
     """
     return _reports.FlowReport.from_json(_core.flow(object, output, arguments_of(_FLOW, locals())))
+
+
+_DEW = {
+    "scale": "number",
+    "object_size": "m",
+    "up": "text",
+    "preset": "text",
+    "coverage": "share",
+    "smallest": "m",
+    "largest": "m",
+    "sizes": "text",
+    "median": "m",
+    "spread": "number",
+    "from_": "vector",
+    "mask": "path",
+    "seed": "number",
+    "hysteresis": "number",
+    "gravity_direction": "vector",
+    "contact_angle": "rad",
+    "viscosity_factor": "Pa.s",
+    "kinetic_fraction": "number",
+    "liquid": "text",
+    "surface_tension": "N/m",
+    "density": "kg/m3",
+    "gravity": "m/s2",
+    "detail": "text",
+    "material": "text",
+    "instancing": "text",
+    "droplets_only": "flag",
+    "compress": "text",
+    "droplets": "path",
+    "no_clobber": "flag",
+    "threads": "number",
+}
+
+
+def dew(
+    object: Path,
+    output: Path,
+    *,
+    scale: float | None = None,
+    object_size: str | float | None = None,
+    up: Literal["y", "z"] | None = None,
+    preset: Literal["dew", "rain", "bottle", "shower", "mist"] | None = None,
+    coverage: str | float | None = None,
+    smallest: str | float | None = None,
+    largest: str | float | None = None,
+    sizes: Literal["condensation", "lognormal"] | None = None,
+    median: str | float | None = None,
+    spread: float | None = None,
+    from_: str | Sequence[float] | None = None,
+    mask: Path | None = None,
+    seed: str | int | None = None,
+    hysteresis: float | None = None,
+    gravity_direction: str | Sequence[float] | None = None,
+    contact_angle: str | float | None = None,
+    viscosity_factor: str | float | None = None,
+    kinetic_fraction: float | None = None,
+    liquid: Literal["water", "ethanol", "glycerol", "mercury", "honey"] | None = None,
+    surface_tension: str | float | None = None,
+    density: str | float | None = None,
+    gravity: str | float | None = None,
+    detail: Literal["low", "medium", "high"] | None = None,
+    material: str | None = None,
+    instancing: Literal["auto", "none", "nodes", "gpu"] | None = None,
+    droplets_only: bool = False,
+    compress: Literal["none", "quantize", "meshopt"] | None = None,
+    droplets: Path | None = None,
+    no_clobber: bool = False,
+    threads: str | int | None = None,
+) -> DewReport:
+    """Covers an object with droplets that rest on it, and writes them.
+
+    object: mesh: .glb, .gltf, .obj, .ply or .stl.
+    output: the object and its droplets, .glb, .gltf, .usda or .usdz; or the droplets alone, .obj, .ply or .stl.
+
+    >>> report = dew("data/can.glb", "wet.glb", coverage=0.1, smallest="1mm", largest="2mm")
+    >>> report.droplets.count > 10, report.preset
+    (True, 'dew')
+
+    Object:
+      scale: Factor on the lengths of the file (default: 1)
+      object_size [m]: Longest side of the object; scales it
+      up: y, z: Axis that points up in an .obj, .ply or .stl (default: y, of .ply z)
+
+    Droplets:
+      preset: dew, rain, bottle, shower, mist: Kind of wetness: dew in the morning, fresh rain, a cold bottle, after a
+        shower, fine mist; the other options of this group change it (default: dew)
+      coverage: Share of the surface below droplets, 0.001 to 0.7 (default: by preset)
+      smallest [m]: Radius of the smallest droplets seen from above (default: by preset)
+      largest [m]: Radius of the largest droplets seen from above, before some join (default: by preset)
+      sizes: condensation, lognormal: Numbers of droplets by radius r: condensation is r to the power of -8/3,
+        lognormal has a median and a spread (default: by preset)
+      median [m]: Median of the radii, lognormal (default: by preset)
+      spread: Standard deviation of their logarithm, lognormal, 0 to 3 (default: by preset)
+      from [m or m/s]: Direction that rain comes from; droplets are then only where it meets the object (default: of
+        rain 0,1,0)
+      mask: Mask over the object's texture coordinates: droplets are where it is covered
+      seed: Random seed (default: 1)
+
+    Slopes:
+      hysteresis: Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle; it holds
+        droplets (default: 0.2)
+      gravity_direction [m or m/s]: Direction of gravity (default: 0,-1,0)
+
+    Coating:
+      contact_angle [rad]: Contact angle of droplets at rest, from 1deg to 179deg (default: by preset)
+      viscosity_factor [Pa·s]: Viscous drag per radius and speed: artistic is 0.5Pa.s, wedge is that of water by wedge
+        theory (default: by preset)
+      kinetic_fraction: Friction of a moving droplet, as a fraction of that at rest (default: 1)
+
+    Liquid:
+      liquid: water, ethanol, glycerol, mercury, honey: Liquid, at 20 C (default: water)
+      surface_tension [N/m]: Surface tension, instead of the liquid's own
+      density [kg/m³]: Density, instead of the liquid's own
+      gravity [m/s²]: Gravity, downwards (default: 9.81m/s2)
+
+    Output:
+      detail: low, medium, high: Triangles of droplets: medium has 64 of small ones to 352 of large ones (default:
+        medium)
+      material: Look of the droplets: water, ink, mercury, honey or plain (default: by liquid)
+      instancing: auto, none, nodes, gpu: auto is one mesh up to 20000 droplets; none one mesh; nodes a node for each
+        droplet, with shared meshes; gpu EXT_mesh_gpu_instancing, for glTF (default: auto)
+      droplets_only: Leave the object out of a .glb, .gltf, .usda or .usdz
+      compress: none, quantize, meshopt: Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three
+        quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size (default: none)
+      droplets: Write a table of all droplets, .csv or .json; flow can start with the .csv
+
+    Run:
+      no_clobber: Do not replace existing files
+      threads: Maximum number of threads (default: all cores)
+
+    Raises InvalidArgument: a value is outside of its range; InvalidInput: a file cannot be read, or there is no place
+    for droplets; OutputFailed: a file cannot be written.
+    """
+    return _reports.DewReport.from_json(_core.dew(object, output, arguments_of(_DEW, locals())))

@@ -1011,3 +1011,96 @@ class FlowReport(_Report):
     warnings: tuple[str, ...]  # Warnings
     time_s: FlowTime  # Run time
     peak_memory_bytes: int  # Largest memory
+
+
+@dataclass(frozen=True)
+class DewInput(_Report):
+    """The object."""
+
+    path: str  # Path of the object, or `preset` and its name
+    triangles: int  # Triangles of its mesh
+    without_area: int  # Triangles that were left out: too thin to have a normal
+    duplicates: int  # Triangles that were left out: another has the same corners
+    turned: int  # Triangles that were turned over to face as their neighbours do
+    boundary_edges: int  # Edges with one triangle: droplets fall off there
+    parts: int  # Parts that are connected over edges
+    size_m: tuple[float, ...]  # Edges of the box around the object
+
+
+@dataclass(frozen=True)
+class DewOutput(_Report):
+    """The file."""
+
+    path: str  # Path
+
+
+@dataclass(frozen=True)
+class DewSizes(_Report):
+    """What was asked for."""
+
+    distribution: str  # Numbers of droplets by radius
+    coverage: float  # Share of the surface below droplets
+    smallest_m: float  # Radius of the smallest droplets seen from above
+    largest_m: float  # Radius of the largest droplets, before some join
+    median_m: float | None  # Median of the radii; null for condensation
+    spread: float | None  # Standard deviation of their logarithm; null for condensation
+    from_: tuple[float, ...] | None  # Direction that rain comes from
+    seed: int  # Random seed
+
+
+@dataclass(frozen=True)
+class DewForces(_Report):
+    """Forces."""
+
+    liquid: str  # Name of the liquid
+    surface_tension_n_per_m: float  # Surface tension
+    density_kg_per_m3: float  # Density
+    gravity_m_per_s2: tuple[float, ...]  # Gravity in the world
+    contact_angle_deg: float  # Contact angle
+    hysteresis: float  # Contact angle hysteresis
+    falling_angle_deg: float | None  # Slope at which droplets of every volume begin to run
+    kinetic_fraction: float
+    viscosity_factor_pa_s: float
+    air_density_kg_per_m3: float
+    drag_coefficient: float
+    boundary_layer_m: float
+    profile_exponent: float
+
+
+@dataclass(frozen=True)
+class DewDroplet(_Report):
+    """What there is."""
+
+    count: int  # Number of droplets
+    volume_m3: float  # Volume of all droplets
+    area_m2: float  # Area where droplets may be
+    covered_m2: float  # Area below droplets
+    smallest_m: float  # Radius of the smallest droplet seen from above
+    largest_m: float  # Radius of the largest droplet seen from above
+    joined: int  # Droplets that found no room and joined others
+    run_off: int  # Droplets that no place holds
+    left_out: int  # Droplets below which the object bends too much
+
+
+@dataclass(frozen=True)
+class DewTime(_Report):
+    """Run time."""
+
+    total: float  # Run time
+
+
+@dataclass(frozen=True)
+class DewReport(_Report):
+    """Report on droplets that rest on an object."""
+
+    schema: str
+    version: str  # Version of the program
+    preset: str  # Kind of wetness
+    input: DewInput  # The object
+    output: DewOutput  # The file
+    sizes: DewSizes  # What was asked for
+    forces: DewForces  # Forces
+    droplets: DewDroplet  # What there is
+    warnings: tuple[str, ...]  # Warnings
+    time_s: DewTime  # Run time
+    peak_memory_bytes: int  # Largest memory

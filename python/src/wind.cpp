@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "arguments.h"
+#include "dew_run.h"
+#include "droplet/flow_io/dew_report.h"
 #include "droplet/flow_io/flow_report.h"
 #include "droplet/wind/tunnel.h"
 #include "droplet/wind_io/tunnel_report.h"
@@ -84,6 +86,19 @@ std::string flow(const std::optional<std::filesystem::path>& object, const std::
     return std::move(out).str();
 }
 
+std::string dew(const std::filesystem::path& object, const std::filesystem::path& output, const Arguments& arguments)
+{
+    Arguments all = arguments;
+    all.insert(all.end(), {"--quiet", argumentOf(object), argumentOf(output)});
+    const auto options = parsed(cli::parseDew, all);
+    const Work work(options.run.threads);
+    checkFiles(filesOf(options), options.run.files);
+    const droplet::DewReport report = cli::makeDew(options);
+    std::ostringstream out;
+    writeDewReport(out, report);
+    return std::move(out).str();
+}
+
 }  // namespace
 
 void bindWind(py::module_& module)
@@ -91,6 +106,7 @@ void bindWind(py::module_& module)
     module.def("wind_tunnel", &windTunnel);
     module.def("windshield", &windshield);
     module.def("flow", &flow);
+    module.def("dew", &dew);
 }
 
 }  // namespace binding

@@ -5,7 +5,7 @@
 
 namespace binding {
 
-/// Adds wind tunnel, windshield and flow to the module.
+/// Adds wind tunnel, windshield, flow and dew to the module.
 void bindWind(pybind11::module_& module);
 
 }  // namespace binding

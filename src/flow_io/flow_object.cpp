@@ -196,6 +196,17 @@ void guessThickness(FlowObject& object)
 
 }  // namespace
 
+Vec3 sizeOf(const FlowObject& object)
+{
+    Vec3 low = object.vertices.front();
+    Vec3 high = low;
+    for (const Vec3& p : object.vertices) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return high - low;
+}
+
 FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOptions& options)
 {
     const auto is_positive = [](double value) { return value > 0.0 && std::isfinite(value); };

@@ -8,11 +8,11 @@
 #include <ostream>
 #include <utility>
 
-#include "axes.h"
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
 #include "droplet/wind/rain.h"
+#include "flow_io/object_section.h"
 #include "io/report_sections.h"
 #include "io/rounded_time.h"
 #include "wind_io/forces_section.h"
@@ -31,12 +31,6 @@ const char* nameOf(BodyShape shape)
             return "capsule";
     }
     throw Error(ErrorCode::InvalidArgument, "unknown shape");
-}
-
-ReportJson vectorOf(Vec3 v)
-{
-    const Vec3 up = yUp(v);
-    return {up.x + 0.0, up.y, up.z};
 }
 
 ReportJson sizesOf(const VolumeDistribution& volumes)
@@ -129,15 +123,8 @@ void writeFlowReport(std::ostream& out, const FlowReport& report)
     json["schema"] = "droplet-shape.flow/1";
     json["version"] = kVersion;
     json["preset"] = orNull(report.preset);
-    json["input"] = {{"path", report.input},
-                     {"triangles", surface.triangles},
-                     {"without_area", surface.without_area},
-                     {"duplicates", surface.duplicates},
-                     {"turned", surface.turned},
-                     {"boundary_edges", surface.boundary_edges},
-                     {"parts", surface.parts},
-                     {"size_m", {report.size.x, report.size.z, report.size.y}},
-                     {"start", orNull(report.start)}};
+    json["input"] = objectSection(report.input, surface, report.size);
+    json["input"]["start"] = orNull(report.start);
     json["output"] = {{"path", report.output},
                       {"frames", report.frames},
                       {"frames_per_second", report.frames_per_second},

@@ -58,7 +58,7 @@ CameraTurn turnedBack(double azimuth)
     return {static_cast<float>(std::cos(azimuth)), static_cast<float>(-std::sin(azimuth))};
 }
 
-Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options, int aside)
+Camera::Camera(const std::vector<Vec3f>& points, const RayTracer& scene, const RenderOptions& options, int aside)
     : width_(static_cast<float>(options.width)), height_(static_cast<float>(options.height))
 {
     // A narrow picture keeps the horizontal field of view.
@@ -76,8 +76,8 @@ Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options, i
 
     const std::vector<Vec3f> rings = options.fit_all_azimuths ? turned(points, turn) : std::vector<Vec3f>();
     const std::vector<Vec3f>& framed = options.fit_all_azimuths ? rings : points;
-    Vec3f target;
-    float distance = 12.0F;
+    Vec3f target = options.look_at ? scene.toScene(*options.look_at) : Vec3f{};
+    float distance = options.distance ? static_cast<float>(*options.distance / scene.scale()) : 12.0F;
     const float room = width_ - static_cast<float>(aside);
     constexpr int kRounds = 12;  // each round reduces the error to a tenth
     for (int round = 0; round < kRounds; ++round) {
@@ -94,11 +94,21 @@ Camera::Camera(const std::vector<Vec3f>& points, const RenderOptions& options, i
             high_y = std::max(high_y, at.y);
         }
         const float step = distance / focal_;
-        target = target + static_cast<float>(0.5 * (low_x + high_x - room)) * step * right_ -
-                 static_cast<float>(0.5 * (low_y + high_y - height_)) * step * up_;
-        const double filled = std::max((high_x - low_x) / room, (high_y - low_y) / height_);
-        // The camera stays so far away that no point is behind the eye.
-        distance = std::max(distance * static_cast<float>(filled) / kFilled, 1.5F);
+        double filled = std::max((high_x - low_x) / room, (high_y - low_y) / height_);
+        if (!options.look_at) {
+            target = target + static_cast<float>(0.5 * (low_x + high_x - room)) * step * right_ -
+                     static_cast<float>(0.5 * (low_y + high_y - height_)) * step * up_;
+        } else {
+            // What is farthest from the middle decides.
+            const double middle_x = 0.5 * room;
+            const double middle_y = 0.5 * height_;
+            filled = std::max(std::max(high_x - middle_x, middle_x - low_x) / middle_x,
+                              std::max(high_y - middle_y, middle_y - low_y) / middle_y);
+        }
+        if (!options.distance) {
+            // The camera stays so far away that no point is behind the eye.
+            distance = std::max(distance * static_cast<float>(filled) / kFilled, 1.5F);
+        }
     }
     eye_ = target + distance * back_;
 }

@@ -27,9 +27,10 @@ CameraTurn turnedBack(double azimuth);
 class Camera {
 public:
     /// @param points   points to frame, not empty
-    /// @param options  size, view, azimuth
+    /// @param scene    of these points
+    /// @param options  size, view, azimuth, look_at, distance
     /// @param aside    width kept free at the right [px]
-    Camera(const std::vector<Vec3f>& points, const RenderOptions& options, int aside = 0);
+    Camera(const std::vector<Vec3f>& points, const RayTracer& scene, const RenderOptions& options, int aside = 0);
 
     /// Ray through a point of the picture [px], y down.
     [[nodiscard]] RayF ray(float x, float y) const;

@@ -75,7 +75,7 @@ public:
           scene_(surface, options),
           studio_(options, turn_),
           media_(mediaOf(surface, options, scene_.scale())),
-          camera_(framedPoints(), options,
+          camera_(framedPoints(), scene_, options,
                   options.paint ? legendWidth(*options.paint, options.width, options.height) : 0)
     {
         if (options.paint) {
@@ -792,8 +792,14 @@ void RenderOptions::validate() const
     require(std::isfinite(azimuth), "options.azimuth", azimuth, "finite");
     if (camera) {
         require(std::isfinite(camera->azimuth), "options.camera.azimuth", camera->azimuth, "finite");
-        require(camera->elevation >= 0.0 && camera->elevation <= 0.5 * std::numbers::pi, "options.camera.elevation",
-                camera->elevation, "from 0 to pi/2");
+        require(std::abs(camera->elevation) <= 0.5 * std::numbers::pi, "options.camera.elevation", camera->elevation,
+                "from -pi/2 to pi/2");
+    }
+    if (look_at && !(std::isfinite(look_at->x) && std::isfinite(look_at->y) && std::isfinite(look_at->z))) {
+        refuse("look_at must be finite");
+    }
+    if (distance) {
+        require(*distance > 0.0 && std::isfinite(*distance), "options.distance", *distance, "finite and more than 0 m");
     }
     require(look.ior >= 1.0 && look.ior <= 4.0, "options.look.ior", look.ior, "from 1 to 4");
     for (const Look& one : looks) {
@@ -873,6 +879,10 @@ namespace {
 void requireDrawable(const Surface& surface, const RenderOptions& options)
 {
     options.validate();
+    if (options.camera && !(options.stand && options.shows_whole_stand)) {
+        require(options.camera->elevation >= 0.0, "options.camera.elevation", options.camera->elevation,
+                "from 0 to pi/2, above the ground");
+    }
     const bool dry = (options.framed || options.stand_water) && surface.triangles.empty();
     if (!dry) {
         surface.validate();

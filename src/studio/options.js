@@ -38,6 +38,8 @@ export const kOptions = {
   "sink": {"min": 1e-09, "max": 1000.0},
   "compress": {"words": ["none", "quantize", "meshopt"], "default": "none"},
   "view": {"words": ["three-quarter", "top", "side"], "default": "three-quarter"},
+  "camera": {"default": "all fits into the picture"},
+  "look-at": {"default": "all is in the middle"},
   "preview-size": {"default": "1280x960"},
   "ground": {"default": "a table with a ruling"},
   "preview-background": {"words": ["ground", "none"], "default": "ground"},

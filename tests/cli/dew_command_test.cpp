@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -106,6 +108,36 @@ TEST_F(DewCommand, ItsTableStartsAFlow)
                                            "--time", "40ms", "--fps", "25", "--no-merge"});
     EXPECT_EQ(flow.exit_code, 0) << flow.error;
     EXPECT_THAT(flow.error, HasSubstr(std::to_string(rows) + " rest"));
+}
+
+TEST_F(DewCommand, ItsReportIsThatOfItsTable)
+{
+    ASSERT_EQ(
+        dew("wet.obj", {"--droplets", path("drops.csv"), "--json", path("dew.json"), "--coverage", "0.05"}).exit_code,
+        0);
+    const auto report = nlohmann::json::parse(readFile(path("dew.json")));
+    std::istringstream table(readFile(path("drops.csv")));
+    std::string line;
+    std::getline(table, line);
+    const auto before = line.substr(0, line.find("volume_m3"));
+    const auto column = std::count(before.begin(), before.end(), ',');
+    std::size_t count = 0;
+    double volume = 0.0;
+    while (std::getline(table, line)) {
+        std::istringstream cells(line);
+        for (auto k = column; k >= 0; --k) {
+            std::getline(cells, line, ',');
+        }
+        volume += std::stod(line);
+        ++count;
+    }
+    const auto& droplets = report["droplets"];
+    EXPECT_EQ(droplets["count"], count);
+    EXPECT_NEAR(droplets["volume_m3"].get<double>(), volume, 1e-4 * volume) << "the table has few digits";
+    EXPECT_NEAR(droplets["covered_m2"].get<double>(), 0.05 * droplets["area_m2"].get<double>(),
+                0.005 * droplets["area_m2"].get<double>());
+    EXPECT_LT(droplets["smallest_m"], droplets["largest_m"]);
+    EXPECT_EQ(report["sizes"]["median_m"], nullptr);
 }
 
 TEST_F(DewCommand, ReadsAConfiguration)

@@ -226,6 +226,26 @@ TEST_F(FlowCommand, MapsHaveTheThicknessOfTheFilm)
     EXPECT_GT(films, 30);
 }
 
+TEST_F(FlowCommand, TheCameraStandsAnywhereInALight)
+{
+    const auto drawn = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all{"--drops", "5", "--time", "0.1s", "--preview-size", "48x32"};
+        all.insert(all.end(), more.begin(), more.end());
+        EXPECT_EQ(flow("x.png", all).exit_code, 0);
+        return testing::readFile(path("x.png"));
+    };
+    const std::string above = drawn({"--camera", "-60deg,10deg"});
+    EXPECT_NE(drawn({"--camera", "-60deg,-10deg"}), above);
+    EXPECT_NE(drawn({"--camera", "-60deg,10deg,2m"}), above);
+    EXPECT_NE(drawn({"--camera", "-60deg,10deg", "--look-at", "0cm,10cm,0cm"}), above);
+    testing::writeFile(path("sky.ppm"), "P3 2 1 255 255 0 0 0 0 255\n");
+    EXPECT_NE(drawn({"--camera", "-60deg,10deg", "--environment", path("sky.ppm")}), above);
+    EXPECT_EQ(flow("sky.ppm.png", {"--drops", "3", "--environment", path("sky.ppm.png")}).exit_code, 2);
+    expectRefused({"--drops", "3", "--preview", path("p.png"), "--camera", "1deg,2deg,3deg"}, 2, "--camera: distance");
+    expectRefused({"--drops", "3", "--preview", path("p.png"), "--camera", "1deg"}, 2, "azimuth, elevation");
+    expectRefused({"--drops", "3", "--look-at", "1m,2m,3m"}, 2, "--look-at needs --preview");
+}
+
 TEST_F(FlowCommand, ShowsTheLastFrameInAPreviewOrATurntable)
 {
     const std::vector<std::string> scene{"--drops",        "5",     "--time",       "0.1s",

@@ -158,6 +158,12 @@ const std::vector<CommandFiles>& all()
           {"--json", "out.json"},
           {"--preview", "preview.png"},
           needing(frames("--preview", "turn.png", "turn-002.png"), {"--turntable", "3"})}},
+        {"dew",
+         "dew",
+         {{"OBJECT", "object.glb"}, {"OUTPUT", "new.glb"}},
+         {"--smallest", "2mm", "--largest", "3mm"},
+         {{"OBJECT", "object.glb"}, kConfig, {"--mask", "mask.png"}},
+         {{"OUTPUT", "out.glb"}, {"OUTPUT", "out.obj"}, {"--droplets", "droplets.csv"}, {"--json", "out.json"}}},
         {"glyphs",
          "text",
          {font, {"--output", "new.glb"}},
@@ -425,6 +431,8 @@ TEST(RunFilesOfHelp, TableHasAllFileOptions)
     // Films refuse objects; the option is declared to say so.
     known["animate"].insert("--onto");
     known["morph"].insert("--onto");
+    // Either the output is a picture or there is a preview; a test of flow has it.
+    known["flow"].insert("--environment");
     for (const auto& [command, names] : known) {
         const CommandResult help = runDroplet(command.empty() ? std::vector<std::string>{"--help"}
                                                               : std::vector<std::string>{command, "--help"});

@@ -93,6 +93,11 @@ class SameAsTheCommand(unittest.TestCase):
         ds.windshield(self.folder / "package.png", time=0.2, warm_up="1s", frame_size=(160, 90))
         self.assertEqual((self.folder / "package.png").read_bytes(), (self.folder / "command.png").read_bytes())
 
+    def test_dew(self):
+        run("dew", DATA / "can.glb", self.folder / "command.glb", "--preset", "rain", "--smallest", "1mm", "--from", "0,1,1")
+        ds.dew(DATA / "can.glb", self.folder / "package.glb", preset="rain", smallest=0.001, from_=(0, 1, 1))
+        self.assertEqual((self.folder / "package.glb").read_bytes(), (self.folder / "command.glb").read_bytes())
+
     def test_flow(self):
         run("flow", DATA / "can.glb", self.folder / "command.glb", "--drops", "30", "--time", "0.3s", "--wind-velocity", "1,0,0")
         ds.flow(DATA / "can.glb", self.folder / "package.glb", drops=30, time=0.3, wind_velocity=(1, 0, 0))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""glyphs, animate, compare, wind_tunnel, windshield and flow."""
+"""glyphs, animate, compare, wind_tunnel, windshield, flow and dew."""
 import math
 import tempfile
 import unittest
@@ -180,6 +180,16 @@ class Windshield(InFolder):
             ds.windshield(self.folder / "a.png", rain="5mm")
         with self.assertRaises(ds.OutputFailed):
             ds.windshield(self.folder / "nowhere" / "a.png", time=0.1, warm_up="1s")
+
+
+class Dew(InFolder):
+    def test_droplets_rest_on_a_mesh(self):
+        report = ds.dew(DATA / "can.glb", self.folder / "wet.obj", coverage=0.1, smallest="1mm", largest="2mm")
+        self.assertGreater(report.droplets.count, 10)
+        self.assertAlmostEqual(report.droplets.covered_m2 / report.droplets.area_m2, 0.1, delta=0.02)
+        self.assertTrue((self.folder / "wet.obj").exists())
+        with self.assertRaisesRegex(ds.InvalidArgument, "coverage"):
+            ds.dew(DATA / "can.glb", self.folder / "wet.obj", coverage=2)
 
 
 class Flow(InFolder):

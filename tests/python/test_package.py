@@ -19,7 +19,7 @@ from droplet_shape import _functions, _reports
 from support import ROOT, program
 
 PACKAGE = ROOT / "python/droplet_shape"
-FUNCTIONS = ["animate", "compare", "flow", "glyphs", "make_droplet", "read_mask", "wind_tunnel", "windshield"]
+FUNCTIONS = ["animate", "compare", "dew", "flow", "glyphs", "make_droplet", "read_mask", "wind_tunnel", "windshield"]
 
 # Lines from 16 on have errors of types.
 TYPED = """\

@@ -140,7 +140,7 @@ TEST(Render, GroundPictureLiesWhereUvSays)
             options.look = ofIndex(1.0);
             options.ground = slopes();
             const Picture picture = render(surface, options);
-            const Camera camera(scene.shown(), options);
+            const Camera camera(scene.shown(), scene, options);
             int compared = 0;
             for (int y = 0; y < options.height; ++y) {
                 for (int x = 0; x < options.width; ++x) {
@@ -170,7 +170,7 @@ TEST(Render, FilmShiftsAndDimsTheGroundExactly)
     options.look = ofIndex(kIndex);
     options.ground = slopes();
     const Picture picture = render(surface, options);
-    const Camera camera(scene.shown(), options);
+    const Camera camera(scene.shown(), scene, options);
     const double returned = 1.0 - (1.0 - diffuseReflectance(kIndex)) / (kIndex * kIndex);
     int compared = 0;
     for (int y = 0; y < options.height; ++y) {
@@ -375,7 +375,7 @@ TEST(Camera, FramesEverything)
             RenderOptions options = small(view);
             options.width = width;
             options.height = height;
-            const Camera camera(scene.shown(), options, width / 10);
+            const Camera camera(scene.shown(), scene, options, width / 10);
             Vec2 low{1e9, 1e9};
             Vec2 high{-1e9, -1e9};
             for (const Vec3f& p : scene.shown()) {
@@ -391,15 +391,44 @@ TEST(Camera, FramesEverything)
     }
 }
 
+TEST(Camera, LooksAtAPointFromADistance)
+{
+    const RayTracer scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
+    RenderOptions options = small(View::Side);
+    const Vec3 rim = {4e-3, 1e-3, 0.0};
+    options.look_at = rim;
+    const Camera fitted(scene.shown(), scene, options);
+    const Vec2 middle = fitted.seen(scene.toScene(rim));
+    EXPECT_NEAR(middle.x, 0.5 * options.width, 0.01);
+    EXPECT_NEAR(middle.y, 0.5 * options.height, 0.01);
+    for (const Vec3f& p : scene.shown()) {
+        EXPECT_GT(std::min(fitted.seen(p).x, fitted.seen(p).y), 0.0) << "all is in the picture";
+        EXPECT_LT(fitted.seen(p).x, options.width);
+        EXPECT_LT(fitted.seen(p).y, options.height);
+    }
+    // What lies at the point, across the picture, is smaller by the distance.
+    const auto size = [&](double distance) {
+        options.distance = distance;
+        const Camera camera(scene.shown(), scene, options);
+        return camera.seen(scene.toScene(rim + Vec3{0.0, 0.0, 1e-5})).y - camera.seen(scene.toScene(rim)).y;
+    };
+    EXPECT_NEAR(size(0.05) / size(0.1), 2.0, 0.02);
+    options.distance = 0.0;
+    EXPECT_THROW(options.validate(), Error);
+    options.distance.reset();
+    options.camera = CameraPlace{0.0, -0.5};
+    EXPECT_THROW(render(roundDroplet({.height = 3e-3}), options), Error) << "below the ground";
+}
+
 TEST(Camera, FramesATurntableForAllTurns)
 {
     const RayTracer scene(roundDroplet({.height = 3e-3, .centre = {3e-3, 1e-3}}), RenderOptions{});
     RenderOptions options = small(View::Side);
     options.fit_all_azimuths = true;
-    const Vec2 top = Camera(scene.shown(), options).seen({0.0F, 0.0F, 0.5F});
+    const Vec2 top = Camera(scene.shown(), scene, options).seen({0.0F, 0.0F, 0.5F});
     for (const double azimuth : {0.5, 2.0, 4.5}) {
         options.azimuth = azimuth;
-        const Camera camera(scene.shown(), options);
+        const Camera camera(scene.shown(), scene, options);
         EXPECT_NEAR(camera.seen({0.0F, 0.0F, 0.5F}).x, top.x, 0.01);
         EXPECT_NEAR(camera.seen({0.0F, 0.0F, 0.5F}).y, top.y, 0.01);
         for (const Vec3f& p : scene.shown()) {
@@ -449,7 +478,7 @@ TEST(Camera, TurnsTheDropletCounterClockwise)
     const RayTracer scene(roundDroplet(), RenderOptions{});
     RenderOptions options = small(View::Top);
     options.azimuth = 90.0 * kDegree;
-    const Camera camera(scene.shown(), options);
+    const Camera camera(scene.shown(), scene, options);
     EXPECT_NEAR(camera.seen({0.5F, 0.0F, 0.0F}).x, 32.0, 0.01);
     EXPECT_LT(camera.seen({0.5F, 0.0F, 0.0F}).y, 20.0);
 }
@@ -524,7 +553,7 @@ TEST(Render, ColourMapTintsTheLightThatPasses)
         options.look = ofIndex(1.0);
         options.colour_map = slopes();
         const Picture picture = render(surface, options);
-        const Camera camera(scene.shown(), options);
+        const Camera camera(scene.shown(), scene, options);
         int compared = 0;
         for (int y = 0; y < options.height; ++y) {
             for (int x = 0; x < options.width; ++x) {

@@ -37,6 +37,9 @@ struct FlowObject {
     std::vector<std::string> warnings;        ///< one line each
 };
 
+/// Edges of the box around an object's vertices [m].
+Vec3 sizeOf(const FlowObject& object);
+
 /// Axis that points up in a file.
 enum class UpAxis { Y, Z };
 

@@ -28,7 +28,7 @@ View viewNamed(std::string_view name);
 /// Direction from the droplet to the camera.
 struct CameraPlace {
     double azimuth = 0.0;    ///< counter-clockwise from the picture's right, seen from above [rad]
-    double elevation = 0.0;  ///< above the ground [rad] 0 … π/2
+    double elevation = 0.0;  ///< above the ground [rad] 0 … π/2; with a stand that is an object −π/2 … π/2
 };
 
 /// Light on a droplet.
@@ -52,6 +52,8 @@ struct RenderOptions {
     int height = 960;                        ///< [px] 1 … 8192
     View view = View::ThreeQuarter;          ///< of the camera
     std::optional<CameraPlace> camera = {};  ///< replaces the view's direction
+    std::optional<Vec3> look_at = {};        ///< point in the picture's middle [m]; empty: all is in the middle
+    std::optional<double> distance = {};     ///< from there to the camera [m], > 0; empty: all fits into the picture
     double azimuth = 0.0;                    ///< turn of the droplet, counter-clockwise seen from above [rad]
     bool fit_all_azimuths = false;           ///< frame the droplet so that it fits at every azimuth, for a turntable
     int samples = 16;                        ///< rays per pixel with detail; a quarter of it elsewhere. 4 … 256

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dew_run.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "droplet/body/droplet_body.h"
+#include "droplet/error.h"
+#include "droplet/flow_io/face_properties.h"
+#include "droplet/flow_io/flow_table.h"
+#include "droplet/mask/mask.h"
+#include "files.h"
+#include "object_options.h"
+#include "option_values.h"
+#include "seconds.h"
+#include "stage_clock.h"
+#include "surface_files.h"
+#include "this_process.h"
+
+namespace cli {
+namespace {
+
+droplet::DewDroplets placed(const droplet::FlowTerrain& terrain, const droplet::DewOptions& dew,
+                            const std::string& object)
+{
+    try {
+        return droplet::dewDroplets(terrain, dew);
+    } catch (const droplet::Error& error) {
+        const bool is_of_object = error.code() == droplet::ErrorCode::InvalidInput;
+        throw droplet::Error(error.code(),
+                             (is_of_object ? object : "--coverage, --smallest, --largest") + ": " + error.what());
+    }
+}
+
+}  // namespace
+
+std::string lostOf(const droplet::DewReport& report)
+{
+    return fmt::format("{} joined others; {} ran off; {} left out, where the object bends too much", report.joined,
+                       report.run_off, report.left_out);
+}
+
+RunFiles filesOf(const DewCommandOptions& options)
+{
+    RunFiles files;
+    files.reads("OBJECT", options.object);
+    files.reads("--mask", options.mask);
+    files.reads("--config", options.run.config);
+    files.writes("OUTPUT", options.output);
+    files.writes("OUTPUT's material", materialFile(options.output, options.file.file.format));
+    files.writes("--droplets", options.droplets);
+    files.writes("--json", options.json);
+    return files;
+}
+
+droplet::DewReport makeDew(const DewCommandOptions& options)
+{
+    const StageClock clock;
+    const droplet::FlowObject object = droplet::readFlowObject(options.object, options.reading);
+    const droplet::FlowTerrain terrain(
+        forOption(options.object, [&] { return droplet::flowSurface(object.vertices, object.triangles); }));
+    droplet::DewOptions dew = options.dew;
+    std::optional<droplet::Mask> mask;
+    if (options.mask) {
+        mask = droplet::readMask(*options.mask);
+        dew.weight = forOption("--mask", [&] { return droplet::coverageOver(*mask, object, terrain.surface()); });
+    }
+    const droplet::DewDroplets droplets = placed(terrain, dew, options.object);
+    const droplet::DropletBodies bodies(droplet::BodyShape::Capillary, dew.forces);
+    const droplet::DewModel model(terrain, droplets.samples, bodies, dew.gravity, options.detail);
+
+    std::vector<droplet::FlowSample> shown;
+    for (const std::size_t i : model.shown()) {
+        shown.push_back(droplets.samples[i]);
+    }
+    droplet::DewReport report;
+    report.input = options.object;
+    report.surface = terrain.surface().report;
+    report.size = sizeOf(object);
+    report.output = options.output;
+    report.preset = options.preset;
+    report.options = options.dew;
+    report.area = droplets.area;
+    report.droplets = shown.size();
+    report.joined = droplets.joined;
+    report.run_off = droplets.run_off;
+    report.left_out = droplets.samples.size() - shown.size();
+    report.warnings = object.warnings;
+    if (shown.empty()) {
+        throw droplet::Error(droplet::ErrorCode::InvalidInput,
+                             options.object + ": no droplet of this size rests on it: " + lostOf(report) +
+                                 "; give smaller droplets, more --hysteresis, or the object its real size");
+    }
+    for (const droplet::FlowSample& sample : shown) {
+        const double radius = droplet::dewRadius(sample.volume, dew.forces.wetting.contact_angle);
+        report.volume += sample.volume;
+        report.covered += std::numbers::pi * radius * radius;
+        report.smallest = report.smallest == 0.0 ? radius : std::min(report.smallest, radius);
+        report.largest = std::max(report.largest, radius);
+    }
+    const auto finish = [&] {
+        report.time_total = clock.total();
+        report.peak_memory = peakMemory();
+    };
+    std::vector<OutputFile> files;
+    droplet::Surface surface;
+    std::uint64_t bytes = 0;
+    const droplet::Format format = options.file.file.format;
+    if (droplet::isAnimated(format)) {
+        files.push_back({options.output, [&](std::ostream& out) { model.write(object, out, options.file); }});
+    } else {
+        surface = model.surface();
+        turnToFile(surface, format, options.reading);
+        SurfaceTarget target{options.output, format, {}};
+        target.options.material = options.file.material;
+        files = surfaceFiles(surface, target, bytes);
+    }
+    if (options.droplets) {
+        files.push_back({*options.droplets, [&](std::ostream& out) {
+                             const bool is_json = lowerExtension(*options.droplets) == ".json";
+                             droplet::FlowTable table(out,
+                                                      is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv);
+                             table.add(1, 0.0, droplet::flowPoints(shown, terrain, bodies, dew.gravity));
+                             table.finish();
+                         }});
+    }
+    if (options.json) {
+        files.push_back({*options.json, [&](std::ostream& out) {
+                             finish();
+                             writeDewReport(out, report);
+                         }});
+    }
+    writeTogether(files, options.run.files);
+    finish();
+    return report;
+}
+
+}  // namespace cli
