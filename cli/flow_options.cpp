@@ -159,6 +159,10 @@ void declare(CommandLine& line, FlowOptions& options)
              into(options.shape, {{"capillary", droplet::BodyShape::Capillary},
                                   {"springs", droplet::BodyShape::Springs},
                                   {"capsule", droplet::BodyShape::Capsule}}));
+    line.add(kOut, "--deformation", "SHARE",
+             "Small-scale deformation of droplets that move slowly: standard deviation of their outline, over its "
+             "distance from the middle, 0 to 0.3; in pictures, textures and meshes of every frame",
+             into(options.deformation, {0.0, 0.3, "a number from 0 to 0.3"}));
     line.add(kOut, "--material", "NAME", "Look of the droplets: water, ink, mercury, honey or plain [by liquid]");
     line.add("Picture", "--preview", "FILE",
              "Write a rendered picture of the last frame beside meshes, as PNG; - is standard output");
@@ -460,6 +464,10 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
             refuse(*maps, "a path such as maps/%05d.png or .exr");
         }
         options.are_maps_exr = ending == ".exr";
+    }
+    if (options.deformation > 0.0 && options.kind == FlowOutput::Animation && !options.has_preview && !options.maps) {
+        refuse("--deformation is for pictures, textures and meshes of every frame; an animation such as '" +
+               options.output + "' does not have it");
     }
     for (const char* option : {"--map-width", "--map-thickness", "--map-age"}) {
         if (line.value(option) && !options.maps) {

@@ -53,6 +53,7 @@ struct FlowOptions {
     std::optional<std::string> friction_map;
     std::map<std::string, droplet::MaterialProperties> materials;
     droplet::BodyShape shape = droplet::BodyShape::Capillary;
+    double deformation = 0.0;  ///< SmallDeformation::amplitude
     std::optional<droplet::Material> material;
     PreviewOptions view;       ///< camera and size of pictures; file and turns of the preview
     bool has_preview = false;  ///< of the last frame, beside meshes

@@ -83,6 +83,7 @@ private:
     std::vector<OutputFile> previewOutputs();
     /// Droplets of a moment, without bases.
     [[nodiscard]] std::vector<droplet::FlowPoint> pointsOf(const Moment& moment) const;
+    [[nodiscard]] droplet::DropletShapes shapesAt(double time) const;
     [[nodiscard]] droplet::Surface dropletsOf(const Moment& moment) const;
     /// Wets the object, and writes the files of a frame.
     void draw(const Moment& moment);
@@ -177,6 +178,7 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
     report_.start = options_.start;
     report_.parameters = plan_.parameters;
     report_.shape = options_.shape;
+    report_.deformation = options_.deformation;
     report_.frames_per_second = options_.frames_per_second;
     report_.frames = plan_.frames;
     if (options_.maps && !options_.are_maps_exr) {
@@ -323,7 +325,7 @@ void FlowRun::warnOfLostVolume()
     for (std::size_t first = 0; first < samples.size(); first += kAtOnce) {
         const auto some = std::span(samples).subspan(first, std::min(kAtOnce, samples.size() - first));
         const std::vector<double> volumes = droplet::seatedVolumes(
-            droplet::seatedDroplets(plan_.terrain, some, bodies_, gravityAt(state_.time)), some.size(), bodies_);
+            droplet::seatedDroplets(plan_.terrain, some, shapesAt(state_.time)), some.size(), bodies_);
         for (std::size_t i = 0; i < some.size(); ++i) {
             count += volumes[i] < 0.99 * some[i].volume ? 1U : 0U;
         }
@@ -418,9 +420,15 @@ VideoWriterOptions FlowRun::videoAt(const std::string& path) const
     return triedVideo(path, {options_.view.width, options_.view.height, options_.frames_per_second}, options_.encoding);
 }
 
+droplet::DropletShapes FlowRun::shapesAt(double time) const
+{
+    const droplet::FlowParameters& parameters = plan_.parameters;
+    return {bodies_, gravityAt(time), {options_.deformation, parameters.pinning.length, parameters.seed}};
+}
+
 droplet::Surface FlowRun::dropletsOf(const Moment& moment) const
 {
-    return droplet::dropletSurfaces(moment.samples, bodies_, gravityAt(moment.time));
+    return droplet::dropletSurfaces(moment.samples, shapesAt(moment.time));
 }
 
 droplet::Picture FlowRun::picture(const Moment& moment, double azimuth)
@@ -489,7 +497,7 @@ void FlowRun::writeMaps(const Moment& moment)
 
 void FlowRun::writeMesh(const Moment& moment) const
 {
-    writeSurface(droplet::seatedDroplets(plan_.terrain, moment.samples, bodies_, gravityAt(moment.time)),
+    writeSurface(droplet::seatedDroplets(plan_.terrain, moment.samples, shapesAt(moment.time)),
                  options_.files->at(moment.number), options_.file.compression);
 }
 

@@ -167,6 +167,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l drying -x -d 
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow liquid2d' -l time -x -d 'Time to show'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l fps -x -d 'Frames per second; they do not change the paths'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l shape -x -a 'capillary springs capsule' -d 'Shape of the droplets: capillary has least energy, springs is the paper\'s, capsule a cut capsule'
+complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l deformation -x -d 'Small-scale deformation of droplets that move slowly: standard deviation of their outline, over its distance from the middle, 0 to 0.3; in pictures, textures and meshes of every frame'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l streaks -r -F -d 'Write the streaks at the end as a mesh, .glb, .obj, .ply or .stl, or those of every frame, such as wet/%04d.obj; an animation then has them too, as they grow'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l maps -r -F -d 'Textures of the water in the object\'s uv, such as maps/%05d.png or .exr: four files per frame, -normal, -thickness, -age and -wet, which tells where the age counts'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l map-width -x -d 'Width and height of the textures in pixels'

@@ -954,6 +954,7 @@ _FLOW = {
     "fps": "number",
     "seed": "number",
     "shape": "text",
+    "deformation": "share",
     "material": "text",
     "compress": "text",
     "streaks": "path",
@@ -1034,6 +1035,7 @@ def flow(
     fps: float | None = None,
     seed: str | int | None = None,
     shape: Literal["capillary", "springs", "capsule"] | None = None,
+    deformation: str | float | None = None,
     material: str | None = None,
     compress: Literal["none", "quantize", "meshopt"] | None = None,
     streaks: Path | None = None,
@@ -1142,6 +1144,8 @@ def flow(
     Output:
       shape: capillary, springs, capsule: Shape of the droplets: capillary has least energy, springs is the paper's,
         capsule a cut capsule (default: capillary)
+      deformation: Small-scale deformation of droplets that move slowly: standard deviation of their outline, over its
+        distance from the middle, 0 to 0.3; in pictures, textures and meshes of every frame (default: 0)
       material: Look of the droplets: water, ink, mercury, honey or plain (default: by liquid)
       compress: none, quantize, meshopt: Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three
         quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size (default: none)

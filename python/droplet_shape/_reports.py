@@ -852,6 +852,7 @@ class FlowModel(_Report):
 
     motion: str  # What holds droplets
     shape: str  # Model of the shape of droplets
+    deformation: float  # Largest small-scale deformation of droplets
     merges: bool  # Droplets that touch become one
     wets: bool  # Streaks smooth the surface
     step_s: float  # Time step of merging, arriving and drying

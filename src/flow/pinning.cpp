@@ -16,9 +16,7 @@ namespace droplet {
 
 double PinningField::at(Vec3 place) const
 {
-    // Of eight uniform numbers, weighted by smooth steps: (2 · 13/35)^(3/2) / √3.
-    constexpr double kDeviation = 0.3697;
-    const double value = smoothRandom((1.0 / pinning_.length) * place, seed_) / kDeviation;
+    const double value = smoothRandom((1.0 / pinning_.length) * place, seed_) / kSmoothRandomDeviation;
     return std::exp(pinning_.spread * value - 0.5 * pinning_.spread * pinning_.spread);
 }
 

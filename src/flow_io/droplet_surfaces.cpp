@@ -10,11 +10,14 @@
 #include <vector>
 
 #include "flow_io/seat.h"
+#include "flow_io/small_deformation.h"
 
 namespace droplet {
 
-Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies& bodies, Vec3 gravity)
+Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletShapes& shapes)
 {
+    const DropletBodies& bodies = shapes.bodies;
+    const Vec3 gravity = shapes.gravity;
     const std::size_t vertex_count = bodies.vertices();
     const std::vector<Triangle>& triangles = bodies.triangles();
     Surface surface;
@@ -36,7 +39,11 @@ Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies
         const DropletFrame frame = frameOf(samples[i], gravity);
         const std::span vertices = std::span(surface.vertices).subspan(i * vertex_count, vertex_count);
         const std::span normals = std::span(surface.normals).subspan(i * vertex_count, vertex_count);
-        bodies.make(conditionsOf(samples[i], gravity), vertices, normals);
+        const BodyConditions conditions = conditionsOf(samples[i], gravity);
+        bodies.make(conditions, vertices, normals);
+        if (const double share = shapes.small.at(conditions.speed); share > 0.0 && !conditions.airborne) {
+            deform({share, shapes.small, frame}, {vertices, normals, triangles, bodies.rimVertices()});
+        }
         const auto turned = [&](Vec3 v) { return v.x * frame.ahead + v.y * frame.left + v.z * frame.normal; };
         for (std::size_t k = 0; k < vertex_count; ++k) {
             vertices[k] = frame.place + turned(vertices[k]);
@@ -51,10 +58,11 @@ Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies
     return surface;
 }
 
-Surface seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletBodies& bodies,
-                       Vec3 gravity)
+Surface seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletShapes& shapes)
 {
-    Surface surface = dropletSurfaces(samples, bodies, gravity);
+    const DropletBodies& bodies = shapes.bodies;
+    const Vec3 gravity = shapes.gravity;
+    Surface surface = dropletSurfaces(samples, shapes);
     const std::size_t vertex_count = bodies.vertices();
     const std::size_t rim = bodies.rimVertices();
     const std::size_t triangle_count = bodies.triangles().size();

@@ -137,6 +137,7 @@ void writeFlowReport(std::ostream& out, const FlowReport& report)
     }
     json["model"] = {{"motion", parameters.model == FlowModel::Paper ? "paper" : "capillary"},
                      {"shape", nameOf(report.shape)},
+                     {"deformation", report.deformation},
                      {"merges", parameters.merges},
                      {"wets", parameters.wets},
                      {"step_s", parameters.step},

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "droplet/units.h"
@@ -76,7 +78,7 @@ TEST(DropletSurfaces, HaveTheVolumesOfTheSamplesAtTheirPlaces)
     falling.contact = FlowContact::Air;
     falling.place = {-0.1, 0.0, 0.5};
     const std::vector<FlowSample> samples{onSlope(0.0), onSlope(0.7, {0.2, 0.0, -0.2}), falling};
-    const Surface open = dropletSurfaces(samples, bodies, kGravity);
+    const Surface open = dropletSurfaces(samples, {bodies, kGravity});
     open.validate();
     ASSERT_EQ(open.vertices.size(), samples.size() * bodies.vertices());
     // Rims lie on the ground, the rest above it.
@@ -87,7 +89,75 @@ TEST(DropletSurfaces, HaveTheVolumesOfTheSamplesAtTheirPlaces)
             EXPECT_TRUE(k >= bodies.rimVertices() || height < 1e-12);
         }
     }
-    EXPECT_TRUE(dropletSurfaces({}, bodies, kGravity).vertices.empty());
+    EXPECT_TRUE(dropletSurfaces({}, {bodies, kGravity}).vertices.empty());
+}
+
+// Section 3.4 of the paper: nothing at rest and at high speed, most in between.
+TEST(SmallDeformation, IsForSlowDroplets)
+{
+    const SmallDeformation small{.amplitude = 0.2};
+    EXPECT_EQ(small.at(0.0), 0.0);
+    double largest = 0.0;
+    double before = 0.0;
+    bool falls = false;
+    for (int k = 1; k < 300; ++k) {
+        const double now = small.at(0.01 * k);
+        EXPECT_TRUE(now > before || (falls && now < before)) << k;
+        falls = falls || small.at(0.01 * (k + 1)) < now;
+        largest = std::max(largest, now);
+        before = now;
+    }
+    EXPECT_NEAR(largest, 0.2, 1e-3);
+    EXPECT_LT(small.at(1.0), 1e-3);
+}
+
+TEST(SmallDeformation, ChangesTheOutlineAndKeepsTheVolume)
+{
+    const DropletBodies bodies(BodyShape::Capillary);
+    const SmallDeformation small{.amplitude = 0.1};
+    const DropletShapes shapes{bodies, kGravity, small};
+    const FlowSample rest = onSlope(0.5);
+    EXPECT_EQ(dropletSurfaces({&rest, 1}, shapes).vertices, dropletSurfaces({&rest, 1}, {bodies, kGravity}).vertices);
+    double squares = 0.0;
+    std::size_t count = 0;
+    for (int k = 0; k < 40; ++k) {
+        FlowSample sample = onSlope(0.0, {0.1, 0.0, 0.0});
+        sample.place = {0.05 * k, 0.0, 0.0};
+        const Surface plain = dropletSurfaces({&sample, 1}, {bodies, kGravity});
+        const Surface moved = dropletSurfaces({&sample, 1}, shapes);
+        const auto volume = [&](const Surface& surface) {
+            double sum = 0.0;
+            for (const auto& [a, b, c] : surface.triangles) {
+                sum += dot(surface.vertices[a] - sample.place,
+                           cross(surface.vertices[b] - sample.place, surface.vertices[c] - sample.place)) /
+                       6.0;
+            }
+            return sum;
+        };
+        EXPECT_NEAR(volume(moved), volume(plain), 1e-9 * sample.volume);
+        for (std::size_t v = 0; v < bodies.rimVertices(); ++v, ++count) {
+            EXPECT_NEAR(moved.vertices[v].z, 0.0, 1e-15);
+            const double factor =
+                length(moved.vertices[v] - sample.place) / length(plain.vertices[v] - sample.place) - 1.0;
+            squares += factor * factor;
+        }
+        // Normals belong to the new surface.
+        for (const auto& [a, b, c] : moved.triangles) {
+            const Vec3 facet = cross(moved.vertices[b] - moved.vertices[a], moved.vertices[c] - moved.vertices[a]);
+            if (length(facet) > 1e-3 * 1e-6) {
+                EXPECT_GT(dot(moved.normals[a] + moved.normals[b] + moved.normals[c], facet), 2.5 * length(facet));
+            }
+        }
+    }
+    EXPECT_NEAR(std::sqrt(squares / static_cast<double>(count)), 0.1, 0.02);
+    // It follows from the place alone: what moves a little changes little.
+    FlowSample sample = onSlope(0.0, {0.1, 0.0, 0.0});
+    const Surface here = dropletSurfaces({&sample, 1}, shapes);
+    sample.place.x += 1e-6;
+    const Surface there = dropletSurfaces({&sample, 1}, shapes);
+    for (std::size_t v = 0; v < here.vertices.size(); ++v) {
+        EXPECT_LT(length(there.vertices[v] - here.vertices[v]), 3e-6);
+    }
 }
 
 }  // namespace

@@ -417,7 +417,7 @@ TEST(FlowAnimation, PassesTheValidator)
     FlowAnimation dry(plain, theRun().terrain, bodies());
     dry.add(0.0, {});
     dry.add(0.1, {});
-    StreakMesh streaks{dropletSurfaces(theRun().frames.front(), bodies(), {}), {}, {}};
+    StreakMesh streaks{dropletSurfaces(theRun().frames.front(), {bodies(), {}}), {}, {}};
     streaks.wetted.resize(streaks.surface.triangles.size(), 0.01);
     streaks.gone.resize(streaks.surface.triangles.size(), 0.03);
     dry.setStreaks(streaks);

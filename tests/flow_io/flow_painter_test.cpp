@@ -80,7 +80,7 @@ protected:
 
     [[nodiscard]] static Surface surfacesOf(const std::vector<FlowSample>& samples)
     {
-        return dropletSurfaces(samples, bodies(), kGravity);
+        return dropletSurfaces(samples, {bodies(), kGravity});
     }
 
     FlowObject object;

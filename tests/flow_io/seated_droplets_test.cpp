@@ -96,7 +96,7 @@ std::vector<double> gaps(const FlowTerrain& terrain, const Surface& surface, con
 {
     std::vector<double> all;
     const std::size_t rim = bodies().rimVertices();
-    const Surface flat = dropletSurfaces(samples, bodies(), kGravity);
+    const Surface flat = dropletSurfaces(samples, {bodies(), kGravity});
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const std::size_t first = i * bodies().vertices();
         double gap = 0.0;
@@ -142,8 +142,8 @@ TEST(SeatedDroplets, OnFlatGroundAreAsTheirBodiesAre)
     sample.normal = {0.0, 0.0, 1.0};
     sample.volume = 20e-9;
     const std::vector<FlowSample> samples{sample};
-    const Surface flat = dropletSurfaces(samples, bodies(), kGravity);
-    const Surface seated = seatedDroplets(terrain, samples, bodies(), kGravity);
+    const Surface flat = dropletSurfaces(samples, {bodies(), kGravity});
+    const Surface seated = seatedDroplets(terrain, samples, {bodies(), kGravity});
     seated.validate();
     EXPECT_TRUE(isClosed(seated));
     EXPECT_NEAR(enclosedVolume(seated) / sample.volume, 1.0, 1e-6);
@@ -166,7 +166,7 @@ TEST_P(SeatedDropletsOn, RimsLieOnTheObjectAndVolumesStay)
 {
     const FlowTerrain terrain = GetParam().terrain();
     const std::vector<FlowSample> samples = scattered(terrain, 300, GetParam().volume);
-    const Surface seated = seatedDroplets(terrain, samples, bodies(), kGravity);
+    const Surface seated = seatedDroplets(terrain, samples, {bodies(), kGravity});
     seated.validate();
     EXPECT_TRUE(isClosed(seated));
     EXPECT_EQ(topology(seated).components, samples.size());
@@ -175,7 +175,7 @@ TEST_P(SeatedDropletsOn, RimsLieOnTheObjectAndVolumesStay)
     EXPECT_GE(at(kept, 0.01), 0.99);
     EXPECT_LE(at(kept, 0.99), 1.01);
     // Without seating they hover, which this test is about.
-    EXPECT_GT(at(gaps(terrain, dropletSurfaces(samples, bodies(), kGravity), samples), 0.75), 0.05);
+    EXPECT_GT(at(gaps(terrain, dropletSurfaces(samples, {bodies(), kGravity}), samples), 0.75), 0.05);
 }
 
 // Where a rim crosses an edge of the box, the middle of its own edge is a chord under it: 0.35 of 2π/32.
@@ -206,22 +206,22 @@ TEST(SeatedDroplets, AtTheEdgeOfASheetMoveOntoIt)
     sample.place = {half - 10e-6, 3e-3, 0.0};
     sample.face = sheet.nearest(sample.place).face;
     const std::vector<FlowSample> samples{sample};
-    const Surface seated = seatedDroplets(sheet, samples, bodies(), kGravity);
+    const Surface seated = seatedDroplets(sheet, samples, {bodies(), kGravity});
     EXPECT_TRUE(isClosed(seated));
     EXPECT_NEAR(enclosedVolume(seated) / sample.volume, 1.0, 0.01);
     for (const Vec3& p : seated.vertices) {
         EXPECT_TRUE(p.z > 1e-9 || p.x <= half + 0.1e-3) << "the rim is on the sheet";
     }
-    EXPECT_LT(highest(seated), 1.25 * highest(dropletSurfaces(samples, bodies(), kGravity)));
+    EXPECT_LT(highest(seated), 1.25 * highest(dropletSurfaces(samples, {bodies(), kGravity})));
 }
 
 TEST(SeatedDroplets, DoNotDependOnThreads)
 {
     const FlowTerrain terrain = wavyBall();
     const std::vector<FlowSample> samples = scattered(terrain, 50, 20e-9);
-    const Surface several = seatedDroplets(terrain, samples, bodies(), kGravity);
+    const Surface several = seatedDroplets(terrain, samples, {bodies(), kGravity});
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(seatedDroplets(terrain, samples, bodies(), kGravity).vertices, several.vertices);
+    EXPECT_EQ(seatedDroplets(terrain, samples, {bodies(), kGravity}).vertices, several.vertices);
 }
 
 TEST(SeatedDroplets, BallsInTheAirStay)
@@ -230,10 +230,10 @@ TEST(SeatedDroplets, BallsInTheAirStay)
     falling.contact = FlowContact::Air;
     falling.place = {0.0, 0.0, 0.1};
     falling.volume = 20e-9;
-    const Surface ball = seatedDroplets(box(), std::vector<FlowSample>{falling}, bodies(), kGravity);
+    const Surface ball = seatedDroplets(box(), std::vector<FlowSample>{falling}, {bodies(), kGravity});
     EXPECT_TRUE(isClosed(ball));
     EXPECT_NEAR(enclosedVolume(ball) / falling.volume, 1.0, 1e-3);
-    EXPECT_TRUE(seatedDroplets(box(), {}, bodies(), kGravity).vertices.empty());
+    EXPECT_TRUE(seatedDroplets(box(), {}, {bodies(), kGravity}).vertices.empty());
 }
 
 }  // namespace

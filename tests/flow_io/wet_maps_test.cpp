@@ -78,7 +78,7 @@ double volumeIn(const FloatPicture& map)
 
 WetFloatMaps mapsOf(WetMapper& mapper, double time, const std::vector<FlowSample>& samples)
 {
-    return mapper.floatMaps(time, samples, dropletSurfaces(samples, bodies(), kGravity));
+    return mapper.floatMaps(time, samples, dropletSurfaces(samples, {bodies(), kGravity}));
 }
 
 TEST(WetMaps, DropletsHaveTheirVolumeAlsoOverASeam)
@@ -106,7 +106,7 @@ TEST(WetMaps, DropletsHaveTheirVolumeAlsoOverASeam)
     EXPECT_GT(at(maps.normal, 8e-3, 2e-3, 1), 0.1);
     EXPECT_EQ(at(maps.normal, 0.0, 15e-3, 2), 1.0);
 
-    const WetMaps deep = mapper.maps(1.0, samples, dropletSurfaces(samples, bodies(), kGravity));
+    const WetMaps deep = mapper.maps(1.0, samples, dropletSurfaces(samples, {bodies(), kGravity}));
     EXPECT_EQ(deep.normal.levels[0], 32768);
     EXPECT_EQ(deep.normal.levels[2], 65535);
     EXPECT_EQ(deep.age.levels[0], 65535);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,12 +30,30 @@ DropletFrame frameOf(const FlowSample& sample, Vec3 gravity);
 /// What shapes a droplet, in its frame.
 BodyConditions conditionsOf(const FlowSample& sample, Vec3 gravity);
 
-/// Surfaces of all droplets in the object's frame, one after another, each with the vertices and triangles of `bodies`.
-/// They are open at the ground. uvs and contact angles are 0.
-/// @param samples  the droplets
-/// @param bodies   their shapes
-/// @param gravity  in the object's frame [m/s²]
-Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies& bodies, Vec3 gravity);
+/// Small-scale deformations of droplets that move, by the variation of the surface below them (Fournier, Habibi and
+/// Poulin 1998, section 3.4). A random field over the surface moves the contact line outward and inward. The standard
+/// deviation of its distance from the middle is a share of that; it is 0 at rest, grows with the speed to `amplitude`,
+/// and falls again.
+struct SmallDeformation {
+    double amplitude = 0.0;  ///< largest share, from 0 to 0.3
+    double length = 3e-3;    ///< over which the field varies [m], > 0
+    std::uint64_t seed = 1;  ///< of the random numbers
+
+    /// Share at a speed.
+    /// @param speed  along the surface [m/s] ≥ 0
+    [[nodiscard]] double at(double speed) const;
+};
+
+/// What shapes droplets on an object.
+struct DropletShapes {
+    const DropletBodies& bodies;
+    Vec3 gravity;                 ///< in the object's frame [m/s²]
+    SmallDeformation small = {};  ///< in addition
+};
+
+/// Surfaces of all droplets in the object's frame, one after another, each with the vertices and triangles of the
+/// bodies. They are open at the ground. uvs and contact angles are 0.
+Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletShapes& shapes);
 
 /// Closed droplets that sit on the object: surfaces as dropletSurfaces() makes them, followed by their bases.
 ///
@@ -43,10 +62,8 @@ Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletBodies
 /// stays one.
 /// @param terrain  the object
 /// @param samples  the droplets
-/// @param bodies   their shapes
-/// @param gravity  in the object's frame [m/s²]
-Surface seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletBodies& bodies,
-                       Vec3 gravity);
+/// @param shapes   their shapes
+Surface seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletShapes& shapes);
 
 /// Volumes of the droplets in a surface of seatedDroplets() [m³], in their order.
 /// @param seated  the surface

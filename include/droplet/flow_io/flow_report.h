@@ -44,6 +44,7 @@ struct FlowReport {
     std::optional<std::string> start;        ///< path of the table of droplets at the start
     FlowParameters parameters;               ///< parameters of the simulation
     BodyShape shape = BodyShape::Capillary;  ///< model of the droplets' shape
+    double deformation = 0.0;                ///< SmallDeformation::amplitude
     double frames_per_second = 30.0;         ///< > 0
     double time = 0.0;                       ///< simulated time [s]
     std::size_t frames = 0;                  ///< number of frames
