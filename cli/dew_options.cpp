@@ -82,7 +82,7 @@ void declare(CommandLine& line, DewCommandOptions& options)
     line.add(kDroplets, "--preset", presetNames().c_str(),
              "Kind of wetness: dew in the morning, fresh rain, a cold bottle, after a shower, fine mist; the other "
              "options of this group change it [dew]");
-    line.add(kDroplets, "--coverage", "SHARE", "Share of the surface below droplets, 0.001 to 0.7 [by preset]",
+    line.add(kDroplets, "--coverage", "NUMBER", "Share of the surface below droplets, 0.001 to 0.7 [by preset]",
              within(1e-3, 0.7));
     line.add(kDroplets, "--smallest", "LENGTH", "Radius of the smallest droplets seen from above [by preset]",
              within(kRadius));

@@ -159,7 +159,7 @@ void declare(CommandLine& line, FlowOptions& options)
              into(options.shape, {{"capillary", droplet::BodyShape::Capillary},
                                   {"springs", droplet::BodyShape::Springs},
                                   {"capsule", droplet::BodyShape::Capsule}}));
-    line.add(kOut, "--deformation", "SHARE",
+    line.add(kOut, "--deformation", "NUMBER",
              "Small-scale deformation of droplets that move slowly: standard deviation of their outline, over its "
              "distance from the middle, 0 to 0.3; in pictures, textures and meshes of every frame",
              into(options.deformation, {0.0, 0.3, "a number from 0 to 0.3"}));
@@ -237,10 +237,11 @@ void readObject(const CommandLine& line, FlowOptions& options)
         refuse("--spin-axis needs --spin");
     }
     if (spin) {
+        options.parameters.motion.keys.clear();
         options.parameters.motion.spin =
             rate(*spin, kTurn, kTurn.allowed) * (axis ? direction(*axis) : Vec3{0.0, 0.0, 1.0});
     }
-    options.keeps_animation = !line.flag("--no-animation") && !spin && !options.motion;
+    options.keeps_animation = !options.preset && !line.flag("--no-animation") && !spin && !options.motion;
 }
 
 void readSources(const CommandLine& line, FlowOptions& options)

@@ -43,7 +43,7 @@ FlowPreset masses()
 {
     FlowPreset preset =
         ofPaper("masses", "droplets of 1 to 4 masses on a slope: heavy ones are faster and take up others",
-                PresetObject::Slope, 3e-3);
+                PresetObject::Slope, 9e-3);
     // Rows of light droplets below, heavier ones above; neighbours are a little aside.
     for (int row = 0; row < 3; ++row) {
         for (int k = 0; k < 8; ++k) {
@@ -52,21 +52,21 @@ FlowPreset masses()
             preset.starts.push_back({onSlope(x, 0.2 + 0.04 * row), mass * 60e-9, {}});
         }
     }
-    preset.duration = 0.5;
+    preset.duration = 2.5;
     return preset;
 }
 
 FlowPreset viscosities()
 {
     FlowPreset preset =
-        ofPaper("viscosities", "three slopes with viscous friction 1, 10 and 100", PresetObject::Slopes, 1.1e-3);
+        ofPaper("viscosities", "three slopes with viscous friction 1, 10 and 100", PresetObject::Slopes, 4e-3);
     preset.materials = {{"left", {{}, 1.0, {}}}, {"middle", {{}, 10.0, {}}}, {"right", {{}, 100.0, {}}}};
     for (const double left : {-0.16, -0.05, 0.06}) {
         for (int k = 0; k < 3; ++k) {
             preset.starts.push_back({onSlope(left + 0.02 + 0.03 * k, 0.28 - 0.02 * (k % 2)), 90e-9, {}});
         }
     }
-    preset.duration = 0.5;
+    preset.duration = 2.2;
     return preset;
 }
 
@@ -118,14 +118,21 @@ FlowPreset tear()
 
 FlowPreset forces()
 {
-    FlowPreset preset = ofPaper("forces", "one droplet under a force across the ground, to the left and to the right",
-                                PresetObject::Tilted, 1e-3);
+    FlowPreset preset =
+        ofPaper("forces", "a plate rocks: the force on a droplet that stays turns to one side and to the other",
+                PresetObject::Plate, 1e-3);
     preset.parameters.roughness = 0.1;  // it stays
-    for (const double x : {-0.09, 0.0, 0.09}) {
-        preset.starts.push_back({{x, 0.0, 0.0}, 150e-9, {}});
+    preset.starts = {{{0.0, 0.0, 0.0}, 150e-9, {}}};
+    preset.duration = 4.0;
+    constexpr double kTilt = 50.0 * kDegree;
+    constexpr int kKeys = 96;
+    for (int k = 0; k <= kKeys; ++k) {
+        const double turns = static_cast<double>(k) / kKeys;
+        const double tilt = kTilt * std::sin(2.0 * std::numbers::pi * turns);
+        preset.parameters.motion.keys.push_back(
+            {preset.duration * turns, {{}, {0.0, std::sin(0.5 * tilt), 0.0}, std::cos(0.5 * tilt)}});
     }
-    preset.duration = 1.0 / 30.0;
-    preset.camera.elevation = 20.0 * kDegree;
+    preset.camera = {-90.0 * kDegree, 12.0 * kDegree};
     return preset;
 }
 

@@ -165,17 +165,12 @@ void addSlope(Grids& grids, const std::string& material, double left, double wid
     });
 }
 
-void addTilted(Grids& grids)
+void addPlate(Grids& grids)
 {
-    constexpr std::array<const char*, 3> kNames{"left", "middle", "right"};
-    for (std::size_t k = 0; k < kNames.size(); ++k) {
-        const double place = static_cast<double>(k) - 1.0;
-        const double tilt = -35.0 * kDegree * place;
-        grids.add({grids.finer(8), grids.finer(8)}, kNames[k], [&](Vec2 uv) {
-            const double x = 0.08 * (uv.x - 0.5);
-            return Vec3{0.09 * place + x * std::cos(tilt), 0.08 * (uv.y - 0.5), x * std::sin(tilt)};
-        });
-    }
+    constexpr double kSide = 0.04;
+    grids.add({grids.finer(8), grids.finer(8)}, "plate", [](Vec2 uv) {
+        return Vec3{kSide * (uv.x - 0.5), kSide * (uv.y - 0.5), 0.0};
+    });
 }
 
 void addSphere(Grids& grids)
@@ -394,8 +389,8 @@ FlowObject presetObject(PresetObject object, double detail)
             addSlope(grids, "middle", -0.05, 0.1);
             addSlope(grids, "right", 0.06, 0.1);
             break;
-        case PresetObject::Tilted:
-            addTilted(grids);
+        case PresetObject::Plate:
+            addPlate(grids);
             break;
         case PresetObject::Sphere:
             addSphere(grids);

@@ -9,7 +9,7 @@ namespace droplet {
 enum class PresetObject {
     Slope,   ///< square of 30 cm on a slope of 30°; its lower edge is towards −y
     Slopes,  ///< three strips of such a slope side by side, with the materials `left`, `middle` and `right`
-    Tilted,  ///< three plates of 8 cm, level, and 35° down to the left and to the right
+    Plate,   ///< a level plate of 4 cm
     Sphere,  ///< of 20 cm diameter
     Mask,    ///< face of 22 cm with openings for eyes and mouth, open behind
     Bottle,  ///< closed bottle of 24 cm with foot, shoulder, neck and lip
