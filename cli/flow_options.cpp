@@ -76,6 +76,9 @@ void declare(CommandLine& line, FlowOptions& options)
     line.add(kObject, "--preset", presetNames().c_str(),
              "Named scene with its own object and droplets, instead of OBJECT; other options change it");
     declareReading(line, kObject, options.reading);
+    line.add(kObject, "--floor",
+             "What catches the water below an object that rests: a plate or a dish, with the material floor [none]",
+             into(options.floor, {{"plate", droplet::Floor::Plate}, {"dish", droplet::Floor::Dish}}));
     line.add(kObject, "--spin", "ANGLE/s", "Turn the object, such as 30deg/s");
     line.add(kObject, "--spin-axis", "X,Y,Z", "Axis through the origin that --spin turns it about [0,1,0]");
     line.add(kObject, "--motion", "FILE",

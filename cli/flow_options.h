@@ -12,6 +12,7 @@
 #include "droplet/body/droplet_body.h"
 #include "droplet/flow/flow_parameters.h"
 #include "droplet/flow_io/face_properties.h"
+#include "droplet/flow_io/floor.h"
 #include "droplet/flow_io/flow_object.h"
 #include "droplet/flow_io/flow_presets.h"
 #include "droplet/surface/material.h"
@@ -40,10 +41,11 @@ struct FlowOptions {
     droplet::AnimatedFile file;         ///< form of the animation, or of every mesh
     std::optional<droplet::FlowPreset> preset;
     droplet::FlowObjectOptions reading;
-    bool keeps_animation = true;         ///< the object moves as its file says
-    std::optional<std::string> motion;   ///< path of keys
-    droplet::FlowParameters parameters;  ///< without the content of files
-    bool has_source = false;             ///< whether any source of droplets is given
+    std::optional<droplet::Floor> floor;  ///< below the object
+    bool keeps_animation = true;          ///< the object moves as its file says
+    std::optional<std::string> motion;    ///< path of keys
+    droplet::FlowParameters parameters;   ///< without the content of files
+    bool has_source = false;              ///< whether any source of droplets is given
     std::size_t drops = 0;
     droplet::VolumeDistribution volumes;
     std::optional<droplet::Vec3> from;

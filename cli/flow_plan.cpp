@@ -85,6 +85,12 @@ std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowP
             scatter.coverage =
                 forOption("--mask", [&] { return droplet::coverageOver(*mask, plan.object, plan.terrain.surface()); });
         }
+        if (options.floor) {
+            scatter.coverage = [&plan, inner = scatter.coverage](const droplet::FlowTerrain::Point& point) {
+                const bool is_floor = plan.terrain.surface().faces[point.face].source >= plan.floor_begins;
+                return is_floor ? 0.0 : inner ? inner(point) : 1.0;
+            };
+        }
         const auto scattered = forOption("--drops", [&] { return droplet::scatterDroplets(plan.terrain, scatter); });
         warnOfCover(scattered, plan, droplet::scatterArea(plan.terrain, scatter), warnings);
         starts.insert(starts.end(), scattered.begin(), scattered.end());
@@ -149,18 +155,27 @@ FlowPlan planOf(const FlowOptions& options)
     const std::string name = nameOfObject(options);
     droplet::FlowObject object = options.preset ? droplet::presetObject(options.preset->object)
                                                 : droplet::readFlowObject(*options.object, options.reading);
+    const std::size_t triangles = object.triangles.size();
+    if (options.floor) {
+        object = onFloor(std::move(object), *options.floor);
+    }
     droplet::FlowSurface surface =
         forOption(name, [&] { return droplet::flowSurface(object.vertices, object.triangles); });
     if (!options.preset || options.parameters.model == droplet::FlowModel::Capillary) {
         surface = droplet::refined(surface, longestEdge(options, surface));
     }
-    FlowPlan plan{std::move(object), droplet::FlowTerrain(std::move(surface)), options.parameters, {}, 1, {}};
+    FlowPlan plan{std::move(object), droplet::FlowTerrain(std::move(surface)), options.parameters, {}, 1, {},
+                  triangles};
     plan.warnings = plan.object.warnings;
     warnOfDefects(plan.terrain.surface().report, name, plan.warnings);
     if (options.keeps_animation) {
         plan.parameters.motion = plan.object.motion;
     } else if (options.motion) {
         plan.parameters.motion = droplet::readObjectMotion(*options.motion);
+    }
+    if (options.floor && !plan.parameters.motion.rests()) {
+        throw droplet::Error(droplet::ErrorCode::InvalidArgument,
+                             "--floor needs an object that rests; this one moves, and the floor would move with it");
     }
     plan.parameters.ground = groundOf(options, plan);
     plan.starts = startsOf(options, plan, plan.warnings);

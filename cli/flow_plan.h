@@ -19,6 +19,7 @@ struct FlowPlan {
     std::vector<droplet::FlowStart> starts;
     std::size_t frames = 1;
     std::vector<std::string> warnings;
+    std::size_t floor_begins = 0;  ///< number of the object's own triangles
 };
 
 /// Path of the object, or name of the preset that has it.

@@ -133,6 +133,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from dew' -l droplets-only 
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew' -l droplets -r -F -d 'Write a table of all droplets, .csv or .json; flow can start with the .csv'
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew' -l config -r -F -d 'Read options from a TOML file with lines such as coverage = 0.3; the command line takes precedence'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l preset -x -a 'masses viscosities adhesions roughnesses tear forces bottle leaf car window' -d 'Named scene with its own object and droplets, instead of OBJECT; other options change it'
+complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l floor -x -a 'plate dish' -d 'What catches the water below an object that rests: a plate or a dish, with the material floor'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l spin -x -d 'Turn the object, such as 30deg/s'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l spin-axis -x -d 'Axis through the origin that --spin turns it about'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l motion -r -F -d 'Move the object: CSV with the columns time_s, x_m, y_m, z_m and a quaternion rotation_x, rotation_y, rotation_z, rotation_w'

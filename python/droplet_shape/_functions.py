@@ -907,6 +907,7 @@ _FLOW = {
     "scale": "number",
     "object_size": "m",
     "up": "text",
+    "floor": "text",
     "spin": "rad/s",
     "spin_axis": "vector",
     "motion": "path",
@@ -988,6 +989,7 @@ def flow(
     scale: float | None = None,
     object_size: str | float | None = None,
     up: Literal["y", "z"] | None = None,
+    floor: Literal["plate", "dish"] | None = None,
     spin: str | float | None = None,
     spin_axis: str | Sequence[float] | None = None,
     motion: Path | None = None,
@@ -1074,6 +1076,8 @@ def flow(
       scale: Factor on the lengths of the file (default: 1)
       object_size [m]: Longest side of the object; scales it
       up: y, z: Axis that points up in an .obj, .ply or .stl (default: y, of .ply z)
+      floor: plate, dish: What catches the water below an object that rests: a plate or a dish, with the material
+        floor (default: none)
       spin [rad/s]: Turn the object, such as 30deg/s
       spin_axis [m or m/s]: Axis through the origin that spin turns it about (default: 0,1,0)
       motion: Move the object: CSV with the columns time_s, x_m, y_m, z_m and a quaternion rotation_x, rotation_y,

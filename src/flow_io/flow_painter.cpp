@@ -15,6 +15,7 @@
 #include "flow_io/object_faces.h"
 #include "flow_io/settled_droplets.h"
 #include "flow_io/wet_spots.h"
+#include "render/openness.h"
 #include "require.h"
 
 namespace droplet {
@@ -79,6 +80,7 @@ struct FlowPainter::Content {
             render.stand_materials = std::move(own.materials);
             render.shows_room = isSeenThrough();
         }
+        render.stand_openness = opennessOf(stand, clearFaces());
         stand.uvs = own.uvs.empty() ? std::vector<Vec2>(stand.vertices.size()) : std::move(own.uvs);
         water.divisions.resize(stand.triangles.size());
         water.first.resize(stand.triangles.size());
@@ -93,18 +95,29 @@ struct FlowPainter::Content {
         wet.emplace(spots.places.size(), options.film);
     }
 
+    // Whether light passes each triangle; or nothing if none is clear.
+    [[nodiscard]] std::vector<bool> clearFaces() const
+    {
+        std::vector<bool> clear;
+        for (const std::uint32_t material : options.render.stand_materials) {
+            const StandLook& look = options.render.stand_looks[material];
+            clear.push_back(look.look.transmission + (1.0 - look.opacity) > 0.5);
+        }
+        return clear;
+    }
+
     // Whether most of the object, by area, lets light pass.
     [[nodiscard]] bool isSeenThrough() const
     {
+        const std::vector<bool> is_clear = clearFaces();
         double clear = 0.0;
         double all = 0.0;
-        for (std::size_t i = 0; i < stand.triangles.size(); ++i) {
+        for (std::size_t i = 0; i < is_clear.size(); ++i) {
             const auto [a, b, c] = stand.triangles[i];
             const double area =
                 length(cross(stand.vertices[b] - stand.vertices[a], stand.vertices[c] - stand.vertices[a]));
-            const StandLook& look = options.render.stand_looks[options.render.stand_materials[i]];
             all += area;
-            clear += look.look.transmission + (1.0 - look.opacity) > 0.5 ? area : 0.0;
+            clear += is_clear[i] ? area : 0.0;
         }
         return clear > 0.5 * all;
     }

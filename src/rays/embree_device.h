@@ -32,6 +32,23 @@ inline void intersect(RTCScene scene, RayContext& context, RTCRayHit& ray)
 #endif
 }
 
+/// Whether a ray meets anything.
+inline bool isOccluded(RTCScene scene, RTCRay& ray)
+{
+    RayContext context;
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&context);
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &context;
+    rtcOccluded1(scene, &ray, &arguments);
+#else
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &ray);
+#endif
+    return ray.tfar < 0.0F;
+}
+
 /// Running Embree device. Its scenes must be released first.
 class EmbreeDevice {
 public:

@@ -596,7 +596,25 @@ private:
         return way.inside ? share * wetness(grey(kGrey), squeezed_[way.droplet], way.droplet) : share;
     }
 
+    // Share of the light around that reaches a place on the stand. What hides the rest scatters some light itself.
+    [[nodiscard]] float opennessAt(const Meeting& meeting) const
+    {
+        if (options_.stand_openness.empty()) {
+            return 1.0F;
+        }
+        constexpr float kScattered = 0.2F;
+        const auto [a, b, c] = options_.stand->triangles[meeting.triangle];
+        const std::vector<float>& at = options_.stand_openness;
+        const float open = at[a] + meeting.u * (at[b] - at[a]) + meeting.v * (at[c] - at[a]);
+        return kScattered + (1.0F - kScattered) * open;
+    }
+
     [[nodiscard]] Vec3f lightOnStand(const Meeting& meeting) const
+    {
+        return opennessAt(meeting) * openLightOnStand(meeting);
+    }
+
+    [[nodiscard]] Vec3f openLightOnStand(const Meeting& meeting) const
     {
         const Vec3f light = studio_.diffuse(meeting.normal);
         if (base_light_) {
@@ -828,6 +846,9 @@ void RenderOptions::validate() const
     }
     if (stand) {
         stand->validate();
+    }
+    if (!stand_openness.empty() && (!stand || !shows_whole_stand || stand_openness.size() != stand->vertices.size())) {
+        refuse("stand_openness needs a stand that is an object, with as many vertices");
     }
     if (!stand_looks.empty()) {
         if (!stand || !shows_whole_stand || stand_materials.size() != stand->triangles.size() ||

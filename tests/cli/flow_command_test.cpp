@@ -226,6 +226,49 @@ TEST_F(FlowCommand, MapsHaveTheThicknessOfTheFilm)
     EXPECT_GT(films, 30);
 }
 
+TEST_F(FlowCommand, AFloorCatchesTheWater)
+{
+    // Small, so that they are over the edge soon.
+    const auto with = [&](const std::string& floor) {
+        return std::vector<std::string>{"--floor",       floor,
+                                        "--object-size", "10cm",
+                                        "--drops",       "30",
+                                        "--volume",      "20uL",
+                                        "--time",        "4s",
+                                        "--fps",         "5",
+                                        "--hysteresis",  "0",
+                                        "--adhesion",    "0",
+                                        "--droplets",    path("drops.csv"),
+                                        "--json",        path("report.json")};
+    };
+    for (const char* const floor : {"plate", "dish"}) {
+        const CommandResult result = flow("x.glb", with(floor));
+        ASSERT_EQ(result.exit_code, 0) << result.error;
+        const auto report = nlohmann::json::parse(readFile(path("report.json")));
+        if (floor == std::string("plate")) {
+            EXPECT_EQ(report["balance"].back()["left_m3"], 0.0) << "the dish is narrower";
+        }
+        EXPECT_GT(report["counts"]["landings"], 5) << floor;
+        // In the first frame all are on the object, whose triangles are 0 and 1.
+        std::istringstream table(readFile(path("drops.csv")));
+        std::string line;
+        std::getline(table, line);
+        const auto before = line.substr(0, line.find("face"));
+        int count = 0;
+        while (std::getline(table, line) && line.starts_with("1,")) {
+            std::istringstream cells(line);
+            for (auto k = std::count(before.begin(), before.end(), ','); k >= 0; --k) {
+                std::getline(cells, line, ',');
+            }
+            EXPECT_TRUE(line == "0" || line == "1") << line;
+            ++count;
+        }
+        EXPECT_EQ(count, 30);
+    }
+    expectRefused({"--drops", "3", "--floor", "dish", "--spin", "10deg/s"}, 2, "--floor needs an object that rests");
+    expectRefused({"--drops", "3", "--floor", "bowl"}, 2, "--floor");
+}
+
 TEST_F(FlowCommand, TheCameraStandsAnywhereInALight)
 {
     const auto drawn = [&](const std::vector<std::string>& more) {

@@ -70,8 +70,10 @@ struct RenderOptions {
     std::optional<TexturedMesh> stand = {};           ///< ground instead of the plane z = 0, uv as the droplet's
     std::vector<StandLook> stand_looks = {};          ///< of an object as stand; empty: it is plain
     std::vector<std::uint32_t> stand_materials = {};  ///< in `stand_looks`, of every triangle of the stand
-    bool shows_room = false;                          ///< behind all, the room that lights it, as for glass; else dark
-    bool shows_whole_stand = true;                    ///< true: the stand is an object, shown whole; false: ground
+    std::vector<float> stand_openness = {};  ///< share of the light around that reaches each vertex of the stand past
+                                             ///< the stand itself, 0 … 1; empty: all of it
+    bool shows_room = false;                 ///< behind all, the room that lights it, as for glass; else dark
+    bool shows_whole_stand = true;           ///< true: the stand is an object, shown whole; false: ground
     std::optional<StandWater> stand_water = {};  ///< light and wetness below many small droplets on a stand that is an
                                                  ///< object, instead of one map of light over its uv. The picture then
                                                  ///< frames the stand, or `framed`, and not the droplets

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "render/openness.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+namespace droplet {
+namespace {
+
+/// A ball, and a small level square below its middle.
+TexturedMesh ballOver(double radius, double height)
+{
+    TexturedMesh mesh;
+    for (const Vec3 p : {Vec3{-0.001, -0.001, 0.0}, {0.001, -0.001, 0.0}, {0.001, 0.001, 0.0}, {-0.001, 0.001, 0.0}}) {
+        mesh.vertices.push_back(p);
+        mesh.normals.push_back({0.0, 0.0, 1.0});
+    }
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    constexpr std::uint32_t kRings = 64;
+    constexpr std::uint32_t kAround = 128;
+    for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
+        for (std::uint32_t k = 0; k < kAround; ++k) {
+            const double tilt = std::numbers::pi * ring / kRings;
+            const double turn = 2.0 * std::numbers::pi * k / kAround;
+            const Vec3 normal{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
+            mesh.vertices.push_back(radius * normal + Vec3{0.0, 0.0, height});
+            mesh.normals.push_back(normal);
+            if (ring < kRings) {
+                const std::uint32_t a = 4 + ring * kAround + k;
+                const std::uint32_t b = 4 + ring * kAround + (k + 1) % kAround;
+                mesh.triangles.push_back({a, a + kAround, b + kAround});
+                mesh.triangles.push_back({a, b + kAround, b});
+            }
+        }
+    }
+    mesh.uvs.resize(mesh.vertices.size());
+    return mesh;
+}
+
+// A ball of radius R whose middle is at a distance d along the normal hides R²/d² of even light (Lambert's law).
+TEST(Openness, BelowABallIsTheRestOfItsSolidAngle)
+{
+    for (const double height : {1.1, 1.5, 3.0}) {
+        const TexturedMesh mesh = ballOver(1.0, height);
+        const std::vector<float> openness = opennessOf(mesh);
+        EXPECT_NEAR(openness[0], 1.0 - 1.0 / (height * height), 0.02) << height;
+        // Its upper half sees everything; below, the square is nearly nothing.
+        for (std::size_t v = 4; v < openness.size(); ++v) {
+            EXPECT_GT(openness[v], 0.98F);
+        }
+        std::vector<bool> is_clear(mesh.triangles.size(), true);
+        EXPECT_EQ(opennessOf(mesh, is_clear)[0], 1.0F) << "light passes glass";
+        is_clear.assign(mesh.triangles.size(), false);
+        EXPECT_EQ(opennessOf(mesh, is_clear), openness);
+    }
+}
+
+TEST(Openness, InsideIsDark)
+{
+    TexturedMesh mesh = ballOver(1.0, 0.0);
+    for (Vec3& n : mesh.normals) {
+        n = -1.0 * n;
+    }
+    for (const float value : opennessOf(mesh)) {
+        EXPECT_EQ(value, 0.0F);
+    }
+}
+
+}  // namespace
+}  // namespace droplet
