@@ -98,6 +98,11 @@ void declare(CommandLine& line, DewCommandOptions& options)
              "Direction that rain comes from; droplets are then only where it meets the object [of rain 0,1,0]");
     line.add(kDroplets, "--mask", "FILE",
              "Mask over the object's texture coordinates: droplets are where it is covered", into(options.mask));
+    line.addFlag(
+        kDroplets, "--vertex-weights",
+        "Droplets are where the vertices have weights: _WEIGHT or the red of COLOR_0 of glTF, weight or red of "
+        "PLY");
+    line.exclude({"--mask", "--vertex-weights"});
     line.add(kDroplets, "--seed", "N", "Random seed", seedInto(dew.seed));
     constexpr const char* kHold = "Slopes";
     line.add(kHold, "--hysteresis", "NUMBER",
@@ -140,6 +145,7 @@ void readDroplets(const CommandLine& line, DewCommandOptions& options)
         refuse(*named, presetNames());
     }
     options.preset = preset->name;
+    options.has_weights = line.flag("--vertex-weights");
     dew.sizes = preset->sizes;
     if (const auto sizes = line.value("--sizes")) {
         if (sizes->text != "condensation" && sizes->text != "lognormal") {

@@ -72,6 +72,9 @@ droplet::DewReport makeDew(const DewCommandOptions& options)
         mask = droplet::readMask(*options.mask);
         dew.weight = forOption("--mask", [&] { return droplet::coverageOver(*mask, object, terrain.surface()); });
     }
+    if (options.has_weights) {
+        dew.weight = forOption("--vertex-weights", [&] { return droplet::weightsOver(object, terrain.surface()); });
+    }
     const droplet::DewDroplets droplets = placed(terrain, dew, options.object);
     const droplet::DropletBodies bodies(droplet::BodyShape::Capillary, dew.forces);
     const droplet::DewModel model(terrain, droplets.samples, bodies, dew.gravity, options.detail);

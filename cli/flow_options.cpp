@@ -101,6 +101,10 @@ void declare(CommandLine& line, FlowOptions& options)
              "Direction that rain comes from; --drops then wet only what it can reach [for --rain 0,1,0]");
     line.add(kSources, "--mask", "FILE", "Mask over the object's texture coordinates: --drops start on it",
              into(options.mask));
+    line.addFlag(kSources, "--vertex-weights",
+                 "--drops start where the vertices have weights: _WEIGHT or the red of COLOR_0 of glTF, weight or red "
+                 "of PLY");
+    line.exclude({"--mask", "--vertex-weights"});
     line.add(kSources, "--start", "FILE",
              "Droplets at the start: CSV with the columns x_m, y_m, z_m, volume_m3 and, if they move, "
              "velocity_x_m_per_s, velocity_y_m_per_s, velocity_z_m_per_s",
@@ -257,8 +261,9 @@ void readSources(const CommandLine& line, FlowOptions& options)
     if (const auto from = line.value("--from")) {
         options.from = direction(*from);
     }
-    if (options.mask && options.drops == 0) {
-        refuse("--mask needs --drops");
+    options.has_weights = line.flag("--vertex-weights");
+    if ((options.mask || options.has_weights) && options.drops == 0) {
+        refuse(std::string(options.mask ? "--mask" : "--vertex-weights") + " needs --drops");
     }
     for (const Given& emitter : line.values("--emitter")) {
         constexpr const char* kAllowed = "x,y,z,rate such as 0,0.1,0,50uL/s";

@@ -85,6 +85,10 @@ std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowP
             scatter.coverage =
                 forOption("--mask", [&] { return droplet::coverageOver(*mask, plan.object, plan.terrain.surface()); });
         }
+        if (options.has_weights) {
+            scatter.coverage = forOption("--vertex-weights",
+                                         [&] { return droplet::weightsOver(plan.object, plan.terrain.surface()); });
+        }
         if (options.floor) {
             scatter.coverage = [&plan, inner = scatter.coverage](const droplet::FlowTerrain::Point& point) {
                 const bool is_floor = plan.terrain.surface().faces[point.face].source >= plan.floor_begins;

@@ -138,14 +138,18 @@ def _look(material):
     )
 
 
-def write(positions, normals, uvs, triangles):
-    """Bytes of a file with one mesh, for --onto."""
-    columns = (
+def write(positions, normals, uvs, triangles, weights=None):
+    """Bytes of a file with one mesh, for --onto and dew."""
+    columns = [
         (np.stack((positions[:, 0], positions[:, 2], -positions[:, 1]), axis=1), "<f4", "VEC3", 5126),
         (np.stack((normals[:, 0], normals[:, 2], -normals[:, 1]), axis=1), "<f4", "VEC3", 5126),
         (_flipped(uvs), "<f4", "VEC2", 5126),
         (triangles.reshape(-1), "<u4", "SCALAR", 5125),
-    )
+    ]
+    attributes = {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}
+    if weights is not None:
+        attributes["_WEIGHT"] = len(columns)
+        columns.append((weights, "<f4", "SCALAR", 5126))
     body, views, accessors = b"", [], []
     for values, kind, shape, component in columns:
         part = np.ascontiguousarray(values, kind)
@@ -154,7 +158,6 @@ def write(positions, normals, uvs, triangles):
         body += part.tobytes()
     low, high = (np.asarray(edge, np.float32).tolist() for edge in (columns[0][0].min(0), columns[0][0].max(0)))
     accessors[0] |= {"min": low, "max": high}
-    attributes = {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}
     head = json.dumps({
         "asset": {"version": "2.0"},
         "scene": 0,

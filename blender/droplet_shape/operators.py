@@ -416,6 +416,8 @@ class MESH_OT_droplet_dew_add(bpy.types.Operator, Maker):
         default=math.radians(105), min=math.radians(1), max=math.radians(179))
     hysteresis: FloatProperty(
         name="Hysteresis", description="More of it holds larger droplets on walls", default=0.2, min=0, max=2)
+    vertex_group: StringProperty(
+        name="Vertex Group", description="Droplets are where this group has weight; empty: all over the mesh")
     seed: IntProperty(name="Seed", default=1, min=0)
     detail: EnumProperty(name="Detail", items=(
         ("low", "Low", "64 triangles for most droplets: quick, to find the other settings"),
@@ -431,16 +433,21 @@ class MESH_OT_droplet_dew_add(bpy.types.Operator, Maker):
 
     def draw(self, context):
         self.layout.use_property_split = True
-        for name in ("preset", "scale", "coverage", "smallest", "largest", "contact_angle", "hysteresis", "seed",
-                     "detail", "use_gravity", "options"):
+        for name in ("preset", "scale", "coverage", "smallest", "largest", "contact_angle", "hysteresis"):
+            self.layout.prop(self, name)
+        if context.active_object is not None:
+            self.layout.prop_search(self, "vertex_group", context.active_object, "vertex_groups")
+        for name in ("seed", "detail", "use_gravity", "options"):
             self.layout.prop(self, name)
 
     def make(self, context):
         target = _target(context)
-        ground = places.shown_object(target, context, self.scale, needs_uv=False)
+        ground = places.shown_object(target, context, self.scale, needs_uv=False, group=self.vertex_group)
         arguments = ["dew", "--preset", self.preset, "--seed", str(self.seed), "--hysteresis", f"{self.hysteresis:.7g}",
                      "--contact-angle", f"{math.degrees(self.contact_angle):.7g}deg", "--droplets-only", "--instancing", "none",
                      "--detail", self.detail]
+        if self.vertex_group:
+            arguments += ["--vertex-weights"]
         if self.coverage > 0:
             arguments += ["--coverage", f"{max(self.coverage, 1e-3):.7g}"]
         for option, radius in (("--smallest", self.smallest), ("--largest", self.largest)):

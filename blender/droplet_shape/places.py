@@ -94,12 +94,21 @@ class Ground:
     file: Input  # in the frame, in metres
 
 
-def shown_object(item, context, scale, needs_uv):
+def _weights(mesh, group):
+    """Weights of a vertex group, one per vertex."""
+    return np.array([next((entry.weight for entry in vertex.groups if entry.group == group), 0.0)
+                     for vertex in mesh.vertices], np.float32)
+
+
+def shown_object(item, context, scale, needs_uv, group=""):
     """The object as it is shown, with its modifiers.
 
     scale:    units of the scene in a metre
     needs_uv: whether droplets are laid on it by its texture coordinates
+    group:    name of a vertex group whose weights the file gets
     """
+    if group and group not in item.vertex_groups:
+        raise DropletError(f"{item.name!r} has no vertex group {group!r}")
     place = unscaled(item.matrix_world)
     shape = Matrix.Scale(1 / scale, 4) @ place.inverted() @ item.matrix_world
     shown = item.evaluated_get(context.evaluated_depsgraph_get())
@@ -127,6 +136,8 @@ def shown_object(item, context, scale, needs_uv):
             column(*normals, 3, np.float32),
             column(mesh.uv_layers.active.data, "uv", 2, np.float32) if has_uv
             else np.zeros((len(corner_vertices), 2), np.float32),
+            _weights(mesh, item.vertex_groups[group].index)[corner_vertices] if group
+            else np.zeros((len(corner_vertices), 1), np.float32),
         ), axis=1)
         triangles = column(mesh.loop_triangles, "loops", 3, np.int32)
     finally:
@@ -134,5 +145,6 @@ def shown_object(item, context, scale, needs_uv):
     if not len(triangles):
         raise DropletError(f"{item.name!r} has no faces")
     rows, numbers = np.unique(rows, axis=0, return_inverse=True)
-    data = glb.write(rows[:, :3], rows[:, 3:6], rows[:, 6:], numbers.reshape(-1)[triangles])
+    data = glb.write(rows[:, :3], rows[:, 3:6], rows[:, 6:8], numbers.reshape(-1)[triangles],
+                     rows[:, 8] if group else None)
     return Ground(place, Input("object.glb", data))

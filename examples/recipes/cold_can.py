@@ -2,7 +2,7 @@
 """Renders an object with droplets as a picture, in Blender with Cycles:
 
     droplet-shape dew can.glb cold.glb --preset bottle --object-size 12cm --instancing none
-    blender --background --factory-startup --python cold_can.py -- cold.glb cold.png [SAMPLES]
+    blender --background --factory-startup --python cold_can.py -- cold.glb cold.png [SAMPLES [PERCENT]]
 
 The object is lacquered, the droplets are water, and a lamp behind the object makes them shine.
 """
@@ -70,9 +70,9 @@ scene.world.node_tree.nodes["Background"].inputs[0].default_value = (0.16, 0.18,
 
 camera = bpy.data.cameras.new("camera")
 camera.lens, camera.clip_start = 85, 0.01 * size
-camera.dof.use_dof, camera.dof.aperture_fstop = True, 2.8 * 0.12 / size
+camera.dof.use_dof, camera.dof.aperture_fstop = True, 11 * 0.12 / size
 eye = bpy.data.objects.new("camera", camera)
-eye.location = middle + size * Vector((0.6, -3.1, 0.55))
+eye.location = middle + size * Vector((0.6, -3.1, 0.25))
 eye.rotation_euler = (middle - eye.location).to_track_quat("-Z", "Y").to_euler()
 camera.dof.focus_distance = (middle - eye.location).length - 0.25 * size
 scene.collection.objects.link(eye)
@@ -83,6 +83,7 @@ scene.cycles.samples = int(more[0]) if more else 256
 scene.cycles.max_bounces, scene.cycles.transmission_bounces = 12, 12
 scene.cycles.use_denoising = False  # Debian's Blender has none
 scene.render.resolution_x, scene.render.resolution_y = 1200, 1600
+scene.render.resolution_percentage = int(more[1]) if len(more) > 1 else 100
 scene.view_settings.look = "Medium High Contrast"
 scene.render.filepath = picture
 bpy.ops.render.render(write_still=True)

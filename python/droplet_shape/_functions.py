@@ -918,6 +918,7 @@ _FLOW = {
     "volume_spread": "number",
     "from_": "vector",
     "mask": "path",
+    "vertex_weights": "flag",
     "start": "path",
     "emitter": "texts",
     "rain": "rainfall",
@@ -1000,6 +1001,7 @@ def flow(
     volume_spread: float | None = None,
     from_: str | Sequence[float] | None = None,
     mask: Path | None = None,
+    vertex_weights: bool = False,
     start: Path | None = None,
     emitter: str | Sequence[str] | None = None,
     rain: str | float | None = None,
@@ -1091,6 +1093,8 @@ def flow(
       volume_spread: Spread of the volumes: standard deviation of their logarithm, 0 to 3 (default: 0)
       from [m or m/s]: Direction that rain comes from; drops then wet only what it can reach (default: for rain 0,1,0)
       mask: Mask over the object's texture coordinates: drops start on it
+      vertex_weights: drops start where the vertices have weights: _WEIGHT or the red of COLOR_0 of glTF, weight or
+        red of PLY
       start: Droplets at the start: CSV with the columns x_m, y_m, z_m, volume_m3 and, if they move,
         velocity_x_m_per_s, velocity_y_m_per_s, velocity_z_m_per_s
       emitter: Release droplets at a place, such as 0,0.1,0,50uL/s
@@ -1202,6 +1206,7 @@ _DEW = {
     "spread": "number",
     "from_": "vector",
     "mask": "path",
+    "vertex_weights": "flag",
     "seed": "number",
     "hysteresis": "number",
     "gravity_direction": "vector",
@@ -1239,6 +1244,7 @@ def dew(
     spread: float | None = None,
     from_: str | Sequence[float] | None = None,
     mask: Path | None = None,
+    vertex_weights: bool = False,
     seed: str | int | None = None,
     hysteresis: float | None = None,
     gravity_direction: str | Sequence[float] | None = None,
@@ -1285,6 +1291,8 @@ def dew(
       from [m or m/s]: Direction that rain comes from; droplets are then only where it meets the object (default: of
         rain 0,1,0)
       mask: Mask over the object's texture coordinates: droplets are where it is covered
+      vertex_weights: Droplets are where the vertices have weights: _WEIGHT or the red of COLOR_0 of glTF, weight or
+        red of PLY
       seed: Random seed (default: 1)
 
     Slopes:

@@ -172,4 +172,17 @@ std::function<double(const FlowTerrain::Point&)> coverageOver(const Mask& mask, 
     };
 }
 
+std::function<double(const FlowTerrain::Point&)> weightsOver(const FlowObject& object, const FlowSurface& surface)
+{
+    if (object.weights.empty()) {
+        throw Error(
+            ErrorCode::InvalidArgument,
+            "the object has no weights: glTF has them as _WEIGHT or in the red of COLOR_0, PLY as weight or red");
+    }
+    return [&](const FlowTerrain::Point& point) {
+        const Triangle& triangle = object.triangles[surface.faces[point.face].source];
+        return mixed(object.weights, triangle, weightsAt(object, triangle, point.place));
+    };
+}
+
 }  // namespace droplet

@@ -103,6 +103,9 @@ FlowObject onFloor(FlowObject object, Floor floor)
     const auto first = static_cast<std::uint32_t>(object.vertices.size());
     object.vertices.insert(object.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
     object.normals.insert(object.normals.end(), normals.begin(), normals.end());
+    if (!object.weights.empty()) {
+        object.weights.resize(object.vertices.size());
+    }
     if (!object.uvs.empty()) {
         object.uvs.resize(object.vertices.size());
     }

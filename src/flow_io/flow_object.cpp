@@ -220,6 +220,7 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
     const bool is_ply = readableFormat(path) == Format::Ply;
     FileMesh mesh = readFileMesh(path, {.uvs = true,
                                         .polygons = true,
+                                        .weights = true,
                                         .creases = true,
                                         .looks = true,
                                         .motion = true,
@@ -239,6 +240,7 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
     object.vertices = std::move(mesh.vertices);
     object.normals = std::move(mesh.normals);
     object.uvs = std::move(mesh.uvs);
+    object.weights = std::move(mesh.weights);
     object.triangles = std::move(mesh.triangles);
     object.materials = std::move(mesh.materials);
     object.material_names = std::move(mesh.material_names);

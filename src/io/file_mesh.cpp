@@ -417,11 +417,14 @@ void readPlyVertices(const PlyElement& element, PlyNumbers& numbers, const FileM
     const auto uv_names = std::find_if(kUvs.begin(), kUvs.end(),
                                        [&](const auto& names) { return has(names.first) && has(names.second); });
     const bool uvs = options.uvs && uv_names != kUvs.end();
+    const char* const weight_name = has("weight") ? "weight" : "red";
+    const bool weights = options.weights && has(weight_name);
     for (std::uint64_t i = 0; i < element.count; ++i) {
         Vec3 p;
         Vec3 n;
         Vec2 uv;
         double angle = 0.0;
+        double weight = 0.0;
         double other = 0.0;
         for (const PlyProperty& property : element.properties) {
             for (std::uint64_t left = property.count ? numbers.nextWhole(*property.count) : 0; left > 0; --left) {
@@ -438,10 +441,14 @@ void readPlyVertices(const PlyElement& element, PlyNumbers& numbers, const FileM
                          : name == "ny"                    ? n.y
                          : name == "nz"                    ? n.z
                          : name == "contact_angle"         ? angle
+                         : name == weight_name             ? weight
                          : uvs && name == uv_names->first  ? uv.x
                          : uvs && name == uv_names->second ? uv.y
                                                            : other;
             to = numbers.next(property.scalar);
+            if (name == weight_name && property.scalar == Scalar::U8) {
+                weight /= 255.0;
+            }
         }
         mesh.vertices.push_back(p);
         if (normals) {
@@ -452,6 +459,9 @@ void readPlyVertices(const PlyElement& element, PlyNumbers& numbers, const FileM
         }
         if (angles) {
             mesh.contact_angles.push_back(static_cast<float>(kDegree * angle));
+        }
+        if (weights) {
+            mesh.weights.push_back(std::clamp(weight, 0.0, 1.0));
         }
     }
 }
@@ -732,6 +742,9 @@ void completeNormals(FileMesh& mesh, bool creases)
             if (!mesh.contact_angles.empty()) {
                 mesh.contact_angles.push_back(mesh.contact_angles[v]);
             }
+            if (!mesh.weights.empty()) {
+                mesh.weights.push_back(mesh.weights[v]);
+            }
         }
     }
     fillNormals(mesh.vertices, mesh.triangles, mesh.weld, mesh.normals);
@@ -743,7 +756,10 @@ FileMesh readFileMesh(const std::filesystem::path& path, const FileMeshOptions& 
     FileMesh mesh;
     readFile(path, [&] {
         if (format == Format::Glb || format == Format::Gltf) {
-            mesh = readScene(path, {.motion = options.motion, .creases = options.creases, .looks = options.looks});
+            mesh = readScene(path, {.motion = options.motion,
+                                    .weights = options.weights,
+                                    .creases = options.creases,
+                                    .looks = options.looks});
             return;
         }
         std::error_code none;

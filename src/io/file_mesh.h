@@ -33,6 +33,7 @@ struct FileMesh {
     std::vector<Vec3> normals;                ///< unit
     std::vector<Vec2> uvs;                    ///< (0,0) top left; 0 for vertices without uv; empty: none has uv
     std::vector<float> contact_angles;        ///< [rad]; 0 for vertices without one; may be empty
+    std::vector<double> weights;              ///< 0 … 1, if asked for and any vertex has one; or empty
     std::vector<Triangle> triangles;          ///< indices of vertices
     std::vector<std::uint32_t> weld;          ///< index of the first vertex at the same place
     std::vector<std::uint32_t> materials;     ///< of every triangle, in material_names; empty: none has one
@@ -48,6 +49,8 @@ struct FileMesh {
 struct FileMeshOptions {
     bool uvs = false;               ///< read the texture coordinates of OBJ and PLY
     bool polygons = false;          ///< divide faces with more than three corners; otherwise they are damage
+    bool weights = false;           ///< read the vertices' weights: attribute _WEIGHT of glTF, or red of COLOR_0;
+                                    ///< property weight of PLY, or red
     bool creases = false;           ///< divide vertices without a normal, and all of STL, at creases; see
                                     ///< divideAtCreases. Otherwise those at one place share a normal, and STL has
                                     ///< its facets'

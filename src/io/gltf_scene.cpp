@@ -431,6 +431,9 @@ private:
         if (!has_uv_) {
             mesh_.uvs.clear();
         }
+        if (!has_weights_) {
+            mesh_.weights.clear();
+        }
         const std::size_t names = file_.material_names.size();
         const auto none = static_cast<std::uint32_t>(names);
         mesh_.material_names = file_.material_names;
@@ -555,9 +558,10 @@ private:
         }
         const std::optional<Column> normals = column("NORMAL", TINYGLTF_TYPE_VEC3);
         const std::optional<Column> angles = column("_CONTACT_ANGLE", TINYGLTF_TYPE_SCALAR);
+        const std::optional<Column> weights = options_.weights ? weightsOf(primitive) : std::nullopt;
         const std::size_t count = vertices.size();
         const auto fits = [count](const std::optional<Column>& column) { return !column || column->size() == count; };
-        if (!fits(uvs) || !fits(normals) || !fits(angles)) {
+        if (!fits(uvs) || !fits(normals) || !fits(angles) || (weights && weights->size() != count)) {
             throw Damage(name + " has attributes of different lengths");
         }
         const std::vector<Triangle> triangles = trianglesOf(primitive.mode, indicesOf(primitive, count, name));
@@ -581,8 +585,11 @@ private:
             mesh_.normals.push_back(n);
             mesh_.uvs.push_back(uv);
             mesh_.contact_angles.push_back(static_cast<float>(kDegree * angle));
+            const double weight = weights ? weights->number(v) : 0.0;
+            mesh_.weights.push_back(std::isfinite(weight) ? std::clamp(weight, 0.0, 1.0) : 0.0);
         }
         (uvs ? has_uv_ : lacks_uv_) = true;
+        has_weights_ = has_weights_ || weights;
         const std::size_t materials = file_.material_names.size();
         const bool has_material = primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < materials;
         mesh_.materials.insert(
@@ -592,6 +599,17 @@ private:
             mesh_.triangles.push_back(placement.mirrors() ? Triangle{first + t[0], first + t[2], first + t[1]}
                                                           : Triangle{first + t[0], first + t[1], first + t[2]});
         }
+    }
+
+    /// Column of weights: of its own, or the red of the first colours.
+    [[nodiscard]] std::optional<Column> weightsOf(const tinygltf::Primitive& primitive) const
+    {
+        for (const char* const name : {"_WEIGHT", "COLOR_0"}) {
+            if (const auto found = primitive.attributes.find(name); found != primitive.attributes.end()) {
+                return Column(model_, found->second, entry(model_.accessors, found->second, "accessors").type);
+            }
+        }
+        return std::nullopt;
     }
 
     [[nodiscard]] std::vector<std::uint32_t> indicesOf(const tinygltf::Primitive& primitive, std::size_t count,
@@ -623,6 +641,7 @@ private:
     std::vector<std::optional<Mover>> movers_;  ///< of every node that has triangles
     bool has_uv_ = false;
     bool lacks_uv_ = false;
+    bool has_weights_ = false;
     FileMesh mesh_;
 };
 

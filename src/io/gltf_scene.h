@@ -10,6 +10,7 @@ namespace droplet {
 struct SceneOptions {
     bool needs_uv = false;  ///< reject triangles without uv as damage
     bool motion = false;    ///< read the animation of the node that carries all meshes
+    bool weights = false;   ///< read _WEIGHT, or red of COLOR_0
     bool creases = false;   ///< divide vertices without a normal at creases
     bool looks = false;     ///< read materials and their images
 };

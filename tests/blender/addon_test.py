@@ -206,6 +206,18 @@ class Dew(AddonTest):
         (material,) = dew.data.materials
         self.assertIn("water", material.name)
 
+    def test_droplets_are_where_the_vertex_group_is(self):
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=1)
+        ball = bpy.context.active_object
+        group = ball.vertex_groups.new(name="wet")
+        group.add([vertex.index for vertex in ball.data.vertices if vertex.co.x > 0.1], 1.0, "REPLACE")
+        ball.modifiers.new("finer", "SUBSURF").levels = 1  # weights go through modifiers
+        places = world_points(self.cover(ball, coverage=0.2, smallest=0.5, largest=1, vertex_group="wet"))
+        self.assertGreater(places[:, 0].min(), -0.2)
+        self.assertGreater(places[:, 1].max() - places[:, 1].min(), 1)
+        with self.assertRaisesRegex(RuntimeError, "no vertex group 'dry'"):
+            self.cover(ball, vertex_group="dry")
+
     def test_rain_comes_from_above_in_the_world(self):
         bpy.ops.mesh.primitive_uv_sphere_add(radius=1, location=(5, 0, 0), rotation=(2, 1, 0))
         ball = bpy.context.active_object

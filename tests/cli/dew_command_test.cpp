@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -97,6 +98,46 @@ TEST_F(DewCommand, DropletsAreWhereTheMaskIs)
     for (const Vec3& p : readSurface(path("left.obj")).surface.vertices) {
         EXPECT_LT(p.x, 22e-3);
     }
+}
+
+TEST_F(DewCommand, DropletsAreWhereTheWeightsAre)
+{
+    // Weight 0 on the left, 1 on the right, linear between: none on the left edge, three quarters in the right half.
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\n";
+    const std::string end = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const auto sharesOf = [&](const std::string& property, const std::string& one) {
+        testing::writeFile(path("w.ply"), head + property + end + "0 0 0 0\n0.04 0 0 " + one + "\n0.04 0.04 0 " + one +
+                                              "\n0 0.04 0 0\n4 0 1 2 3\n");
+        EXPECT_EQ(runDroplet({"dew", path("w.ply"), path("wet.obj"), "--vertex-weights", "--coverage", "0.1",
+                              "--largest", "0.5mm", "--droplets", path("w.csv")})
+                      .exit_code,
+                  0);
+        std::istringstream table(readFile(path("w.csv")));
+        std::string line;
+        std::getline(table, line);
+        std::array<int, 4> quarters{};
+        while (std::getline(table, line)) {
+            std::istringstream cells(line);
+            for (int k = 0; k < 4; ++k) {
+                std::getline(cells, line, ',');
+            }
+            ++quarters.at(static_cast<std::size_t>(std::clamp(std::stod(line) / 0.01, 0.0, 3.0)));
+        }
+        return quarters;
+    };
+    const std::array<int, 4> quarters = sharesOf("property float weight\n", "1");
+    const double all = quarters[0] + quarters[1] + quarters[2] + quarters[3];
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_NEAR(quarters.at(k) / all, (2.0 * static_cast<double>(k) + 1.0) / 16.0, 0.06) << k;
+    }
+    EXPECT_EQ(sharesOf("property uchar red\n", "255"), quarters);
+    const CommandResult refused =
+        runDroplet({"dew", path("w.ply"), path("x.obj"), "--vertex-weights", "--mask", "m.png"});
+    EXPECT_EQ(refused.exit_code, 2);
+    testing::writeFile(path("plate.obj"), kPlate);
+    expectRefused("x.glb", {"--vertex-weights"}, 2, "--vertex-weights");
 }
 
 TEST_F(DewCommand, ItsTableStartsAFlow)

@@ -437,6 +437,23 @@ TEST_F(FlowObjectFile, GltfHasTheLooksOfItsMaterials)
                 ElementsAre(HasSubstr("a b.png is shown without its KHR_texture_transform")));
 }
 
+TEST_F(FlowObjectFile, GltfHasWeights)
+{
+    const auto with = [&](const std::string& name, const std::vector<float>& values, const std::string& kind) {
+        Draft draft = triangle();
+        const std::size_t weights = draft.addFloats(values, kind);
+        return read(
+            "weights.glb",
+            draft.file(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
+                       R"({"POSITION":0,")" +
+                       name + "\":" + std::to_string(weights) + "}}]}]"));
+    };
+    EXPECT_THAT(with("_WEIGHT", {0.0F, 0.5F, 2.0F}, "SCALAR").weights, ElementsAre(0.0, 0.5, 1.0));
+    EXPECT_THAT(with("COLOR_0", {1.0F, 0.0F, 0.0F, 0.25F, 1.0F, 1.0F, 0.0F, 1.0F, 1.0F}, "VEC3").weights,
+                ElementsAre(1.0, 0.25, 0.0));
+    EXPECT_THAT(with("_OTHER", {0.0F, 0.5F, 1.0F}, "SCALAR").weights, IsEmpty());
+}
+
 std::string animationOf(const std::string& channels, const std::string& samplers)
 {
     return R"("animations":[{"channels":[)" + channels + R"(],"samplers":[)" + samplers + "]}]";

@@ -60,4 +60,10 @@ std::vector<double> meansOverFaces(const HeightMap& picture, const FlowObject& o
 std::function<double(const FlowTerrain::Point&)> coverageOver(const Mask& mask, const FlowObject& object,
                                                               const FlowSurface& surface);
 
+/// The vertices' weights at points of a surface, 0 … 1, linear over each triangle, for ScatterOptions::coverage.
+/// @param object   the surface's mesh; like the other, it must outlive the result
+/// @param surface  its faces
+/// @throws Error   InvalidArgument if the object has no weights
+std::function<double(const FlowTerrain::Point&)> weightsOver(const FlowObject& object, const FlowSurface& surface);
+
 }  // namespace droplet

@@ -28,6 +28,7 @@ struct FlowObject {
     std::vector<Vec3> vertices;               ///< vertices [m], z up
     std::vector<Vec3> normals;                ///< one per vertex, unit, outward
     std::vector<Vec2> uvs;                    ///< one per vertex, (0,0) top left of the texture; or empty
+    std::vector<double> weights;              ///< of every vertex, 0 … 1, if the file has them; or empty
     std::vector<Triangle> triangles;          ///< indices of vertices
     std::vector<std::uint32_t> materials;     ///< index of every triangle's material in material_names; or empty
     std::vector<std::string> material_names;  ///< from the file
