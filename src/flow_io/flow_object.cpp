@@ -164,6 +164,17 @@ void takeLook(const FileMaterial& material, const std::string& name, FlowObject&
     look.colours = takeTexture(material.colours, name, images.colours, object.warnings);
     look.normals = takeTexture(material.normals, name, images.normals, object.warnings);
     look.finish = takeTexture(material.finish, name, images.finish, object.warnings);
+    // A look has one place for all of its pictures.
+    std::optional<TexturePlace> place;
+    for (const auto& [texture, is_shown] : {std::pair{&material.colours, look.colours.has_value()},
+                                            {&material.normals, look.normals.has_value()},
+                                            {&material.finish, look.finish.has_value()}}) {
+        if (is_shown && place && !(*place == texture->place)) {
+            object.warnings.push_back(name + ": " + texture->name + " is shown at the place of another texture");
+        }
+        place = is_shown && !place ? texture->place : place;
+    }
+    look.place = place.value_or(TexturePlace());
     if (look.normals && !hasDirections(*look.normals)) {
         object.warnings.push_back(name + " is shown without " + material.normals.name +
                                   ", which has heights instead of directions");

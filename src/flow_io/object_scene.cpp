@@ -44,7 +44,8 @@ std::size_t addObject(const FlowObject& object, Scene& scene)
                             .image = images.colours,
                             .normal_image = images.normals,
                             .relief = look.relief,
-                            .finish_image = images.finish};
+                            .finish_image = images.finish,
+                            .place = look.place};
                 material.look.name = names[i];
             }
             parts[i].material = scene.addMaterial(std::move(material));

@@ -67,6 +67,7 @@ std::string_view withoutMark(std::string_view text)
 struct TextureLine {
     std::string name;
     double bump = 1.0;       ///< option -bm
+    TexturePlace place;      ///< options -s and -o
     std::string is_ignored;  ///< an option that changes what is seen; or empty
 };
 
@@ -88,17 +89,23 @@ TextureLine textureLine(std::istringstream& line)
         rest.erase(0, std::min(rest.find_first_not_of(" \t", end), rest.size()));
         return word;
     };
+    Vec2 scale{1.0, 1.0};
+    Vec2 offset;
     while (rest.starts_with('-')) {
         const std::string option = take_word();
         if (option == "-s" || option == "-o" || option == "-t") {
-            const double usual = option == "-s" ? 1.0 : 0.0;
+            Vec2& to = option == "-s" ? scale : offset;
             for (int k = 0; k < 3; ++k) {
                 const auto value = numberIn(rest.substr(0, rest.find_first_of(" \t")));
                 if (!value) {
                     break;
                 }
                 take_word();
-                texture.is_ignored = *value != usual ? option : texture.is_ignored;
+                if (option == "-t") {
+                    texture.is_ignored = *value != 0.0 ? option : texture.is_ignored;
+                } else if (k < 2) {
+                    (k == 0 ? to.x : to.y) = *value;
+                }
             }
         } else if (option == "-mm") {
             take_word();
@@ -110,12 +117,16 @@ TextureLine textureLine(std::istringstream& line)
         }
     }
     texture.name = std::move(rest);
+    // In the file v counts from below.
+    texture.place.scale = scale;
+    texture.place.offset = {offset.x, 1.0 - scale.y - offset.y};
     return texture;
 }
 
 FileTexture readTexture(const TextureLine& line, const std::filesystem::path& folder)
 {
     FileTexture texture = readTextureBeside(folder, meant(line.name, folder));
+    texture.place = line.place;
     if (texture.fault.empty() && !line.is_ignored.empty()) {
         texture.fault = "is shown without the material's option " + line.is_ignored;
     }

@@ -9,14 +9,16 @@
 #include <vector>
 
 #include "droplet/surface/material.h"
+#include "droplet/surface/texture_place.h"
 #include "file_bytes.h"
 
 namespace droplet {
 
 /// Picture that a file names.
 struct FileTexture {
-    Bytes image = {};   ///< encoded; or empty
-    std::string name;   ///< for messages
+    Bytes image = {};  ///< encoded; or empty
+    std::string name;  ///< for messages
+    TexturePlace place = {};
     std::string fault;  ///< why it is not, or not wholly, as the file wants it; or empty
 };
 

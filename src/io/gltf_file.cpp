@@ -233,6 +233,7 @@ std::vector<std::string> materialNamesOf(const Json& root)
 struct ReadTexture {
     std::string uri;
     std::optional<int> view;
+    TexturePlace place;
     std::string ignored;  ///< what of the texture is not read; or empty
 };
 
@@ -254,10 +255,20 @@ ReadTexture textureOf(const Json& root, const Json& from)
     };
     const Json& texture = element(memberOf(root, "textures"), memberOf(from, "index"));
     const Json& image = element(memberOf(root, "images"), memberOf(texture, "source"));
-    ReadTexture read{textOf(memberOf(image, "uri"), ""), indexOf(memberOf(image, "bufferView")), ""};
-    if (memberOf(memberOf(from, "extensions"), "KHR_texture_transform").is_object()) {
-        read.ignored = "is shown without its KHR_texture_transform";
-    } else if (indexOf(memberOf(from, "texCoord")).value_or(0) != 0) {
+    ReadTexture read{textOf(memberOf(image, "uri"), ""), indexOf(memberOf(image, "bufferView")), {}, ""};
+    const Json& transform = memberOf(memberOf(from, "extensions"), "KHR_texture_transform");
+    const auto number = [](const Json& value, double otherwise) {
+        return value.is_number() && std::isfinite(value.get<double>()) ? value.get<double>() : otherwise;
+    };
+    const auto pair = [&](const char* key, double otherwise) {
+        const Json& values = memberOf(transform, key);
+        return values.is_array() && values.size() == 2
+                   ? Vec2{number(values[0], otherwise), number(values[1], otherwise)}
+                   : Vec2{otherwise, otherwise};
+    };
+    read.place = {pair("offset", 0.0), number(memberOf(transform, "rotation"), 0.0), pair("scale", 1.0)};
+    const int set = indexOf(memberOf(transform, "texCoord")).value_or(indexOf(memberOf(from, "texCoord")).value_or(0));
+    if (set != 0) {
         read.ignored = "is shown over TEXCOORD_0, not its own";
     }
     return read;
@@ -362,6 +373,7 @@ FileTexture withImage(const ReadTexture& read, const tinygltf::Model& model, con
     } else if (!read.uri.empty()) {
         texture = readTextureBeside(folder, unescaped(read.uri));
     }
+    texture.place = read.place;
     if (texture.fault.empty()) {
         texture.fault = read.ignored;
     }

@@ -384,11 +384,11 @@ private:
         return stand_looks_.empty() ? nullptr : &stand_looks_[options_.stand_materials[meeting.triangle]];
     }
 
-    // Directions of uv on a triangle of the stand.
+    // Directions of its pictures on a triangle of the stand.
     struct Chart {
         Vec3f right;         // unit, along uv's x; or 0
         Vec3f up;            // unit, against uv's y; or 0
-        float scale = 0.0F;  // length in uv over length in the scene
+        float scale = 0.0F;  // length in the picture over length in the scene
     };
 
     [[nodiscard]] std::vector<Chart> chartsOf(const TexturedMesh& stand) const
@@ -398,8 +398,9 @@ private:
             const auto [a, b, c] = stand.triangles[i];
             const Vec3 p = stand.vertices[b] - stand.vertices[a];
             const Vec3 q = stand.vertices[c] - stand.vertices[a];
-            const Vec2 s = stand.uvs[b] - stand.uvs[a];
-            const Vec2 t = stand.uvs[c] - stand.uvs[a];
+            const TexturePlace& place = options_.stand_looks[options_.stand_materials[i]].place;
+            const Vec2 s = place.at(stand.uvs[b]) - place.at(stand.uvs[a]);
+            const Vec2 t = place.at(stand.uvs[c]) - place.at(stand.uvs[a]);
             const double turn = s.x * t.y - t.x * s.y;
             const double area = length(cross(p, q));
             if (turn != 0.0 && area > 0.0) {
@@ -412,6 +413,13 @@ private:
         return charts;
     }
 
+    // Place in the pictures of a look.
+    [[nodiscard]] static Vec2 inPictureOf(const ShownLook& shown, const Meeting& meeting)
+    {
+        const Vec2 uv = shown.from.place.at(meeting.uv);
+        return {uv.x - std::floor(uv.x), uv.y - std::floor(uv.y)};
+    }
+
     // Width in uv of an area on the stand.
     [[nodiscard]] double inTexture(const Meeting& meeting, float width) const
     {
@@ -420,7 +428,7 @@ private:
 
     [[nodiscard]] Vec3f withRelief(const ShownLook& shown, const Meeting& meeting, float width) const
     {
-        const Vec3f level = shown.normals->at(repeated(meeting.uv), inTexture(meeting, width));
+        const Vec3f level = shown.normals->at(inPictureOf(shown, meeting), inTexture(meeting, width));
         const Chart& chart = charts_[meeting.triangle];
         const auto relief = static_cast<float>(shown.from.relief);
         const auto along_surface = [&](Vec3f direction) {
@@ -447,7 +455,7 @@ private:
         Matter matter{shown, albedo(meeting, width), static_cast<float>(look.metallic),
                       static_cast<float>(look.roughness), 0.0F};
         if (shown.finish) {
-            const Vec3f factor = shown.finish->at(repeated(meeting.uv), inTexture(meeting, width));
+            const Vec3f factor = shown.finish->at(inPictureOf(shown, meeting), inTexture(meeting, width));
             matter.roughness *= factor.y;
             matter.metal *= factor.z;
         }
@@ -648,8 +656,6 @@ private:
         return mix(pool * seen, kDistance, haze);
     }
 
-    static Vec2 repeated(Vec2 uv) { return {uv.x - std::floor(uv.x), uv.y - std::floor(uv.y)}; }
-
     [[nodiscard]] Vec3f albedo(const Meeting& meeting, float width) const
     {
         if (picture_) {
@@ -660,7 +666,7 @@ private:
         }
         if (const ShownLook* const shown = lookOfStand(meeting)) {
             const Vec3f colour = toFloats(shown->from.look.colour);
-            return shown->colours ? colour * shown->colours->at(repeated(meeting.uv), inTexture(meeting, width))
+            return shown->colours ? colour * shown->colours->at(inPictureOf(*shown, meeting), inTexture(meeting, width))
                                   : colour;
         }
         // An object is plain; curved ground has the table's ruling, projected from above.
@@ -861,6 +867,10 @@ void RenderOptions::validate() const
             require(one.opacity >= 0.0 && one.opacity <= 1.0, "options.stand_looks.opacity", one.opacity,
                     "from 0 to 1");
             require(std::isfinite(one.relief), "options.stand_looks.relief", one.relief, "finite");
+            const Vec2 corner = one.place.at({1.0, 1.0});
+            if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) {
+                refuse("stand_looks.place must be finite");
+            }
             if (one.thickness) {
                 require(*one.thickness > 0.0 && std::isfinite(*one.thickness), "options.stand_looks.thickness",
                         *one.thickness, "finite and more than 0 m");

@@ -13,6 +13,7 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/surface/material.h"
+#include "droplet/surface/texture_place.h"
 #include "droplet/vector.h"
 
 namespace droplet {
@@ -34,6 +35,7 @@ struct SceneMaterial {
     std::string normal_image = {};  ///< directions in tangent space
     double relief = 1.0;            ///< factor on their parts along the surface
     std::string finish_image = {};  ///< green multiplies the roughness, blue the metal
+    TexturePlace place = {};        ///< of the images
 };
 
 /// Material of a liquid.

@@ -765,6 +765,8 @@ private:
     /// Images of single materials; those that are equal once.
     void addImages()
     {
+        constexpr const char* kPlace = "KHR_texture_transform";
+        bool is_moved = false;
         std::map<std::string_view, int> textures;
         const auto indexOf = [&](const std::string& bytes) {
             if (bytes.empty()) {
@@ -791,6 +793,19 @@ private:
             material.pbrMetallicRoughness.metallicRoughnessTexture.index = indexOf(from.finish_image);
             material.normalTexture.index = indexOf(from.normal_image);
             material.normalTexture.scale = from.relief;
+            if (!(from.place == TexturePlace())) {
+                is_moved = true;
+                const Value place(Value::Object{
+                    {"offset", Value(Value::Array{Value(from.place.offset.x), Value(from.place.offset.y)})},
+                    {"rotation", Value(from.place.turn)},
+                    {"scale", Value(Value::Array{Value(from.place.scale.x), Value(from.place.scale.y)})}});
+                material.pbrMetallicRoughness.baseColorTexture.extensions[kPlace] = place;
+                material.pbrMetallicRoughness.metallicRoughnessTexture.extensions[kPlace] = place;
+                material.normalTexture.extensions[kPlace] = place;
+            }
+        }
+        if (is_moved) {
+            model_.extensionsUsed.emplace_back(kPlace);
         }
     }
 

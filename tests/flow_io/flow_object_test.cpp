@@ -175,11 +175,15 @@ TEST_F(FlowObjectFile, ObjFindsTexturesHoweverTheyAreNamed)
         const bool changes = std::string(line).find("-mm") != std::string::npos;
         EXPECT_THAT(object.warnings, ::testing::SizeIs(changes ? 1 : 0)) << line;
     }
-    writeFile(folder() / "ignored.mtl", "newmtl rough\nmap_Kd -s 2 2 a b.png\nnewmtl Wet Glass\nmap_Kd empty.png\n");
     writeFile(folder() / "empty.png", "");
-    EXPECT_THAT(
-        read("wall.obj", kObj).warnings,
-        ElementsAre(HasSubstr("empty.png is empty"), HasSubstr("a b.png is shown without the material's option -s")));
+    writeFile(folder() / "ignored.mtl",
+              "newmtl rough\nmap_Kd -s 2 4 1 -o 0.5 0.25 a b.png\nnewmtl Wet Glass\nmap_Kd empty.png\n");
+    const FlowObject tiled = read("wall.obj", kObj);
+    EXPECT_THAT(tiled.warnings, ElementsAre(HasSubstr("empty.png is empty")));
+    // v counts from below: the file's (0.5, 0.25) is at (1.5, 1.25) in the picture, which repeats.
+    const Vec2 at = tiled.looks.at(1).place.at({0.5, 0.75});
+    EXPECT_NEAR(at.x, 1.5, 1e-12);
+    EXPECT_NEAR(1.0 - at.y, 1.25, 1e-12);
 }
 
 TEST_F(FlowObjectFile, ObjHasSeveralLibrariesAndTellsWhatTheyLack)
@@ -430,11 +434,17 @@ TEST_F(FlowObjectFile, GltfHasTheLooksOfItsMaterials)
     ASSERT_TRUE(full.looks[0].absorption);
     EXPECT_EQ(full.looks[0].absorption->distance, 0.02);
     EXPECT_EQ(full.looks[0].absorption->colour, (Vec3{0.5, 0.6, 0.7}));
-    EXPECT_THAT(with(R"({"name":"a","pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":)"
-                     R"({"KHR_texture_transform":{"scale":[2,2]}}}}})",
-                     image)
-                    .warnings,
-                ElementsAre(HasSubstr("a b.png is shown without its KHR_texture_transform")));
+    const FlowObject moved = with(
+        R"({"name":"a","pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":)"
+        R"({"scale":[2,3],"offset":[0.25,0.5],"rotation":1.5707963267948966}}}}})",
+        image);
+    // Khronos' example: offset + rotation · scale · uv, counter-clockwise as seen with v down.
+    const Vec2 at = moved.looks.at(0).place.at({0.5, 0.25});
+    EXPECT_NEAR(at.x, 0.25 + 0.75, 1e-12);
+    EXPECT_NEAR(at.y, 0.5 - 1.0, 1e-12);
+    EXPECT_THAT(
+        with(R"({"name":"a","pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}}})", image).warnings,
+        ElementsAre(HasSubstr("a b.png is shown over TEXCOORD_0")));
 }
 
 TEST_F(FlowObjectFile, GltfHasWeights)

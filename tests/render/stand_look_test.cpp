@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -104,6 +106,31 @@ TEST(StandLook, HasItsColourAndTexture)
     const auto right = meanOf(picture, 50, 56);
     EXPECT_GT(left[2], 3.0 * left[1]);
     EXPECT_GT(right[1], 3.0 * right[2]);
+}
+
+TEST(StandLook, TexturesCanBeMoved)
+{
+    // Half and half, in pixels that are narrow beside the picture.
+    const auto halves = [](bool begins_green) {
+        Picture picture{32, 1, {}};
+        for (int x = 0; x < 32; ++x) {
+            const bool is_green = (x < 16) == begins_green;
+            picture.rgb.insert(picture.rgb.end(), {0, static_cast<std::uint8_t>(is_green ? 255 : 0),
+                                                   static_cast<std::uint8_t>(is_green ? 0 : 255)});
+        }
+        return picture;
+    };
+    StandLook look = opaqueLook({1.0, 1.0, 1.0});
+    look.colours = halves(false);
+    look.place.offset = {0.5, 0.0};
+    const Picture moved = render(Surface(), optionsOf(look));
+    look.place = {};
+    look.colours = halves(true);
+    const Picture swapped = render(Surface(), optionsOf(look));
+    EXPECT_GT(meanOf(moved, 8, 14)[1], 3.0 * meanOf(moved, 8, 14)[2]);
+    EXPECT_NEAR(meanOf(moved, 8, 14)[1], meanOf(swapped, 8, 14)[1], 2.0);
+    look.place.scale.x = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(render(Surface(), optionsOf(look)), Error);
 }
 
 TEST(StandLook, ThinWallsTintOnceEach)

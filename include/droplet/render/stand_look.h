@@ -5,6 +5,7 @@
 
 #include "droplet/drawing/picture.h"
 #include "droplet/surface/material.h"
+#include "droplet/surface/texture_place.h"
 
 namespace droplet {
 
@@ -25,6 +26,7 @@ struct StandLook {
     std::optional<Picture> normals = {};
     double relief = 1.0;                 ///< factor on those parts along the surface, finite
     std::optional<Picture> finish = {};  ///< over the same uv: green multiplies the roughness, blue the metal
+    TexturePlace place = {};             ///< of these pictures over uv, finite
 };
 
 }  // namespace droplet
