@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "droplet/body/droplet_body.h"
@@ -22,6 +23,7 @@
 #include "seconds.h"
 #include "stage_clock.h"
 #include "surface_files.h"
+#include "terminal.h"
 #include "this_process.h"
 
 namespace cli {
@@ -63,9 +65,11 @@ RunFiles filesOf(const DewCommandOptions& options)
 droplet::DewReport makeDew(const DewCommandOptions& options)
 {
     const StageClock clock;
-    const droplet::FlowObject object = droplet::readFlowObject(options.object, options.reading);
-    const droplet::FlowTerrain terrain(
-        forOption(options.object, [&] { return droplet::flowSurface(object.vertices, object.triangles); }));
+    droplet::FlowObject object = droplet::readFlowObject(options.object, options.reading);
+    droplet::FlowSurface faces =
+        forOption(options.object, [&] { return droplet::flowSurface(object.vertices, object.triangles); });
+    faceAs(faces, object);
+    const droplet::FlowTerrain terrain(std::move(faces));
     droplet::DewOptions dew = options.dew;
     std::optional<droplet::Mask> mask;
     if (options.mask) {
@@ -96,6 +100,7 @@ droplet::DewReport makeDew(const DewCommandOptions& options)
     report.run_off = droplets.run_off;
     report.left_out = droplets.samples.size() - shown.size();
     report.warnings = object.warnings;
+    warnOfDefects(report.surface, oneLine(options.object), report.warnings);
     if (shown.empty()) {
         throw droplet::Error(droplet::ErrorCode::InvalidInput,
                              options.object + ": no droplet of this size rests on it: " + lostOf(report) +
@@ -107,6 +112,13 @@ droplet::DewReport makeDew(const DewCommandOptions& options)
         report.covered += std::numbers::pi * radius * radius;
         report.smallest = report.smallest == 0.0 ? radius : std::min(report.smallest, radius);
         report.largest = std::max(report.largest, radius);
+    }
+    constexpr double kMuchLess = 0.8;
+    if (report.run_off > 0 && report.covered < kMuchLess * dew.coverage * report.area) {
+        report.warnings.push_back(fmt::format(
+            "--coverage: {:.3g} of the surface is covered instead of {:.3g}, as {} droplets run off slopes; give "
+            "smaller ones, or more --hysteresis",
+            report.covered / report.area, dew.coverage, report.run_off));
     }
     const auto finish = [&] {
         report.time_total = clock.total();

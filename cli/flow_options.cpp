@@ -77,7 +77,7 @@ void declare(CommandLine& line, FlowOptions& options)
              "Named scene with its own object and droplets, instead of OBJECT; other options change it");
     declareReading(line, kObject, options.reading);
     line.add(kObject, "--floor",
-             "What catches the water below an object that rests: a plate or a dish, with the material floor [none]",
+             "What catches the water below an object that rests: a plate or a dish, with the material floor",
              into(options.floor, {{"plate", droplet::Floor::Plate}, {"dish", droplet::Floor::Dish}}));
     line.add(kObject, "--spin", "ANGLE/s", "Turn the object, such as 30deg/s");
     line.add(kObject, "--spin-axis", "X,Y,Z", "Axis through the origin that --spin turns it about [0,1,0]");

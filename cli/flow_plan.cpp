@@ -16,34 +16,13 @@
 #include "droplet/flow_io/read_object_motion.h"
 #include "droplet/image/height_map.h"
 #include "droplet/mask/mask.h"
+#include "object_options.h"
 #include "option_values.h"
 
 namespace cli {
 namespace {
 
 constexpr double kDefaultDuration = 5.0;  // [s]
-
-/// What of a mesh droplets have to get over.
-void warnOfDefects(const droplet::FlowSurfaceReport& report, const std::string& path,
-                   std::vector<std::string>& warnings)
-{
-    const auto warn = [&](std::size_t count, const char* what) {
-        if (count > 0) {
-            warnings.push_back(fmt::format("{}: {} of {} triangles {}", path, count, report.triangles, what));
-        }
-    };
-    warn(report.without_area, "have no area and are left out");
-    warn(report.duplicates, "are duplicates and are left out");
-    warn(report.turned, "face the other way than their neighbours and are turned");
-    const std::size_t sides = 3 * (report.triangles - report.without_area - report.duplicates);
-    if (report.parts > 1 && 2 * report.boundary_edges > sides) {
-        warnings.push_back(
-            fmt::format("{}: {} of {} sides of triangles have no neighbour, in {} parts, so droplets soon fall off; "
-                        "join the corners "
-                        "that should be one (merge by distance)",
-                        path, report.boundary_edges, sides, report.parts));
-    }
-}
 
 /// Tells of droplets that lie on one another.
 void warnOfCover(const std::vector<droplet::FlowStart>& scattered, const FlowPlan& plan, double area,
@@ -160,16 +139,23 @@ FlowPlan planOf(const FlowOptions& options)
     droplet::FlowObject object = options.preset ? droplet::presetObject(options.preset->object)
                                                 : droplet::readFlowObject(*options.object, options.reading);
     const std::size_t triangles = object.triangles.size();
+    const droplet::Vec3 size = sizeOf(object);
+    const auto surface_of = [&](const droplet::FlowObject& mesh) {
+        return forOption(name, [&] { return droplet::flowSurface(mesh.vertices, mesh.triangles); });
+    };
+    droplet::FlowSurface surface = surface_of(object);
+    faceAs(surface, object);
     if (options.floor) {
         object = onFloor(std::move(object), *options.floor);
+        const droplet::FlowSurfaceReport report = surface.report;
+        surface = surface_of(object);
+        surface.report = report;
     }
-    droplet::FlowSurface surface =
-        forOption(name, [&] { return droplet::flowSurface(object.vertices, object.triangles); });
     if (!options.preset || options.parameters.model == droplet::FlowModel::Capillary) {
         surface = droplet::refined(surface, longestEdge(options, surface));
     }
-    FlowPlan plan{std::move(object), droplet::FlowTerrain(std::move(surface)), options.parameters, {}, 1, {},
-                  triangles};
+    FlowPlan plan{
+        std::move(object), droplet::FlowTerrain(std::move(surface)), options.parameters, {}, 1, {}, triangles, size};
     plan.warnings = plan.object.warnings;
     warnOfDefects(plan.terrain.surface().report, name, plan.warnings);
     if (options.keeps_animation) {

@@ -20,6 +20,7 @@ struct FlowPlan {
     std::size_t frames = 1;
     std::vector<std::string> warnings;
     std::size_t floor_begins = 0;  ///< number of the object's own triangles
+    droplet::Vec3 size;            ///< edges of the box around the object without a floor [m]
 };
 
 /// Path of the object, or name of the preset that has it.

@@ -170,7 +170,7 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
     }
     report_.input = nameOfObject(options_);
     report_.surface = plan_.terrain.surface().report;
-    report_.size = sizeOf(plan_.object);
+    report_.size = plan_.size;
     report_.output = options_.output;
     if (options_.preset) {
         report_.preset = options_.preset->name;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "object_options.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -52,6 +55,27 @@ void turnToFile(std::vector<droplet::FlowPoint>& points, const droplet::FlowObje
         turn(point.place);
         turn(point.velocity);
         std::for_each(point.axes.begin(), point.axes.end(), turn);
+    }
+}
+
+void warnOfDefects(const droplet::FlowSurfaceReport& report, const std::string& path,
+                   std::vector<std::string>& warnings)
+{
+    const auto warn = [&](std::size_t count, const char* what) {
+        if (count > 0) {
+            warnings.push_back(fmt::format("{}: {} of {} triangles {}", path, count, report.triangles, what));
+        }
+    };
+    warn(report.without_area, "have no area and are left out");
+    warn(report.duplicates, "are duplicates and are left out");
+    warn(report.turned, "face the other way than their neighbours and are turned");
+    const std::size_t sides = 3 * (report.triangles - report.without_area - report.duplicates);
+    if (report.parts > 1 && 2 * report.boundary_edges > sides) {
+        warnings.push_back(
+            fmt::format("{}: {} of {} sides of triangles have no neighbour, in {} parts, so droplets soon fall off; "
+                        "join the corners "
+                        "that should be one (merge by distance)",
+                        path, report.boundary_edges, sides, report.parts));
     }
 }
 

@@ -2,9 +2,11 @@
 // Options of commands that put droplets on the mesh of an object.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "command_line.h"
+#include "droplet/flow/flow_surface.h"
 #include "droplet/flow_io/flow_object.h"
 #include "droplet/flow_io/flow_points.h"
 #include "droplet/scene/format.h"
@@ -22,5 +24,11 @@ void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet
 
 /// The same for points of a PLY.
 void turnToFile(std::vector<droplet::FlowPoint>& points, const droplet::FlowObjectOptions& reading);
+
+/// Warns of what is wrong with a mesh that droplets are on.
+/// @param path      of the object, for the words
+/// @param warnings  get lines
+void warnOfDefects(const droplet::FlowSurfaceReport& report, const std::string& path,
+                   std::vector<std::string>& warnings);
 
 }  // namespace cli

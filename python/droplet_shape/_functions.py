@@ -1079,7 +1079,7 @@ def flow(
       object_size [m]: Longest side of the object; scales it
       up: y, z: Axis that points up in an .obj, .ply or .stl (default: y, of .ply z)
       floor: plate, dish: What catches the water below an object that rests: a plate or a dish, with the material
-        floor (default: none)
+        floor
       spin [rad/s]: Turn the object, such as 30deg/s
       spin_axis [m or m/s]: Axis through the origin that spin turns it about (default: 0,1,0)
       motion: Move the object: CSV with the columns time_s, x_m, y_m, z_m and a quaternion rotation_x, rotation_y,

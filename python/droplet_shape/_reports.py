@@ -1076,8 +1076,8 @@ class DewDroplet(_Report):
     volume_m3: float  # Volume of all droplets
     area_m2: float  # Area where droplets may be
     covered_m2: float  # Area below droplets
-    smallest_m: float  # Radius of the smallest droplet seen from above
-    largest_m: float  # Radius of the largest droplet seen from above
+    smallest_m: float  # Radius of the smallest droplet seen from above, without gravity
+    largest_m: float  # Radius of the largest droplet seen from above, without gravity
     joined: int  # Droplets that found no room and joined others
     run_off: int  # Droplets that no place holds
     left_out: int  # Droplets below which the object bends too much

@@ -149,8 +149,9 @@ public:
 private:
     [[noreturn]] static void refuseObject()
     {
-        throw Error(ErrorCode::InvalidInput,
-                    "the object has no place for droplets: nothing of it faces the rain, or is in the mask");
+        throw Error(
+            ErrorCode::InvalidInput,
+            "the object has no place for droplets: nothing of it faces the rain, or is in the mask, or has weight");
     }
 
     /// Radii that cover the surface as asked, from large to small.

@@ -8,6 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -108,7 +112,53 @@ void orient(Soup& soup)
     }
 }
 
-/// A part that is closed faces outward; any other as most of its area did in the mesh.
+/// Solid angle of a triangle (A. van Oosterom, J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125).
+double solidAngle(const Soup& soup, std::uint32_t t, Vec3 from)
+{
+    const Vec3 a = soup.vertices[soup.triangles[t][0]] - from;
+    const Vec3 b = soup.vertices[soup.triangles[t][1]] - from;
+    const Vec3 c = soup.vertices[soup.triangles[t][2]] - from;
+    const double la = length(a);
+    const double lb = length(b);
+    const double lc = length(c);
+    return 2.0 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+}
+
+/// Closed parts that were inside out in the mesh and lie in another closed part: the inner sides of hollow things.
+/// @param volume  of a part as it was in the mesh, times any factor; 0 if it is not closed
+std::vector<bool> cavitiesOf(const Soup& soup, UnionFind& joined, const std::function<double(std::uint32_t)>& volume)
+{
+    std::vector<bool> is_cavity(soup.triangles.size());
+    std::vector<std::uint32_t> closed;
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        if (joined.find(t) == t && volume(t) != 0.0) {
+            closed.push_back(t);
+        }
+    }
+    constexpr std::size_t kMaxParts = 64;  // pairs of parts are compared
+    if (closed.size() < 2 || closed.size() > kMaxParts) {
+        return is_cavity;
+    }
+    for (const std::uint32_t inner : closed) {
+        if (volume(inner) > 0.0) {
+            continue;
+        }
+        const Vec3 place = soup.vertices[soup.triangles[inner][0]];
+        std::map<std::uint32_t, double> angles;  // solid angles of the parts that face outward, as seen from there
+        for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+            const std::uint32_t part = joined.find(t);
+            if (part != inner && volume(part) > 0.0) {
+                angles[part] += solidAngle(soup, t, place);
+            }
+        }
+        is_cavity[inner] = std::any_of(angles.begin(), angles.end(), [](const auto& entry) {
+            return std::abs(entry.second) > 2.0 * std::numbers::pi;
+        });
+    }
+    return is_cavity;
+}
+
+/// A part that is closed faces outward, unless it is a cavity; any other as most of its area did in the mesh.
 void faceOutward(Soup& soup, const std::vector<bool>& was_turned, FlowSurfaceReport& report)
 {
     const HalfEdges half_edges = halfEdges(soup.vertices, soup.triangles);
@@ -134,10 +184,14 @@ void faceOutward(Soup& soup, const std::vector<bool>& was_turned, FlowSurfaceRep
         part.turned += was_turned[t] ? length(facet) : -length(facet);
         part.is_closed = part.is_closed && open_sides[t] == 0;
     }
+    const std::vector<bool> is_cavity = cavitiesOf(soup, joined, [&](std::uint32_t part) {
+        return parts[part].is_closed ? parts[part].volume * (parts[part].turned > 0.0 ? -1.0 : 1.0) : 0.0;
+    });
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         const std::uint32_t root = joined.find(t);
         report.parts += root == t ? 1 : 0;
-        const bool turns = parts[root].is_closed ? parts[root].volume < 0.0 : parts[root].turned > 0.0;
+        const bool turns =
+            parts[root].is_closed && !is_cavity[root] ? parts[root].volume < 0.0 : parts[root].turned > 0.0;
         if (turns) {
             std::swap(soup.triangles[t][1], soup.triangles[t][2]);
         }

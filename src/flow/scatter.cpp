@@ -46,12 +46,13 @@ std::vector<FlowStart> scatterDroplets(const FlowTerrain& terrain, const Scatter
     const auto put = [&](std::size_t k) {
         const std::optional<FlowStart> start = startOf(places, options, k);
         if (!start) {
-            throw Error(ErrorCode::InvalidInput, "no place for droplet " + std::to_string(k + 1) + " of " +
-                                                     std::to_string(options.count) + " in a million tries: " +
-                                                     (options.coverage && options.from
-                                                          ? "too little of the object is in the mask and faces the rain"
-                                                      : options.coverage ? "too little of the object is in the mask"
-                                                                         : "too little of the object faces the rain"));
+            throw Error(ErrorCode::InvalidInput,
+                        "no place for droplet " + std::to_string(k + 1) + " of " + std::to_string(options.count) +
+                            " in a million tries: " +
+                            (options.coverage && options.from
+                                 ? "too little of the object is in the mask or has weight, and faces the rain"
+                             : options.coverage ? "too little of the object is in the mask or has weight"
+                                                : "too little of the object faces the rain"));
         }
         starts[k] = *start;
     };

@@ -16,8 +16,9 @@ namespace {
 
 /// Place and width of an object, seen from above.
 struct Stand {
-    Vec3 middle;         ///< below it
-    double width = 0.0;  ///< larger side of the box around it
+    Vec3 middle;          ///< below it
+    double width = 0.0;   ///< larger side of the box around it
+    double radius = 0.0;  ///< of the circle around it about the middle
 };
 
 Stand standOf(const std::vector<Vec3>& vertices)
@@ -30,7 +31,13 @@ Stand standOf(const std::vector<Vec3>& vertices)
     }
     const Vec3 size = high - low;
     const double gap = 1e-3 * std::max({size.x, size.y, size.z});  // so that no faces lie on one another
-    return {{0.5 * (low.x + high.x), 0.5 * (low.y + high.y), low.z - gap}, std::max({size.x, size.y, 0.3 * size.z})};
+    const double least = 0.3 * size.z;
+    Stand stand{
+        {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), low.z - gap}, std::max({size.x, size.y, least}), 0.5 * least};
+    for (const Vec3& p : vertices) {
+        stand.radius = std::max(stand.radius, std::hypot(p.x - stand.middle.x, p.y - stand.middle.y));
+    }
+    return stand;
 }
 
 struct Mesh {
@@ -55,7 +62,7 @@ Mesh dishBelow(const Stand& stand)
     constexpr std::uint32_t kRings = 24;
     constexpr double kBottom = 0.75;  // radius of the bottom, over that of the rim
     constexpr double kWall = 0.16;    // height of the rim, over its radius
-    const double radius = 0.75 * stand.width;
+    const double radius = 1.5 * stand.radius;
     Mesh mesh;
     mesh.vertices.push_back(stand.middle);
     for (std::uint32_t ring = 1; ring <= kRings; ++ring) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "droplet/error.h"
@@ -206,6 +207,31 @@ void guessThickness(FlowObject& object)
 }
 
 }  // namespace
+
+void faceAs(const FlowSurface& surface, FlowObject& object)
+{
+    std::vector<std::optional<Vec3>> normals(object.triangles.size());  // of the faces; empty: there is none
+    for (const FlowSurface::Face& face : surface.faces) {
+        normals[face.source] = face.normal;
+    }
+    std::vector<double> agrees(object.vertices.size());  // areas whose normals a vertex's agrees with, less the others
+    for (std::size_t t = 0; t < object.triangles.size(); ++t) {
+        Triangle triangle = object.triangles[t];
+        const Vec3 a = object.vertices[triangle[0]];
+        const Vec3 facet = cross(object.vertices[triangle[1]] - a, object.vertices[triangle[2]] - a);
+        const Vec3 normal = normals[t].value_or(facet);
+        if (dot(facet, normal) < 0.0) {
+            std::swap(triangle[1], triangle[2]);
+        }
+        for (const std::uint32_t v : triangle) {
+            agrees[v] += normals[t] ? std::copysign(length(facet), dot(object.normals[v], normal)) : 0.0;
+        }
+        object.triangles[t] = triangle;
+    }
+    for (std::size_t v = 0; v < agrees.size(); ++v) {
+        object.normals[v] = agrees[v] < 0.0 ? -1.0 * object.normals[v] : object.normals[v];
+    }
+}
 
 Vec3 sizeOf(const FlowObject& object)
 {

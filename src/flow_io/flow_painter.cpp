@@ -15,6 +15,7 @@
 #include "flow_io/object_faces.h"
 #include "flow_io/settled_droplets.h"
 #include "flow_io/wet_spots.h"
+#include "render/camera.h"
 #include "render/openness.h"
 #include "require.h"
 
@@ -22,6 +23,15 @@ namespace droplet {
 namespace {
 
 constexpr double kMostDivisions = 2048;
+
+double areaOf(const TexturedMesh& mesh)
+{
+    double area = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        area += 0.5 * length(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]));
+    }
+    return area;
+}
 
 ViewBox boxOf(const std::vector<Vec3>& points)
 {
@@ -85,8 +95,13 @@ struct FlowPainter::Content {
         water.divisions.resize(stand.triangles.size());
         water.first.resize(stand.triangles.size());
         spots.middle = 0.5 * (box.low + box.high);
-        // About one place for a pixel.
+        // About one place for a pixel, also of a camera that is near.
         spots.spacing = length(box.high - box.low) / std::max(render.width, render.height);
+        if (render.distance) {
+            constexpr double kMostPlaces = 6e6;
+            spots.spacing = std::min(
+                spots.spacing, std::max(*render.distance * pixelAngle(render), std::sqrt(areaOf(stand) / kMostPlaces)));
+        }
         for (std::uint32_t face = 0; face < stand.triangles.size(); ++face) {
             addPlaces(face);
         }

@@ -36,7 +36,8 @@ FlowObject onFaces(const FlowObject& object, const FlowSurface& surface)
         const auto weights = cornerWeights(object, face);
         const auto first = static_cast<std::uint32_t>(result.vertices.size());
         for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 normal = mixed(object.normals, triangle, weights[k]);
+            const Vec3 mean = mixed(object.normals, triangle, weights[k]);
+            const Vec3 normal = dot(mean, face.normal) < 0.0 ? -1.0 * mean : mean;
             result.vertices.push_back(face.corners[k]);
             result.normals.push_back(length(normal) > 0.0 ? (1.0 / length(normal)) * normal : face.normal);
             if (!object.uvs.empty()) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <locale>
 #include <optional>
 #include <sstream>
@@ -21,14 +22,21 @@ constexpr std::uint64_t kMaxLibrary = std::uint64_t{16} << 20U;  // [bytes], of 
 std::optional<std::filesystem::path> beside(const std::filesystem::path& folder, std::string name)
 {
     std::replace(name.begin(), name.end(), '\\', '/');
-    const std::filesystem::path path(std::u8string(name.begin(), name.end()));
-    const bool is_inside = path.is_relative() && name.find(':') == std::string::npos &&
-                           std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
-    std::error_code none;
-    for (const std::filesystem::path& inside : {is_inside ? path : std::filesystem::path(), path.filename()}) {
-        if (!inside.empty() && std::filesystem::is_regular_file(folder / inside, none)) {
-            return folder / inside;
+    std::filesystem::path path(std::u8string(name.begin(), name.end()));
+    if (path.has_root_path() || name.find(':') != std::string::npos) {
+        path = path.relative_path();
+    }
+    // The path, or the longest end of it that is there; ".." and what comes before it name no place in the folder.
+    for (std::error_code none; !path.empty();) {
+        const bool is_inside = std::none_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; });
+        if (is_inside && std::filesystem::is_regular_file(folder / path, none)) {
+            return folder / path;
         }
+        std::filesystem::path shorter;
+        for (auto part = std::next(path.begin()); part != path.end(); ++part) {
+            shorter /= *part;
+        }
+        path = shorter;
     }
     return std::nullopt;
 }
@@ -125,6 +133,9 @@ TextureLine textureLine(std::istringstream& line)
 
 FileTexture readTexture(const TextureLine& line, const std::filesystem::path& folder)
 {
+    if (line.name.empty()) {
+        return {};
+    }
     FileTexture texture = readTextureBeside(folder, meant(line.name, folder));
     texture.place = line.place;
     if (texture.fault.empty() && !line.is_ignored.empty()) {
@@ -138,6 +149,7 @@ struct ObjMaterial {
     FileMaterial material = plainMaterial();
     std::optional<Vec3> filter;  ///< Tf
     bool has_opacity = false;
+    bool has_roughness = false;
     int illumination = 2;
 
     FileMaterial finish() &&
@@ -148,6 +160,7 @@ struct ObjMaterial {
             material.look.transmission = has_opacity ? 1.0 - material.opacity : 1.0;
             material.opacity = 1.0;
             material.look.colour = filter.value_or(material.look.colour);
+            material.look.roughness = has_roughness ? material.look.roughness : 0.0;
         }
         return std::move(material);
     }
@@ -189,12 +202,14 @@ void readStatement(const std::string& key, std::istringstream& line, const std::
         to.illumination = static_cast<int>(std::clamp(number().value_or(2.0), 0.0, 10.0));
     } else if (key == "Pr") {
         look.roughness = share(look.roughness);
+        to.has_roughness = true;
     } else if (key == "Pm") {
         look.metallic = share(look.metallic);
     } else if (key == "Ns") {
         // Blinn's exponent as roughness: B. Burley, "Physically Based Shading at Disney" (2012), α = r².
         if (const auto value = number(); value && *value >= 0.0) {
             look.roughness = std::pow(2.0 / (*value + 2.0), 0.25);
+            to.has_roughness = true;
         }
     } else if (key == "Ni") {
         if (const auto value = number(); value && *value >= 1.0 && *value <= 4.0) {

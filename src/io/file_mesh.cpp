@@ -247,7 +247,7 @@ private:
         const std::size_t second = first < word.size() ? word.find('/', first + 1) : std::string_view::npos;
         Corner corner;
         corner.place = indexOf(word.substr(0, first), places_.size(), where);
-        if (second != std::string_view::npos) {
+        if (second != std::string_view::npos && second + 1 < word.size()) {
             corner.direction = indexOf(word.substr(second + 1), directions_.size(), where);
         }
         const std::string_view uv = first < word.size() ? word.substr(first + 1, second - first - 1) : "";

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 #include "union_find.h"
 
@@ -42,12 +43,34 @@ struct Side {
     std::uint32_t first = 0;  ///< corner of all triangles where it begins
 };
 
-std::vector<Side> sidesOf(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& place)
+/// For every triangle the first one with its corners, in any order.
+std::vector<std::uint32_t> firstWithCorners(const std::vector<Triangle>& triangles,
+                                            const std::vector<std::uint32_t>& place)
+{
+    std::vector<std::pair<Triangle, std::uint32_t>> corners;
+    corners.reserve(triangles.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        Triangle at{place[triangles[t][0]], place[triangles[t][1]], place[triangles[t][2]]};
+        std::sort(at.begin(), at.end());
+        corners.emplace_back(at, t);
+    }
+    std::sort(corners.begin(), corners.end());
+    std::vector<std::uint32_t> first(triangles.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const bool repeats = i > 0 && corners[i].first == corners[i - 1].first;
+        first[corners[i].second] = repeats ? first[corners[i - 1].second] : corners[i].second;
+    }
+    return first;
+}
+
+/// @param first  sides of triangles with another number are left out
+std::vector<Side> sidesOf(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& place,
+                          const std::vector<std::uint32_t>& first)
 {
     std::vector<Side> sides;
     sides.reserve(3 * triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t k = 0; first[t] == t && k < 3; ++k) {
             const std::uint32_t from = place[triangles[t][k]];
             const std::uint32_t to = place[triangles[t][(k + 1) % 3]];
             sides.push_back({std::min(from, to), std::max(from, to), from > to, static_cast<std::uint32_t>(3 * t + k)});
@@ -111,7 +134,8 @@ CreasedTriangles divideAtCreases(const std::vector<Vec3>& vertices, const std::v
     // Corners that one side of all creases at their place shares.
     UnionFind shared(3 * triangles.size());
     const auto next = [](std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };
-    const std::vector<Side> sides = sidesOf(triangles, place);
+    const std::vector<std::uint32_t> first = firstWithCorners(triangles, place);
+    const std::vector<Side> sides = sidesOf(triangles, place, first);
     for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
         while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) {
             ++end;
@@ -131,8 +155,10 @@ CreasedTriangles divideAtCreases(const std::vector<Vec3>& vertices, const std::v
     }
     std::vector<Vec3> sums(3 * triangles.size());
     for (std::uint32_t c = 0; c < sums.size(); ++c) {
-        Vec3& sum = sums[shared.find(c)];
-        sum = sum + shareAt(vertices, triangles[c / 3], c % 3);
+        if (first[c / 3] == c / 3) {
+            Vec3& sum = sums[shared.find(c)];
+            sum = sum + shareAt(vertices, triangles[c / 3], c % 3);
+        }
     }
     CreasedTriangles creased{triangles, {}, normals};
     std::unordered_map<std::uint64_t, std::uint32_t> vertex_of;  // of every vertex and set of corners
@@ -142,7 +168,12 @@ CreasedTriangles divideAtCreases(const std::vector<Vec3>& vertices, const std::v
         if (normals[corner] != Vec3{}) {
             continue;
         }
-        const std::uint64_t set = shared.find(c);
+        // A triangle that repeats another has its normals.
+        std::uint32_t like = 3 * first[c / 3];
+        while (place[triangles[first[c / 3]][like % 3]] != place[corner]) {
+            ++like;
+        }
+        const std::uint64_t set = shared.find(like);
         const auto added = static_cast<std::uint32_t>(vertices.size() + creased.copies.size());
         const auto [found, is_new] =
             vertex_of.try_emplace(std::uint64_t{corner} << 32U | set, is_taken[corner] ? added : corner);

@@ -53,6 +53,12 @@ std::vector<Vec3f> turned(const std::vector<Vec3f>& points, const CameraTurn& tu
 
 }  // namespace
 
+double pixelAngle(const RenderOptions& options)
+{
+    // A narrow picture keeps the horizontal field of view.
+    return static_cast<double>(kHalfHeight) / std::max(0.5 * options.height, 0.375 * options.width);
+}
+
 CameraTurn turnedBack(double azimuth)
 {
     return {static_cast<float>(std::cos(azimuth)), static_cast<float>(-std::sin(azimuth))};
@@ -61,8 +67,7 @@ CameraTurn turnedBack(double azimuth)
 Camera::Camera(const std::vector<Vec3f>& points, const RayTracer& scene, const RenderOptions& options, int aside)
     : width_(static_cast<float>(options.width)), height_(static_cast<float>(options.height))
 {
-    // A narrow picture keeps the horizontal field of view.
-    focal_ = std::max(0.5F * height_, 0.375F * width_) / kHalfHeight;
+    focal_ = static_cast<float>(1.0 / pixelAngle(options));
     const Place place =
         options.camera ? Place{options.camera->azimuth, options.camera->elevation} : placeOf(options.view);
     const CameraTurn turn = turnedBack(options.azimuth);

@@ -20,6 +20,9 @@ struct CameraTurn {
     }
 };
 
+/// Angle that a pixel covers in the middle of a picture [rad].
+double pixelAngle(const RenderOptions& options);
+
 /// Rotation of camera and lights that shows a fixed droplet as if it were turned by an azimuth.
 CameraTurn turnedBack(double azimuth);
 

@@ -416,8 +416,7 @@ private:
     // Place in the pictures of a look.
     [[nodiscard]] static Vec2 inPictureOf(const ShownLook& shown, const Meeting& meeting)
     {
-        const Vec2 uv = shown.from.place.at(meeting.uv);
-        return {uv.x - std::floor(uv.x), uv.y - std::floor(uv.y)};
+        return shown.from.place.at(meeting.uv);
     }
 
     // Width in uv of an area on the stand.
@@ -428,7 +427,7 @@ private:
 
     [[nodiscard]] Vec3f withRelief(const ShownLook& shown, const Meeting& meeting, float width) const
     {
-        const Vec3f level = shown.normals->at(inPictureOf(shown, meeting), inTexture(meeting, width));
+        const Vec3f level = shown.normals->repeatedAt(inPictureOf(shown, meeting), inTexture(meeting, width));
         const Chart& chart = charts_[meeting.triangle];
         const auto relief = static_cast<float>(shown.from.relief);
         const auto along_surface = [&](Vec3f direction) {
@@ -455,7 +454,7 @@ private:
         Matter matter{shown, albedo(meeting, width), static_cast<float>(look.metallic),
                       static_cast<float>(look.roughness), 0.0F};
         if (shown.finish) {
-            const Vec3f factor = shown.finish->at(inPictureOf(shown, meeting), inTexture(meeting, width));
+            const Vec3f factor = shown.finish->repeatedAt(inPictureOf(shown, meeting), inTexture(meeting, width));
             matter.roughness *= factor.y;
             matter.metal *= factor.z;
         }
@@ -464,12 +463,14 @@ private:
         return matter;
     }
 
+    static float blurOf(const Matter& matter) { return smoothstep(0.0F, 0.4F, matter.roughness); }
+
     // What matter mirrors towards a ray; rough matter mirrors a blurred room.
     [[nodiscard]] Vec3f glossOf(const Matter& matter, const RayF& ray, const Meeting& meeting, Vec3f normal,
                                 const Way& way, float share) const
     {
         const Vec3f mirror = mirrored(ray.direction, normal);
-        const float blur = smoothstep(0.0F, 0.4F, matter.roughness);
+        const float blur = blurOf(matter);
         const Vec3f sharp = blur < 1.0F ? onward(towards(meeting, ray, false, way.inside), mirror, way,
                                                  (1.0F - blur) * share, way.inside)
                                         : Vec3f{};
@@ -556,10 +557,16 @@ private:
         Vec3f light = split.reflected * glossOf(matter, ray, meeting, normal, way, split.reflected) +
                       (1.0F - split.reflected) * (1.0F - matter.clear) * scattered;
         if (passes > 0.0F) {
-            const Vec3f tint = is_matter && !is_front ? grey(1.0F) : matter.colour;
-            light = light +
-                    passes * tint *
-                        onward(towards(meeting, ray, true, next.inside), split.transmitted, next, passes, next.inside);
+            // What opacity leaves is not tinted; rough matter shows a blurred room behind it.
+            const auto transmits = static_cast<float>(matter.shown.from.look.transmission);
+            const float stained = transmits / (transmits + static_cast<float>(1.0 - matter.shown.from.opacity));
+            const Vec3f tint = is_matter && !is_front ? grey(1.0F) : mix(grey(1.0F), matter.colour, stained);
+            const float blur = stained * blurOf(matter);
+            const Vec3f sharp = blur < 1.0F ? onward(towards(meeting, ray, true, next.inside), split.transmitted, next,
+                                                     (1.0F - blur) * passes, next.inside)
+                                            : Vec3f{};
+            light =
+                light + passes * tint * (blur > 0.0F ? mix(sharp, studio_.diffuse(split.transmitted), blur) : sharp);
         }
         return light;
     }
@@ -666,8 +673,9 @@ private:
         }
         if (const ShownLook* const shown = lookOfStand(meeting)) {
             const Vec3f colour = toFloats(shown->from.look.colour);
-            return shown->colours ? colour * shown->colours->at(inPictureOf(*shown, meeting), inTexture(meeting, width))
-                                  : colour;
+            return shown->colours
+                       ? colour * shown->colours->repeatedAt(inPictureOf(*shown, meeting), inTexture(meeting, width))
+                       : colour;
         }
         // An object is plain; curved ground has the table's ruling, projected from above.
         return options_.stand && options_.shows_whole_stand ? Vec3f{0.42F, 0.45F, 0.46F}

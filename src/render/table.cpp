@@ -2,8 +2,10 @@
 // L. Williams, "Pyramidal Parametrics" (1983).
 #include "render/table.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "drawing/tone.h"
 
@@ -15,6 +17,18 @@ double folded(double a)
 {
     const double phase = std::abs(a - 2.0 * std::floor(0.5 * a));
     return phase > 1.0 ? 2.0 - phase : phase;
+}
+
+/// Place between two pixels.
+struct Between {
+    std::int64_t first = 0;
+    float share = 0.0F;  ///< of the second
+};
+
+Between between(double place)
+{
+    const double floor = std::floor(place);
+    return {static_cast<std::int64_t>(floor), static_cast<float>(place - floor)};
 }
 
 }  // namespace
@@ -50,25 +64,42 @@ PicturePyramid::PicturePyramid(const Picture& picture, Levels levels)
     }
 }
 
-Vec3f PicturePyramid::at(Vec2 uv, double width) const
+Vec3f PicturePyramid::Level::mixed(std::array<std::int64_t, 2> columns, std::array<std::int64_t, 2> rows, float right,
+                                   float down) const
+{
+    const auto texel = [&](std::int64_t row, std::int64_t column) {
+        return texels[static_cast<std::size_t>(row * width + column)];
+    };
+    return mix(mix(texel(rows[0], columns[0]), texel(rows[0], columns[1]), right),
+               mix(texel(rows[1], columns[0]), texel(rows[1], columns[1]), right), down);
+}
+
+const PicturePyramid::Level& PicturePyramid::levelFor(double width) const
 {
     const double texels = width * std::max(levels_.front().width, levels_.front().height);
     const auto level = static_cast<std::size_t>(
         std::clamp(std::floor(std::log2(std::max(texels, 1.0)) + 0.25), 0.0, static_cast<double>(levels_.size() - 1)));
-    const Level& from = levels_[level];
-    const double x = std::clamp(folded(uv.x) * from.width - 0.5, 0.0, from.width - 1.0);
-    const double y = std::clamp(folded(uv.y) * from.height - 0.5, 0.0, from.height - 1.0);
-    const auto column = static_cast<std::size_t>(x);
-    const auto row = static_cast<std::size_t>(y);
-    const std::size_t next_column = std::min(column + 1, static_cast<std::size_t>(from.width) - 1);
-    const std::size_t next_row = std::min(row + 1, static_cast<std::size_t>(from.height) - 1);
-    const auto fx = static_cast<float>(x - static_cast<double>(column));
-    const auto fy = static_cast<float>(y - static_cast<double>(row));
-    const auto texel = [&](std::size_t r, std::size_t c) {
-        return from.texels[r * static_cast<std::size_t>(from.width) + c];
-    };
-    return mix(mix(texel(row, column), texel(row, next_column), fx),
-               mix(texel(next_row, column), texel(next_row, next_column), fx), fy);
+    return levels_[level];
+}
+
+Vec3f PicturePyramid::at(Vec2 uv, double width) const
+{
+    const Level& from = levelFor(width);
+    const Between column = between(std::clamp(folded(uv.x) * from.width - 0.5, 0.0, from.width - 1.0));
+    const Between row = between(std::clamp(folded(uv.y) * from.height - 0.5, 0.0, from.height - 1.0));
+    const auto last = [](std::int64_t index, int count) { return std::min<std::int64_t>(index, count - 1); };
+    return from.mixed({column.first, last(column.first + 1, from.width)}, {row.first, last(row.first + 1, from.height)},
+                      column.share, row.share);
+}
+
+Vec3f PicturePyramid::repeatedAt(Vec2 uv, double width) const
+{
+    const Level& from = levelFor(width);
+    const Between column = between((uv.x - std::floor(uv.x)) * from.width - 0.5);
+    const Between row = between((uv.y - std::floor(uv.y)) * from.height - 0.5);
+    const auto around = [](std::int64_t index, int count) { return (index + count) % count; };
+    return from.mixed({around(column.first, from.width), around(column.first + 1, from.width)},
+                      {around(row.first, from.height), around(row.first + 1, from.height)}, column.share, row.share);
 }
 
 Table::Table(float span, float area, Vec3f light, bool light_grey) : span_(span), light_(light), light_grey_(light_grey)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -23,13 +25,23 @@ public:
     /// @param uv     (0,0) is the top left, (1,1) the bottom right; beyond, the picture is mirrored repeatedly
     /// @param width  width of the area to average, in uv
     [[nodiscard]] Vec3f at(Vec2 uv, double width) const;
+    /// The same, but beyond, the picture is repeated.
+    [[nodiscard]] Vec3f repeatedAt(Vec2 uv, double width) const;
 
 private:
     struct Level {
         int width = 0;
         int height = 0;
         std::vector<Vec3f> texels;
+
+        /// Mean of four pixels.
+        /// @param right  share of the second column
+        /// @param down   share of the second row
+        [[nodiscard]] Vec3f mixed(std::array<std::int64_t, 2> columns, std::array<std::int64_t, 2> rows, float right,
+                                  float down) const;
     };
+
+    [[nodiscard]] const Level& levelFor(double width) const;
 
     std::vector<Level> levels_;
 };

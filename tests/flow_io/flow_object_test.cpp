@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -168,13 +169,17 @@ TEST_F(FlowObjectFile, ObjFindsTexturesHoweverTheyAreNamed)
     for (const char* const line :
          {"map_Kd a b.png", "map_Kd \"a b.png\"", "map_Kd a b.png # red", "map_Kd \"a b.png\" # red",
           "map_Kd -clamp on -bm 0.5 a b.png", "map_Kd -s 1 1 1 -o 0 0 -mm 0 1 a b.png", "map_Kd /home/else/a b.png",
-          "map_Kd C:\\Users\\else\\a b.png", "map_Kd ../a b.png"}) {
+          "map_Kd C:\\Users\\else\\a b.png", "map_Kd ../a b.png", "map_Kd /home/else/textures/../a b.png"}) {
         writeFile(folder() / "ignored.mtl", std::string("\xef\xbb\xbfnewmtl rough\n") + line + "\nnewmtl Wet Glass\n");
         const FlowObject object = read("wall.obj", kObj);
         ASSERT_TRUE(object.looks.at(1).colours) << line;
         const bool changes = std::string(line).find("-mm") != std::string::npos;
         EXPECT_THAT(object.warnings, ::testing::SizeIs(changes ? 1 : 0)) << line;
     }
+    std::filesystem::create_directory(folder() / "textures");
+    writeFile(folder() / "textures" / "deep.png", pngOf({0, 255, 0}));
+    writeFile(folder() / "ignored.mtl", "newmtl rough\nmap_Kd D:\\else\\textures\\deep.png\nnewmtl Wet Glass\n");
+    EXPECT_TRUE(read("wall.obj", kObj).looks.at(1).colours) << "the end of a path";
     writeFile(folder() / "empty.png", "");
     writeFile(folder() / "ignored.mtl",
               "newmtl rough\nmap_Kd -s 2 4 1 -o 0.5 0.25 a b.png\nnewmtl Wet Glass\nmap_Kd empty.png\n");
@@ -267,6 +272,65 @@ TEST_F(FlowObjectFile, NormalsThatAFileLacksHaveCreases)
             .normals,
         ::testing::Each(Vec3{0.0, 0.0, 1.0}))
         << "given normals stay";
+}
+
+TEST_F(FlowObjectFile, FacesThatRepeatOthersChangeNoNormals)
+{
+    const FlowObject once = read("once.obj", prism(12));
+    std::string twice = prism(12);
+    const std::string faces = twice.substr(twice.find("f "));
+    const FlowObject object = read("twice.obj", twice + faces);
+    for (std::size_t t = 0; t < once.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            expectNear(object.normals[object.triangles[t][k]], once.normals[once.triangles[t][k]], 1e-12);
+        }
+    }
+}
+
+// Closed parts face outward in files, too, but not the inner side of something hollow.
+TEST_F(FlowObjectFile, FacesAsItsSurface)
+{
+    const auto volumes = [](const FlowObject& object) {
+        std::array<double, 2> sum{};  // of the outer and the inner box
+        for (const auto& [a, b, c] : object.triangles) {
+            const Vec3 p = object.vertices[a];
+            sum.at(std::abs(p.x) > 0.7 ? 0 : 1) += dot(p, cross(object.vertices[b], object.vertices[c])) / 6.0;
+            const Vec3 facet = cross(object.vertices[b] - p, object.vertices[c] - p);
+            EXPECT_GT(dot(object.normals[a] + object.normals[b] + object.normals[c], facet), 0.0);
+        }
+        return sum;
+    };
+    const auto box = [](double half, bool is_inward, int first) {
+        std::ostringstream obj;
+        for (int k = 0; k < 8; ++k) {
+            obj << "v " << (k & 1 ? half : -half) << ' ' << (k & 2 ? half : -half) << ' ' << (k & 4 ? half : -half)
+                << '\n';
+        }
+        for (const auto& [a, b, c, d] :
+             {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+            std::array<int, 4> corners{a, b, c, d};
+            if (is_inward) {
+                std::reverse(corners.begin(), corners.end());
+            }
+            obj << 'f';
+            for (const int corner : corners) {
+                obj << ' ' << first + corner + 1;
+            }
+            obj << '\n';
+        }
+        return obj.str();
+    };
+    const auto faced = [&](const std::string& text) {
+        FlowObject object = read("box.obj", text, {.scale = 1000.0});
+        faceAs(flowSurface(object.vertices, object.triangles), object);
+        return volumes(object);
+    };
+    EXPECT_NEAR(faced(box(1.0, true, 0))[0], 8.0, 1e-9);
+    const auto hollow = faced(box(1.0, false, 0) + box(0.5, true, 8));
+    EXPECT_NEAR(hollow[0], 8.0, 1e-9);
+    EXPECT_NEAR(hollow[1], -1.0, 1e-9) << "a cavity";
+    const auto beside = faced(box(0.5, true, 0));
+    EXPECT_NEAR(beside[1], 1.0, 1e-9);
 }
 
 // STL repeats corners and has the normals of its facets.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -94,13 +95,25 @@ StandLook clearLook(Vec3 colour, double ior)
     return look;
 }
 
+/// Green and blue halves, in pixels that are narrow beside the picture: at its border colours of both sides mix.
+Picture halves(bool begins_green)
+{
+    Picture picture{32, 1, {}};
+    for (int x = 0; x < 32; ++x) {
+        const bool is_green = (x < 16) == begins_green;
+        picture.rgb.insert(picture.rgb.end(), {0, static_cast<std::uint8_t>(is_green ? 255 : 0),
+                                               static_cast<std::uint8_t>(is_green ? 0 : 255)});
+    }
+    return picture;
+}
+
 TEST(StandLook, HasItsColourAndTexture)
 {
     const auto red = meanOf(render(Surface(), optionsOf(opaqueLook({0.6, 0.02, 0.02}))));
     EXPECT_GT(red[0], 4.0 * red[1]);
     EXPECT_NEAR(red[1], red[2], 12.0);
     StandLook look = opaqueLook({1.0, 1.0, 1.0});
-    look.colours = Picture{2, 1, {0, 0, 255, 0, 255, 0}};
+    look.colours = halves(false);
     const Picture picture = render(Surface(), optionsOf(look));
     const auto left = meanOf(picture, 8, 14);
     const auto right = meanOf(picture, 50, 56);
@@ -110,16 +123,6 @@ TEST(StandLook, HasItsColourAndTexture)
 
 TEST(StandLook, TexturesCanBeMoved)
 {
-    // Half and half, in pixels that are narrow beside the picture.
-    const auto halves = [](bool begins_green) {
-        Picture picture{32, 1, {}};
-        for (int x = 0; x < 32; ++x) {
-            const bool is_green = (x < 16) == begins_green;
-            picture.rgb.insert(picture.rgb.end(), {0, static_cast<std::uint8_t>(is_green ? 255 : 0),
-                                                   static_cast<std::uint8_t>(is_green ? 0 : 255)});
-        }
-        return picture;
-    };
     StandLook look = opaqueLook({1.0, 1.0, 1.0});
     look.colours = halves(false);
     look.place.offset = {0.5, 0.0};
@@ -131,6 +134,43 @@ TEST(StandLook, TexturesCanBeMoved)
     EXPECT_NEAR(meanOf(moved, 8, 14)[1], meanOf(swapped, 8, 14)[1], 2.0);
     look.place.scale.x = std::numeric_limits<double>::infinity();
     EXPECT_THROW(render(Surface(), optionsOf(look)), Error);
+}
+
+// Where all of a face has one uv, on the border of the picture, rounding shows no pattern.
+TEST(StandLook, OneUvIsOneColour)
+{
+    RenderOptions options = optionsOf(opaqueLook({1.0, 1.0, 1.0}));
+    options.stand_looks[0].colours = Picture{2, 2, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255}};
+    for (const Vec2 uv : {Vec2{0.0, 0.0}, {1.0, 1.0}, {1.0, 0.0}, {0.3, 1.0}}) {
+        options.stand->uvs.assign(options.stand->vertices.size(), uv);
+        const Picture picture = render(Surface(), options);
+        const auto left = meanOf(picture, 24, 26);
+        const auto right = meanOf(picture, 38, 40);
+        for (std::size_t c = 0; c < 3; ++c) {
+            EXPECT_NEAR(left[c], right[c], 4.0);
+        }
+    }
+}
+
+TEST(StandLook, RoughGlassShowsABlurredRoom)
+{
+    StandLook look = clearLook({1.0, 1.0, 1.0}, 1.0);
+    RenderOptions options = optionsOf(look);
+    options.shows_room = true;
+    const auto contrast = [&] {
+        const Picture picture = render(Surface(), options);
+        double low = 255.0;
+        double high = 0.0;
+        for (int y = 12; y < 52; ++y) {
+            const double level = picture.rgb[3 * static_cast<std::size_t>(y * picture.width + 32) + 1];
+            low = std::min(low, level);
+            high = std::max(high, level);
+        }
+        return high - low;
+    };
+    const double sharp = contrast();
+    options.stand_looks[0].look.roughness = 0.5;
+    EXPECT_LT(contrast(), 0.5 * sharp);
 }
 
 TEST(StandLook, ThinWallsTintOnceEach)
@@ -151,8 +191,8 @@ TEST(StandLook, OpacityMixes)
     look.opacity = 0.0;
     look.look.ior = 1.0;
     const Picture none = render(Surface(), optionsOf(look));
-    const Picture clear = render(Surface(), optionsOf(clearLook({0.8, 0.8, 0.8}, 1.0)));
-    EXPECT_EQ(none, clear);
+    const Picture clear = render(Surface(), optionsOf(clearLook({1.0, 1.0, 1.0}, 1.0)));
+    EXPECT_EQ(none, clear) << "what is not there has no colour";
     EXPECT_NE(none, full);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "droplet/flow/flow_surface.h"
 #include "droplet/flow/object_motion.h"
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/render/stand_look.h"
@@ -37,6 +38,10 @@ struct FlowObject {
     ObjectMotion motion;                      ///< from the animation of the object's node, if the file has one
     std::vector<std::string> warnings;        ///< one line each
 };
+
+/// Turns triangles and normals of an object to the side to which the faces of its surface look.
+/// @param surface  of the object, or refined from it
+void faceAs(const FlowSurface& surface, FlowObject& object);
 
 /// Edges of the box around an object's vertices [m].
 Vec3 sizeOf(const FlowObject& object);
