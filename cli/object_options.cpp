@@ -13,7 +13,6 @@
 namespace cli {
 
 using droplet::Dimension;
-using droplet::Vec3;
 
 void declareReading(CommandLine& line, const char* group, droplet::FlowObjectOptions& reading)
 {

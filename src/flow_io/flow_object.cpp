@@ -144,6 +144,14 @@ std::optional<Picture> takeTexture(const FileTexture& texture, const std::string
     return picture;
 }
 
+/// Whether a PNG has a channel of alpha: its colour type, section 11.2.2 of its specification.
+bool hasAlpha(const Bytes& image)
+{
+    constexpr std::size_t kColourType = 25;
+    const std::string_view bytes(reinterpret_cast<const char*>(image.data()), image.size());
+    return bytes.starts_with("\x89PNG") && bytes.size() > kColourType && (bytes[kColourType] & 4) != 0;
+}
+
 /// Whether a picture is of directions: its colours differ, and are bluish on average. Heights are grey.
 bool hasDirections(const Picture& picture)
 {
@@ -157,6 +165,8 @@ bool hasDirections(const Picture& picture)
 void takeLook(const FileMaterial& material, const std::string& name, FlowObject& object)
 {
     LookImages& images = object.images.emplace_back();
+    images.blends = material.blends;
+    images.cutoff = material.cutoff;
     StandLook& look = object.looks.emplace_back(StandLook{.look = material.look,
                                                           .opacity = material.opacity,
                                                           .thickness = material.thickness,
@@ -165,6 +175,9 @@ void takeLook(const FileMaterial& material, const std::string& name, FlowObject&
     look.colours = takeTexture(material.colours, name, images.colours, object.warnings);
     look.normals = takeTexture(material.normals, name, images.normals, object.warnings);
     look.finish = takeTexture(material.finish, name, images.finish, object.warnings);
+    if (look.colours && (material.cutoff || (material.blends && hasAlpha(material.colours.image)))) {
+        object.warnings.push_back(name + ": pictures do not show the alpha of " + material.colours.name);
+    }
     // A look has one place for all of its pictures.
     std::optional<TexturePlace> place;
     for (const auto& [texture, is_shown] : {std::pair{&material.colours, look.colours.has_value()},

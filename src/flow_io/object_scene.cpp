@@ -40,6 +40,8 @@ std::size_t addObject(const FlowObject& object, Scene& scene)
                             .thickness = look.thickness,
                             .absorption = look.absorption,
                             .opacity = look.opacity,
+                            .blends = images.blends,
+                            .cutoff = images.cutoff,
                             .both_sides = !look.thickness,
                             .image = images.colours,
                             .normal_image = images.normals,

@@ -26,6 +26,8 @@ struct FileTexture {
 struct FileMaterial {
     Look look;
     double opacity = 1.0;
+    bool blends = false;                         ///< the alpha of its picture blends it with what is behind
+    std::optional<double> cutoff = {};           ///< below this alpha of its picture there is nothing
     std::optional<double> thickness = {};        ///< of matter that light enters [m]; 0: unknown; empty: a thin wall
     std::optional<Attenuation> absorption = {};  ///< in it
     FileTexture colours;                         ///< its colours multiply the look's

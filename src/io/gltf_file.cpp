@@ -299,8 +299,12 @@ std::vector<ReadMaterial> materialsOf(const Json& root)
         look.colour = {channel(0), channel(1), channel(2)};
         look.metallic = share(memberOf(surface, "metallicFactor"), 1.0);
         look.roughness = share(memberOf(surface, "roughnessFactor"), 1.0);
-        if (textOf(memberOf(from, "alphaMode"), "OPAQUE") == "BLEND") {
+        const std::string alpha = textOf(memberOf(from, "alphaMode"), "OPAQUE");
+        if (alpha == "BLEND") {
             material.opacity = channel(3);
+            material.blends = true;
+        } else if (alpha == "MASK") {
+            material.cutoff = share(memberOf(from, "alphaCutoff"), 0.5);
         }
         const Json& extensions = memberOf(from, "extensions");
         look.transmission =

@@ -29,6 +29,8 @@ struct SceneMaterial {
     std::optional<double> thickness = {};
     std::optional<Attenuation> absorption = {};  ///< in matter with an inside; empty: by the look
     double opacity = 1.0;                        ///< below 1: what lies behind shines through
+    bool blends = false;                         ///< the alpha of `image` lets it shine through as well
+    std::optional<double> cutoff = {};           ///< below this alpha of `image` there is nothing
     bool both_sides = false;                     ///< whether triangles are also seen from behind
     /// PNG or JPEG over the texture coordinates, repeated; in glTF alone. Empty: none.
     std::string image = {};         ///< multiplies the colour

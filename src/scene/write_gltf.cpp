@@ -76,7 +76,10 @@ tinygltf::Material materialOf(const SceneMaterial& from, double side)
     tinygltf::Material material;
     material.name = look.name;
     material.doubleSided = from.both_sides;
-    material.alphaMode = from.opacity < 1.0 ? "BLEND" : "OPAQUE";
+    material.alphaMode = from.opacity < 1.0 || from.blends ? "BLEND" : from.cutoff ? "MASK" : "OPAQUE";
+    if (from.cutoff) {
+        material.alphaCutoff = *from.cutoff;
+    }
     material.pbrMetallicRoughness.metallicFactor = look.metallic;
     material.pbrMetallicRoughness.roughnessFactor = look.roughness;
     // A thickness of 0 means thin-walled; attenuationDistance must be positive.
@@ -768,7 +771,7 @@ private:
         constexpr const char* kPlace = "KHR_texture_transform";
         bool is_moved = false;
         std::map<std::string_view, int> textures;
-        const auto indexOf = [&](const std::string& bytes) {
+        const auto index_of = [&](const std::string& bytes) {
             if (bytes.empty()) {
                 return -1;
             }
@@ -788,10 +791,10 @@ private:
             const SceneMaterial& from = scene_.materials[m];
             tinygltf::Material& material = model_.materials[m];
             if (!scene_.picture) {
-                material.pbrMetallicRoughness.baseColorTexture.index = indexOf(from.image);
+                material.pbrMetallicRoughness.baseColorTexture.index = index_of(from.image);
             }
-            material.pbrMetallicRoughness.metallicRoughnessTexture.index = indexOf(from.finish_image);
-            material.normalTexture.index = indexOf(from.normal_image);
+            material.pbrMetallicRoughness.metallicRoughnessTexture.index = index_of(from.finish_image);
+            material.normalTexture.index = index_of(from.normal_image);
             material.normalTexture.scale = from.relief;
             if (!(from.place == TexturePlace())) {
                 is_moved = true;

@@ -506,6 +506,11 @@ TEST_F(FlowObjectFile, GltfHasTheLooksOfItsMaterials)
     const Vec2 at = moved.looks.at(0).place.at({0.5, 0.25});
     EXPECT_NEAR(at.x, 0.25 + 0.75, 1e-12);
     EXPECT_NEAR(at.y, 0.5 - 1.0, 1e-12);
+    const FlowObject leaf = with(
+        R"({"name":"a","alphaMode":"MASK","alphaCutoff":0.25,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})",
+        image);
+    EXPECT_EQ(leaf.images.at(0).cutoff, 0.25);
+    EXPECT_THAT(leaf.warnings, ElementsAre(HasSubstr("do not show the alpha of a b.png")));
     EXPECT_THAT(
         with(R"({"name":"a","pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}}})", image).warnings,
         ElementsAre(HasSubstr("a b.png is shown over TEXCOORD_0")));

@@ -46,7 +46,7 @@ struct SmallDeformation {
 
 /// What shapes droplets on an object.
 struct DropletShapes {
-    const DropletBodies& bodies;
+    const DropletBodies& bodies;  ///< models of their shapes
     Vec3 gravity;                 ///< in the object's frame [m/s²]
     SmallDeformation small = {};  ///< in addition
 };

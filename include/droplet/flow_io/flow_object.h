@@ -15,11 +15,13 @@
 
 namespace droplet {
 
-/// Encoded pictures of a look, PNG or JPEG, for files; "": none.
+/// What files have of a look beyond StandLook.
 struct LookImages {
-    std::string colours;
-    std::string normals;
-    std::string finish;
+    std::string colours;                ///< PNG or JPEG; "": none
+    std::string normals;                ///< the same
+    std::string finish;                 ///< the same
+    bool blends = false;                ///< the alpha of `colours` blends
+    std::optional<double> cutoff = {};  ///< below this alpha of `colours` there is nothing
 };
 
 /// Object that droplets run over.
@@ -40,7 +42,8 @@ struct FlowObject {
 };
 
 /// Turns triangles and normals of an object to the side to which the faces of its surface look.
-/// @param surface  of the object, or refined from it
+/// @param surface  of the object
+/// @param object   the surface's mesh
 void faceAs(const FlowSurface& surface, FlowObject& object);
 
 /// Edges of the box around an object's vertices [m].
