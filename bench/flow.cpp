@@ -159,7 +159,7 @@ void timeFrames(bool is_quick)
                 state = advanceFlow(std::move(state), terrain, parameters, frame / kRate);
                 const std::vector<FlowSample> samples = sampleFlow(state, terrain, parameters);
                 const double between = now();
-                const Surface surface = dropletSurfaces(samples, bodies, parameters.gravity);
+                const Surface surface = dropletSurfaces(samples, {bodies, parameters.gravity});
                 if (frame > kSettling) {
                     shapes.push_back(now() - between);
                     motion.push_back(between - begin);
