@@ -145,7 +145,7 @@ void readDroplets(const CommandLine& line, DewCommandOptions& options)
         refuse(*named, presetNames());
     }
     options.preset = preset->name;
-    options.has_weights = line.flag("--vertex-weights");
+    options.reading.weights = line.flag("--vertex-weights");
     dew.sizes = preset->sizes;
     if (const auto sizes = line.value("--sizes")) {
         if (sizes->text != "condensation" && sizes->text != "lognormal") {

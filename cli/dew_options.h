@@ -22,7 +22,6 @@ struct DewCommandOptions {
     droplet::DewFile file;    ///< of any format
     droplet::DewDetail detail = droplet::DewDetail::Medium;
     std::optional<std::string> mask;
-    bool has_weights = false;             ///< droplets are where the vertices' weights are
     std::string preset;                   ///< name
     std::optional<std::string> droplets;  ///< path of a table
     std::optional<std::string> json;      ///< path of the report; - is standard output

@@ -76,7 +76,7 @@ droplet::DewReport makeDew(const DewCommandOptions& options)
         mask = droplet::readMask(*options.mask);
         dew.weight = forOption("--mask", [&] { return droplet::coverageOver(*mask, object, terrain.surface()); });
     }
-    if (options.has_weights) {
+    if (options.reading.weights) {
         dew.weight = forOption("--vertex-weights", [&] { return droplet::weightsOver(object, terrain.surface()); });
     }
     const droplet::DewDroplets droplets = placed(terrain, dew, options.object);

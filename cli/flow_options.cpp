@@ -261,8 +261,8 @@ void readSources(const CommandLine& line, FlowOptions& options)
     if (const auto from = line.value("--from")) {
         options.from = direction(*from);
     }
-    options.has_weights = line.flag("--vertex-weights");
-    if ((options.mask || options.has_weights) && options.drops == 0) {
+    options.reading.weights = line.flag("--vertex-weights");
+    if ((options.mask || options.reading.weights) && options.drops == 0) {
         refuse(std::string(options.mask ? "--mask" : "--vertex-weights") + " needs --drops");
     }
     for (const Given& emitter : line.values("--emitter")) {

@@ -50,7 +50,6 @@ struct FlowOptions {
     droplet::VolumeDistribution volumes;
     std::optional<droplet::Vec3> from;
     std::optional<std::string> mask;
-    bool has_weights = false;  ///< `drops` start where the vertices' weights are
     std::optional<std::string> start;
     std::optional<std::string> roughness_map;
     std::optional<std::string> friction_map;

@@ -64,7 +64,7 @@ std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowP
             scatter.coverage =
                 forOption("--mask", [&] { return droplet::coverageOver(*mask, plan.object, plan.terrain.surface()); });
         }
-        if (options.has_weights) {
+        if (options.reading.weights) {
             scatter.coverage = forOption("--vertex-weights",
                                          [&] { return droplet::weightsOver(plan.object, plan.terrain.surface()); });
         }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "flow_io/box_of.h"
 #include "io/file_material.h"
 #include "io/vertex_normals.h"
 
@@ -23,12 +24,7 @@ struct Stand {
 
 Stand standOf(const std::vector<Vec3>& vertices)
 {
-    Vec3 low = vertices.front();
-    Vec3 high = low;
-    for (const Vec3& p : vertices) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
+    const auto [low, high] = boxOf(vertices);
     const Vec3 size = high - low;
     const double gap = 1e-3 * std::max({size.x, size.y, size.z});  // so that no faces lie on one another
     const double least = 0.3 * size.z;

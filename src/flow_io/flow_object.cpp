@@ -13,6 +13,7 @@
 #include "droplet/error.h"
 #include "droplet/io/read_surface.h"
 #include "file_bytes.h"
+#include "flow_io/box_of.h"
 #include "io/file_mesh.h"
 #include "number_text.h"
 #include "require.h"
@@ -162,16 +163,40 @@ bool hasDirections(const Picture& picture)
     return sum[2] > 1.2 * std::max(sum[0], sum[1]);
 }
 
-void takeLook(const FileMaterial& material, const std::string& name, FlowObject& object)
+/// Thickness of matter for viewers, for each material: that of a plate with its volume and area [m].
+std::vector<double> platesOf(const FileMesh& mesh)
+{
+    std::vector<double> volumes(mesh.looks.size());
+    std::vector<double> areas(mesh.looks.size());
+    for (std::size_t i = 0; !mesh.looks.empty() && i < mesh.materials.size(); ++i) {
+        const auto [a, b, c] = mesh.triangles[i];
+        const Vec3 p = mesh.vertices[a] - mesh.vertices[0];
+        const Vec3 q = mesh.vertices[b] - mesh.vertices[0];
+        const Vec3 r = mesh.vertices[c] - mesh.vertices[0];
+        volumes[mesh.materials[i]] += dot(p, cross(q, r)) / 6.0;
+        areas[mesh.materials[i]] += 0.5 * length(cross(q - p, r - p));
+    }
+    std::vector<double> plates;
+    for (std::size_t m = 0; m < volumes.size(); ++m) {
+        constexpr double kOfNothing = 1e-3;
+        const double plate = 2.0 * std::abs(volumes[m]) / areas[m];
+        plates.push_back(plate > 0.0 && std::isfinite(plate) ? plate : kOfNothing);
+    }
+    return plates;
+}
+
+/// @param plate  thickness where the file does not tell it [m]
+void takeLook(const FileMaterial& material, double plate, const std::string& name, FlowObject& object)
 {
     LookImages& images = object.images.emplace_back();
     images.blends = material.blends;
     images.cutoff = material.cutoff;
-    StandLook& look = object.looks.emplace_back(StandLook{.look = material.look,
-                                                          .opacity = material.opacity,
-                                                          .thickness = material.thickness,
-                                                          .absorption = material.absorption,
-                                                          .relief = material.relief});
+    StandLook& look = object.looks.emplace_back(
+        StandLook{.look = material.look,
+                  .opacity = material.opacity,
+                  .thickness = material.refracts ? std::optional(material.thickness.value_or(plate)) : std::nullopt,
+                  .absorption = material.absorption,
+                  .relief = material.relief});
     look.colours = takeTexture(material.colours, name, images.colours, object.warnings);
     look.normals = takeTexture(material.normals, name, images.normals, object.warnings);
     look.finish = takeTexture(material.finish, name, images.finish, object.warnings);
@@ -194,28 +219,6 @@ void takeLook(const FileMaterial& material, const std::string& name, FlowObject&
                                   ", which has heights instead of directions");
         look.normals.reset();
         images.normals.clear();
-    }
-}
-
-/// Thickness of matter for viewers, where the file does not tell it: that of a plate of its volume and area.
-void guessThickness(FlowObject& object)
-{
-    std::vector<double> volumes(object.looks.size());
-    std::vector<double> areas(object.looks.size());
-    for (std::size_t i = 0; !object.looks.empty() && i < object.materials.size(); ++i) {
-        const auto [a, b, c] = object.triangles[i];
-        const Vec3 p = object.vertices[a] - object.vertices[0];
-        const Vec3 q = object.vertices[b] - object.vertices[0];
-        const Vec3 r = object.vertices[c] - object.vertices[0];
-        volumes[object.materials[i]] += dot(p, cross(q, r)) / 6.0;
-        areas[object.materials[i]] += 0.5 * length(cross(q - p, r - p));
-    }
-    for (std::size_t m = 0; m < object.looks.size(); ++m) {
-        std::optional<double>& thickness = object.looks[m].thickness;
-        const double plate = 2.0 * std::abs(volumes[m]) / areas[m];
-        if (thickness && *thickness == 0.0) {
-            thickness = plate > 0.0 && std::isfinite(plate) ? plate : 1e-3;
-        }
     }
 }
 
@@ -248,13 +251,8 @@ void faceAs(const FlowSurface& surface, FlowObject& object)
 
 Vec3 sizeOf(const FlowObject& object)
 {
-    Vec3 low = object.vertices.front();
-    Vec3 high = low;
-    for (const Vec3& p : object.vertices) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    return high - low;
+    const ViewBox box = boxOf(object.vertices);
+    return box.high - box.low;
 }
 
 FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOptions& options)
@@ -270,13 +268,14 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
     const bool is_ply = readableFormat(path) == Format::Ply;
     FileMesh mesh = readFileMesh(path, {.uvs = true,
                                         .polygons = true,
-                                        .weights = true,
+                                        .weights = options.weights,
                                         .creases = true,
                                         .looks = true,
                                         .motion = true,
                                         .y_up = options.up.value_or(is_ply ? UpAxis::Z : UpAxis::Y) == UpAxis::Y});
     const std::string name = shown(path);
     resize(mesh, options, name);
+    const std::vector<double> plates = platesOf(mesh);
     FlowObject object;
     if (mesh.ignores_animation) {
         object.warnings.push_back(name + " has an animation that is not a motion of the whole object; it is ignored");
@@ -297,10 +296,9 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
     for (const std::string& fault : mesh.look_faults) {
         object.warnings.push_back(fmt::format("{} is shown without all of its materials: {}", name, fault));
     }
-    for (const FileMaterial& material : mesh.looks) {
-        takeLook(material, name, object);
+    for (std::size_t m = 0; m < mesh.looks.size(); ++m) {
+        takeLook(mesh.looks[m], plates[m], name, object);
     }
-    guessThickness(object);
     if (mesh.motion) {
         object.motion = motionOf(*mesh.motion);
     }

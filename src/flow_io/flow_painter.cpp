@@ -12,6 +12,7 @@
 
 #include "droplet/error.h"
 #include "droplet/flow_io/droplet_surfaces.h"
+#include "flow_io/box_of.h"
 #include "flow_io/object_faces.h"
 #include "flow_io/settled_droplets.h"
 #include "flow_io/wet_spots.h"
@@ -24,23 +25,19 @@ namespace {
 
 constexpr double kMostDivisions = 2048;
 
+double areaOf(const TexturedMesh& mesh, const Triangle& triangle)
+{
+    const Vec3 a = mesh.vertices[triangle[0]];
+    return 0.5 * length(cross(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a));
+}
+
 double areaOf(const TexturedMesh& mesh)
 {
     double area = 0.0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        area += 0.5 * length(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]));
+    for (const Triangle& triangle : mesh.triangles) {
+        area += areaOf(mesh, triangle);
     }
     return area;
-}
-
-ViewBox boxOf(const std::vector<Vec3>& points)
-{
-    ViewBox box{points.front(), points.front()};
-    for (const Vec3 p : points) {
-        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-    }
-    return box;
 }
 
 }  // namespace
@@ -115,8 +112,7 @@ struct FlowPainter::Content {
     {
         std::vector<bool> clear;
         for (const std::uint32_t material : options.render.stand_materials) {
-            const StandLook& look = options.render.stand_looks[material];
-            clear.push_back(look.look.transmission + (1.0 - look.opacity) > 0.5);
+            clear.push_back(options.render.stand_looks[material].clearness() > 0.5);
         }
         return clear;
     }
@@ -126,15 +122,10 @@ struct FlowPainter::Content {
     {
         const std::vector<bool> is_clear = clearFaces();
         double clear = 0.0;
-        double all = 0.0;
         for (std::size_t i = 0; i < is_clear.size(); ++i) {
-            const auto [a, b, c] = stand.triangles[i];
-            const double area =
-                length(cross(stand.vertices[b] - stand.vertices[a], stand.vertices[c] - stand.vertices[a]));
-            all += area;
-            clear += is_clear[i] ? area : 0.0;
+            clear += is_clear[i] ? areaOf(stand, stand.triangles[i]) : 0.0;
         }
-        return clear > 0.5 * all;
+        return clear > 0.5 * areaOf(stand);
     }
 
     void addPlaces(std::uint32_t triangle)

@@ -65,12 +65,6 @@ std::string restOf(std::istringstream& line)
     return rest;
 }
 
-std::string_view withoutMark(std::string_view text)
-{
-    constexpr std::string_view kMark = "\xef\xbb\xbf";  // UTF-8's byte order mark
-    return text.substr(text.starts_with(kMark) ? kMark.size() : 0);
-}
-
 /// Statement of a texture: options, then the name of a file.
 struct TextureLine {
     std::string name;
@@ -156,7 +150,7 @@ struct ObjMaterial {
     {
         constexpr std::array<int, 2> kRefracts = {6, 7};
         if (std::find(kRefracts.begin(), kRefracts.end(), illumination) != kRefracts.end()) {
-            material.thickness = 0.0;
+            material.refracts = true;
             material.look.transmission = has_opacity ? 1.0 - material.opacity : 1.0;
             material.opacity = 1.0;
             material.look.colour = filter.value_or(material.look.colour);
@@ -269,6 +263,12 @@ std::vector<std::string> librariesIn(std::istringstream& line, const std::filesy
 }
 
 }  // namespace
+
+std::string_view withoutMark(std::string_view text)
+{
+    constexpr std::string_view kMark = "\xef\xbb\xbf";  // UTF-8's byte order mark
+    return text.substr(text.starts_with(kMark) ? kMark.size() : 0);
+}
 
 FileMaterial plainMaterial()
 {

@@ -28,7 +28,8 @@ struct FileMaterial {
     double opacity = 1.0;
     bool blends = false;                         ///< the alpha of its picture blends it with what is behind
     std::optional<double> cutoff = {};           ///< below this alpha of its picture there is nothing
-    std::optional<double> thickness = {};        ///< of matter that light enters [m]; 0: unknown; empty: a thin wall
+    bool refracts = false;                       ///< light enters its matter; false: a thin wall
+    std::optional<double> thickness = {};        ///< of that matter [m]; empty: unknown
     std::optional<Attenuation> absorption = {};  ///< in it
     FileTexture colours;                         ///< its colours multiply the look's
     FileTexture normals;                         ///< directions in tangent space, as in glTF
@@ -48,10 +49,13 @@ struct ObjMaterials {
 /// Materials that an OBJ names (Wavefront, "Advanced Visualizer Manual", appendix B1; Pr, Pm and norm as in Clara.io's
 /// extension): Kd, Tf, d or Tr, illum 6 and 7 for matter that refracts, Ns, Pr, Pm, Ni, map_Kd, norm, and map_Bump
 /// where that is a picture of directions, as Blender writes it. Files must lie beside the OBJ or in folders there; of
-/// other paths the name alone is looked for there.
+/// other paths the end is looked for there.
 /// @param text    of the OBJ
 /// @param folder  of the OBJ
 ObjMaterials objMaterials(std::string_view text, const std::filesystem::path& folder);
+
+/// Text without UTF-8's byte order mark.
+std::string_view withoutMark(std::string_view text);
 
 /// Reads an image that a file names, if it lies beside that file or in a folder there.
 FileTexture readTextureBeside(const std::filesystem::path& folder, const std::string& name);

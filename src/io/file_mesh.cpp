@@ -160,8 +160,7 @@ public:
 
     FileMesh read(std::string_view text)
     {
-        constexpr std::string_view kMark = "\xef\xbb\xbf";  // UTF-8's byte order mark
-        Lines lines(text.substr(text.starts_with(kMark) ? kMark.size() : 0));
+        Lines lines(withoutMark(text));
         for (std::string_view line; lines.next(line);) {
             const std::string_view key = nextWord(line);
             if (key == "v" || key == "vn") {

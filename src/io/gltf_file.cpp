@@ -313,6 +313,7 @@ std::vector<ReadMaterial> materialsOf(const Json& root)
         look.ior = ior.is_number() && ior.get<double>() >= 1.0 && ior.get<double>() <= 4.0 ? ior.get<double>() : 1.5;
         const Json& volume = memberOf(extensions, "KHR_materials_volume");
         material.thickness = positive(memberOf(volume, "thicknessFactor"));
+        material.refracts = material.thickness.has_value();
         const Json& tint = memberOf(volume, "attenuationColor");
         const auto distance = positive(memberOf(volume, "attenuationDistance"));
         if (material.thickness && distance && tint.is_array() && tint.size() == 3) {

@@ -131,6 +131,9 @@ void fillNormals(const std::vector<Vec3>& vertices, const std::vector<Triangle>&
 CreasedTriangles divideAtCreases(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
                                  const std::vector<std::uint32_t>& place, const std::vector<Vec3>& normals)
 {
+    if (std::none_of(normals.begin(), normals.end(), [](const Vec3& n) { return n == Vec3{}; })) {
+        return {triangles, {}, normals};
+    }
     // Corners that one side of all creases at their place shares.
     UnionFind shared(3 * triangles.size());
     const auto next = [](std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; };

@@ -96,7 +96,8 @@ public:
                  pyramid(one.normals, PicturePyramid::Levels::Numbers),
                  pyramid(one.finish, PicturePyramid::Levels::Numbers), mediumOf(one, scene_.scale())});
         }
-        if (!stand_looks_.empty()) {
+        if (std::any_of(stand_looks_.begin(), stand_looks_.end(),
+                        [](const ShownLook& look) { return look.colours || look.normals || look.finish; })) {
             charts_ = chartsOf(*options.stand);
         }
         const Vec3f size = scene_.high() - scene_.low();
@@ -458,8 +459,7 @@ private:
             matter.roughness *= factor.y;
             matter.metal *= factor.z;
         }
-        matter.clear =
-            (1.0F - matter.metal) * std::min(static_cast<float>(look.transmission + (1.0 - shown.from.opacity)), 1.0F);
+        matter.clear = (1.0F - matter.metal) * static_cast<float>(shown.from.clearness());
         return matter;
     }
 
@@ -695,7 +695,7 @@ private:
     std::optional<BaseLight> base_light_;  // light on a stand below many droplets
     std::optional<StandFilm> film_;
     std::vector<ShownLook> stand_looks_;
-    std::vector<Chart> charts_;  // of every triangle of the stand that has looks
+    std::vector<Chart> charts_;  // of every triangle of a stand with pictures
     Vec3f key_;                  // direction toward the key light
     Vec3f level_;
     float exposure_ = 1.0F;

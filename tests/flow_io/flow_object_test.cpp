@@ -525,7 +525,8 @@ TEST_F(FlowObjectFile, GltfHasWeights)
             "weights.glb",
             draft.file(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
                        R"({"POSITION":0,")" +
-                       name + "\":" + std::to_string(weights) + "}}]}]"));
+                       name + "\":" + std::to_string(weights) + "}}]}]"),
+            {.weights = true});
     };
     EXPECT_THAT(with("_WEIGHT", {0.0F, 0.5F, 2.0F}, "SCALAR").weights, ElementsAre(0.0, 0.5, 1.0));
     EXPECT_THAT(with("COLOR_0", {1.0F, 0.0F, 0.0F, 0.25F, 1.0F, 1.0F, 0.0F, 1.0F, 1.0F}, "VEC3").weights,

@@ -28,12 +28,12 @@ struct LookImages {
 ///
 /// Invariants: numbers are finite; indices are in range; arrays of vertices have one length, but uvs may be empty.
 struct FlowObject {
-    std::vector<Vec3> vertices;               ///< vertices [m], z up
-    std::vector<Vec3> normals;                ///< one per vertex, unit, outward
-    std::vector<Vec2> uvs;                    ///< one per vertex, (0,0) top left of the texture; or empty
-    std::vector<double> weights;              ///< of every vertex, 0 … 1, if the file has them; or empty
-    std::vector<Triangle> triangles;          ///< indices of vertices
-    std::vector<std::uint32_t> materials;     ///< index of every triangle's material in material_names; or empty
+    std::vector<Vec3> vertices;            ///< vertices [m], z up
+    std::vector<Vec3> normals;             ///< one per vertex, unit, outward
+    std::vector<Vec2> uvs;                 ///< one per vertex, (0,0) top left of the texture; or empty
+    std::vector<double> weights;           ///< of every vertex, 0 … 1, if asked for and the file has them; or empty
+    std::vector<Triangle> triangles;       ///< indices of vertices
+    std::vector<std::uint32_t> materials;  ///< index of every triangle's material in material_names; or empty
     std::vector<std::string> material_names;  ///< from the file
     std::vector<StandLook> looks;             ///< of every material; or empty: the object is plain
     std::vector<LookImages> images;           ///< of every look
@@ -57,6 +57,7 @@ struct FlowObjectOptions {
     std::optional<double> scale = {};  ///< factor on the file's lengths, > 0
     std::optional<double> size = {};   ///< longest edge of the box around the object [m], > 0; not with `scale`
     std::optional<UpAxis> up = {};     ///< empty: y, in PLY z; ignored for glTF
+    bool weights = false;              ///< read the vertices' weights
 };
 
 /// Reads an object: .glb, .gltf, .obj, .ply, .stl.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "droplet/drawing/picture.h"
@@ -27,6 +28,9 @@ struct StandLook {
     double relief = 1.0;                 ///< factor on those parts along the surface, finite
     std::optional<Picture> finish = {};  ///< over the same uv: green multiplies the roughness, blue the metal
     TexturePlace place = {};             ///< of these pictures over uv, finite
+
+    /// Share of the light that passes where it is not mirrored, 0 … 1.
+    [[nodiscard]] double clearness() const { return std::min(look.transmission + (1.0 - opacity), 1.0); }
 };
 
 }  // namespace droplet
