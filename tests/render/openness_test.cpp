@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdint>
-#include <numbers>
+#include <cstddef>
 #include <vector>
+
+#include "support/ball_mesh.h"
 
 namespace droplet {
 namespace {
@@ -20,24 +20,7 @@ TexturedMesh ballOver(double radius, double height)
         mesh.normals.push_back({0.0, 0.0, 1.0});
     }
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    constexpr std::uint32_t kRings = 64;
-    constexpr std::uint32_t kAround = 128;
-    for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
-        for (std::uint32_t k = 0; k < kAround; ++k) {
-            const double tilt = std::numbers::pi * ring / kRings;
-            const double turn = 2.0 * std::numbers::pi * k / kAround;
-            const Vec3 normal{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
-            mesh.vertices.push_back(radius * normal + Vec3{0.0, 0.0, height});
-            mesh.normals.push_back(normal);
-            if (ring < kRings) {
-                const std::uint32_t a = 4 + ring * kAround + k;
-                const std::uint32_t b = 4 + ring * kAround + (k + 1) % kAround;
-                mesh.triangles.push_back({a, a + kAround, b + kAround});
-                mesh.triangles.push_back({a, b + kAround, b});
-            }
-        }
-    }
-    mesh.uvs.resize(mesh.vertices.size());
+    testing::addBall(mesh, radius, {0.0, 0.0, height});
     return mesh;
 }
 

@@ -16,6 +16,7 @@
 
 #include "droplet/error.h"
 #include "droplet/render/render.h"
+#include "support/ball_mesh.h"
 
 namespace droplet {
 namespace {
@@ -253,24 +254,7 @@ TEST(StandLook, ADropletIsInvisibleOrRefractsFromBehind)
 TexturedMesh ball()
 {
     TexturedMesh mesh;
-    constexpr std::uint32_t kRings = 48;
-    constexpr std::uint32_t kAround = 96;
-    for (std::uint32_t ring = 0; ring <= kRings; ++ring) {
-        for (std::uint32_t k = 0; k < kAround; ++k) {
-            const double tilt = std::numbers::pi * ring / kRings;
-            const double turn = 2.0 * std::numbers::pi * k / kAround;
-            const Vec3 normal{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
-            mesh.normals.push_back(normal);
-            mesh.vertices.push_back(0.05 * normal + Vec3{0.0, 0.0, 0.05});
-            if (ring < kRings) {
-                const std::uint32_t a = ring * kAround + k;
-                const std::uint32_t b = ring * kAround + (k + 1) % kAround;
-                mesh.triangles.push_back({a, a + kAround, b + kAround});
-                mesh.triangles.push_back({a, b + kAround, b});
-            }
-        }
-    }
-    mesh.uvs.resize(mesh.vertices.size());
+    testing::addBall(mesh, 0.05, {0.0, 0.0, 0.05});
     return mesh;
 }
 
