@@ -140,8 +140,8 @@ void declare(CommandLine& line, FlowOptions& options)
              "Picture over the object's texture coordinates: black is without viscous friction, white has all of it",
              into(options.friction_map));
     line.addList(kMotion, "--ground", "NAME:VALUES",
-                 "Properties of a material of the object: roughness, and factors on friction and hysteresis, such as "
-                 "Glass:roughness=0.1mm,friction=2,hysteresis=0.5");
+                 "Properties of a material of the object: roughness, contact-angle, and factors on friction and "
+                 "hysteresis, such as Glass:contact-angle=30deg,roughness=0.1mm,hysteresis=0.5");
     line.add(kMotion, "--adhesion", "P", "Pressure in Pa that holds droplets to the surface [by surface tension]",
              within(0.0, 1e12));
     line.add(kMotion, "--gravity-direction", "X,Y,Z", "Direction of gravity [0,-1,0]");
@@ -302,10 +302,10 @@ void readSources(const CommandLine& line, FlowOptions& options)
     }
 }
 
-/// Reads a material's properties, NAME:roughness=L,friction=F,hysteresis=F.
+/// Reads a material's properties, NAME:roughness=L,contact-angle=A,friction=F,hysteresis=F.
 void readMaterial(const Given& given, FlowOptions& options)
 {
-    constexpr const char* kAllowed = "a name and values such as Glass:roughness=0.1mm,friction=2,hysteresis=0.5";
+    constexpr const char* kAllowed = "a name and values such as Glass:contact-angle=30deg,roughness=0.1mm,hysteresis=0.5";
     const std::size_t colon = given.text.rfind(':');
     if (colon == std::string::npos || colon == 0) {
         refuse(given, kAllowed);
@@ -317,6 +317,8 @@ void readMaterial(const Given& given, FlowOptions& options)
         const Given value{equals == std::string::npos ? "" : part.text.substr(equals + 1), given.subject};
         if (key == "roughness") {
             ground.roughness = plainOr(value, kBump);
+        } else if (key == "contact-angle") {
+            ground.contact_angle = quantity(value, kContactAngle);
         } else if (key == "friction") {
             ground.friction = number(value, {0.0, 1e6, "a factor from 0 to 1e6"});
         } else if (key == "hysteresis") {

@@ -107,6 +107,7 @@ droplet::FaceProperties groundOf(const FlowOptions& options, const FlowPlan& pla
         return {};
     }
     droplet::FacePropertyOptions ground;
+    ground.contact_angle = options.parameters.forces.wetting.contact_angle;
     ground.roughness = options.parameters.roughness;
     ground.max_roughness = options.parameters.roughness;
     if (options.roughness_map) {

@@ -126,6 +126,15 @@ droplet::Format formatOf(const std::string& path)
     return droplet::formatNamed(std::filesystem::path(path).extension().string().substr(1));
 }
 
+/// Contact angles of the object's materials, without repeats.
+std::vector<double> anglesOf(const droplet::FlowParameters& parameters)
+{
+    std::vector<double> angles = parameters.ground.contact_angle;
+    std::sort(angles.begin(), angles.end());
+    angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
+    return angles;
+}
+
 droplet::TrailFilm filmOf(const droplet::FlowParameters& parameters)
 {
     droplet::TrailFilm film;
@@ -143,7 +152,7 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
       progress_(progress),
       plan_(planOf(options)),
       film_(plan_.frames, options.run.files, progress, resumableRun(options, plan_.frames)),
-      bodies_(options.shape, plan_.parameters.forces),
+      bodies_(options.shape, plan_.parameters.forces, anglesOf(plan_.parameters)),
       material_(options.material.value_or(droplet::materialOf(plan_.parameters.forces.liquid))),
       ribbons_(filmOf(plan_.parameters))
 {

@@ -13,7 +13,6 @@ namespace {
 
 using droplet::Dimension;
 
-constexpr Range kContactAngle{Dimension::Angle, droplet::kDegree, 179.0 * droplet::kDegree, "from 1deg to 179deg"};
 constexpr Range kViscosity{Dimension::Viscosity, 0.0, 1e3,
                            "from 0Pa.s to 1000Pa.s, or artistic, or wedge for water by wedge theory"};
 constexpr Range kBoundaryLayer{Dimension::Length, 0.0, 1.0, "from 0mm to 1m"};

@@ -979,6 +979,7 @@ class FlowCounts(_Report):
     left: int  # Droplets that fell away
     dried: int  # Droplets that dried up
     stuck: int  # Droplets that were stopped, as they met events without end at one time
+    overflows: int  # Times that liquid ran over the brim of a hollow
     raindrops: int  # Of the released droplets, raindrops
     raindrops_behind: int  # Raindrops that met the back of an open sheet; they are lost
     raindrops_behind_m3: float  # Volume of these, which is not in the balance

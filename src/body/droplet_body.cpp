@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/body/droplet_body.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -50,13 +53,31 @@ AnyBody bodyOf(BodyShape shape, const ForceModel& model)
 }  // namespace
 
 struct DropletBodies::Content {
-    AnyBody body;
+    struct OfAngle {
+        double contact_angle;
+        AnyBody body;
+    };
+    std::vector<OfAngle> bodies = {};  ///< that of the force model first
     std::vector<Triangle> triangles = bodyTriangles();
+
+    [[nodiscard]] const AnyBody& bodyAt(std::optional<double> angle) const
+    {
+        const auto nearer = [&](const OfAngle& a, const OfAngle& b) {
+            return std::abs(a.contact_angle - *angle) < std::abs(b.contact_angle - *angle);
+        };
+        return angle ? std::min_element(bodies.begin(), bodies.end(), nearer)->body : bodies.front().body;
+    }
 };
 
-DropletBodies::DropletBodies(BodyShape shape, const ForceModel& model)
-    : content_(std::make_unique<Content>(Content{.body = bodyOf(shape, model)}))
+DropletBodies::DropletBodies(BodyShape shape, const ForceModel& model, std::span<const double> contact_angles)
+    : content_(std::make_unique<Content>())
 {
+    ForceModel of_angle = model;
+    content_->bodies.push_back({model.wetting.contact_angle, bodyOf(shape, model)});
+    for (const double angle : contact_angles) {
+        of_angle.wetting.contact_angle = angle;
+        content_->bodies.push_back({angle, bodyOf(shape, of_angle)});
+    }
 }
 
 DropletBodies::~DropletBodies() = default;
@@ -92,7 +113,8 @@ void DropletBodies::make(const BodyConditions& conditions, std::span<Vec3> verti
         makeBall(conditions.volume, vertices, normals);
         return;
     }
-    BodyGrid grid = std::visit([&](const auto& body) { return body.shape(conditions); }, content_->body);
+    BodyGrid grid = std::visit([&](const auto& body) { return body.shape(conditions); },
+                               content_->bodyAt(conditions.contact_angle));
     finish(grid, conditions.volume, vertices, normals);
 }
 

@@ -17,6 +17,7 @@
 #include "flow/break_up.h"
 #include "flow/flow_forces.h"
 #include "flow/flow_terrain_content.h"
+#include "flow/hollow.h"
 #include "flow/touching.h"
 #include "flow/walk.h"
 #include "number_text.h"
@@ -95,6 +96,7 @@ public:
         if (p_.condensation && s_.steps % kStepsOfDew == kStepsOfDew - 1) {
             grow();
         }
+        runOver();
         leave();
         s_.tracks.insert(s_.tracks.end(), tracks_.begin(), tracks_.end());
         ++s_.steps;
@@ -118,7 +120,7 @@ private:
     /// Field, forces and ground for the step that begins.
     void update()
     {
-        if (forces_.empty() || !p_.motion.rests()) {
+        if (forces_.empty() || !p_.motion.rests() || !p_.ground.contact_angle.empty()) {
             field_ = fieldAt(p_, begin_);
             forces_.resize(s_.droplets.size());
             forBlocks(
@@ -291,9 +293,8 @@ private:
         while (s_.until_nucleus <= 0.0) {
             const RandomStream random(p_.seed, RandomPurpose::Nucleus, s_.next_nucleus++);
             s_.until_nucleus += random.exponential(0);
-            start({terrain_.pointAt(random.uniform(1), random.uniform(2)).place,
-                   capVolume(kNucleusShare * spacing, p_.forces.wetting.contact_angle),
-                   {}});
+            const FlowTerrain::Point point = terrain_.pointAt(random.uniform(1), random.uniform(2));
+            start({point.place, capVolume(kNucleusShare * spacing, p_.contactAngleOn(point.face)), {}});
         }
     }
 
@@ -302,6 +303,20 @@ private:
     [[nodiscard]] const Vec3& normalOf(const FlowDroplet& droplet) const
     {
         return c_.surface.faces[droplet.face].normal;
+    }
+
+    /// Whether droplets on two sides of a sharp edge touch. The way over a convex edge is longer than the straight one:
+    /// it is measured over both planes, unfolded. The edge of a thin sheet is two edges, so its sides stay apart.
+    [[nodiscard]] bool meetOverEdge(const FlowDroplet& a, const FlowDroplet& b, Vec3 apart, double reach) const
+    {
+        const Vec3 edge = cross(normalOf(a), normalOf(b));
+        const double sine = length(edge);
+        const double from_a = dot(normalOf(b), apart);  // over the sine, the distance to the edge
+        const double from_b = -dot(normalOf(a), apart);
+        if (from_a <= 0.0 && from_b <= 0.0) {
+            return true;  // they stand before each other in a corner
+        }
+        return std::hypot(std::max(from_a, 0.0) + std::max(from_b, 0.0), dot(edge, apart)) < reach * sine;
     }
 
     void merge()
@@ -319,9 +334,10 @@ private:
         const std::vector<Pair> joined = connectingPairs(balls, [&](std::uint32_t i, std::uint32_t j) {
             const FlowDroplet& a = s_.droplets[i];
             const FlowDroplet& b = s_.droplets[j];
-            const double apart = length(balls[j].to - balls[i].to);
-            return dot(normalOf(a), normalOf(b)) > 0.0 &&
-                   c_.areJoined(a.face, b.face, balls[i].to, apart * (1.0 + 1e-9));
+            const Vec3 apart = balls[j].to - balls[i].to;
+            return (dot(normalOf(a), normalOf(b)) > 0.0 ||
+                    meetOverEdge(a, b, apart, balls[i].reach + balls[j].reach)) &&
+                   c_.areJoined(a.face, b.face, balls[i].to, length(apart) * (1.0 + 1e-9));
         });
         UnionFind sets(count);
         std::vector<std::uint32_t> members;
@@ -502,7 +518,7 @@ private:
         std::vector<FlowState::Trail> kept;
         for (const FlowState::Trail& trail : s_.trails) {
             const auto i = indexOf(trail.id);
-            const double radius = contactRadius(p_, std::max(trail.volume, p_.small_volume));
+            const double radius = contactRadius(p_, trail.face, std::max(trail.volume, p_.small_volume));
             const bool is_left = !i || length(s_.droplets[*i].leg.placeAt(begin_) - trail.place) >
                                            0.5 * forces_[*i].contact_width + radius;
             if (!is_left || (i && (!trail.isWhole() || begin_ < trail.until))) {
@@ -580,6 +596,100 @@ private:
         }
     }
 
+    // ---- hollows
+
+    /// Height of a large puddle on a face.
+    [[nodiscard]] double puddleOn(std::uint32_t face) const
+    {
+        const Liquid& liquid = p_.forces.liquid;
+        return 2.0 * std::sqrt(liquid.surface_tension / (liquid.density * length(field_.gravity))) *
+               std::sin(0.5 * p_.contactAngleOn(face));
+    }
+
+    /// Where liquid runs over, for droplets that have come to rest or grown in the step.
+    [[nodiscard]] std::vector<std::pair<std::size_t, Brim>> brims() const
+    {
+        const double gravity = length(field_.gravity);
+        if (!(gravity > 0.0)) {
+            return {};
+        }
+        const Vec3 up = (-1.0 / gravity) * field_.gravity;
+        using Brims = std::vector<std::pair<std::size_t, Brim>>;
+        const auto blocks = mapBlocks<Brims>(
+            s_.droplets.size(),
+            [&](std::size_t first, std::size_t last) {
+                Brims found;
+                for (std::size_t i = first; i < last; ++i) {
+                    const FlowDroplet& d = s_.droplets[i];
+                    const bool rests = d.contact == FlowContact::Still;
+                    const bool is_new = d.has_grown || (rests && (d.leg.begin >= begin_ || !p_.motion.rests()));
+                    if (d.contact == FlowContact::Air || !is_new || !(d.volume > 0.0)) {
+                        continue;
+                    }
+                    const double radius = 0.5 * forces_[i].contact_width;
+                    const RestingLiquid liquid{d.face, d.leg.placeAt(end()),      d.volume,
+                                               radius, p_.contactAngleOn(d.face), puddleOn(d.face)};
+                    if (const auto brim = overflow(c_.surface, up, liquid)) {
+                        found.emplace_back(i, *brim);
+                    }
+                }
+                return found;
+            },
+            kDropletsPerBlock);
+        Brims all;
+        for (const Brims& block : blocks) {
+            all.insert(all.end(), block.begin(), block.end());
+        }
+        return all;
+    }
+
+    /// What is too much for a hollow leaves it, a droplet as wide as twice the height of a puddle at a time; a hollow
+    /// that holds next to nothing lets all of it go.
+    void runOver()
+    {
+        const WalkField field = walkField();
+        for (const auto& [i, brim] : brims()) {
+            FlowDroplet over = s_.droplets[i];
+            over.has_grown = true;
+            const double most = capVolume(puddleOn(over.face), p_.contactAngleOn(over.face));
+            const double volume = std::min(over.volume - brim.capacity, most);
+            double gap = 0.0;  // to what stays
+            if (over.volume - volume >= p_.small_volume) {
+                FlowDroplet& stays = s_.droplets[i];
+                over.id = s_.next_id++;
+                over.born = end();
+                over.volume = volume;
+                over.drying = stays.drying * volume / stays.volume;
+                stays.drying -= over.drying;
+                stays.volume -= volume;
+                stays.has_grown = true;
+                forces_[i] = forcesOf(stays);
+                redirect(field, forces_[i], stays, end());  // and asked again in the next step
+                gap = 0.5 * forces_[i].contact_width - length(brim.place - stays.leg.placeAt(end()));
+            }
+            const WalkForces forces = forcesOf(over);
+            const double radius = 0.5 * forces.contact_width;
+            // Past the brim, and so far that what stays does not take it back as it grows.
+            const Vec3 way = (2.0 * radius + std::max(gap, 0.0)) * brim.ahead;
+            if (brim.is_open) {
+                over.contact = FlowContact::Air;
+                over.face = brim.face;
+                over.leg = {end(), brim.place + way, {}, forces.fall, 0.0};
+            } else {
+                const auto [face, place] = pointBeside(brim.face, brim.place, way);
+                putOnFace(field, forces, over, face, {end(), place, {}, {}, 0.0});
+            }
+            ++s_.counts.overflows;
+            if (over.id == s_.droplets[i].id) {
+                s_.droplets[i] = over;
+                forces_[i] = forces;
+            } else {
+                s_.droplets.push_back(over);
+                forces_.push_back(forces);
+            }
+        }
+    }
+
     /// Removes droplets that have fallen away, and those without liquid.
     void leave()
     {
@@ -619,7 +729,7 @@ private:
 
 void requireFits(double volume, const FlowTerrain& terrain, const FlowParameters& parameters)
 {
-    const double width = 2.0 * contactRadius(parameters, volume);
+    const double width = 2.0 * capOf(volume, parameters.forces.wetting.contact_angle).contact_radius;
     if (!(width < terrain.diameter())) {
         refuseValue(
             "a droplet's volume", numberText(volume) + " m3",
@@ -691,7 +801,9 @@ std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowTerrain& te
     for (const FlowDroplet& d : shown->droplets) {
         const bool is_airborne = d.contact == FlowContact::Air;
         samples.push_back({d.id, d.contact, is_airborne ? std::nullopt : std::optional(d.face), d.leg.placeAt(time),
-                           d.leg.velocityAt(time), terrain.surface().faces[d.face].normal, d.volume, time - d.born});
+                           d.leg.velocityAt(time), terrain.surface().faces[d.face].normal, d.volume, time - d.born,
+                           parameters.ground.contact_angle.empty() ? std::nullopt
+                                                                   : std::optional(parameters.contactAngleOn(d.face))});
     }
     return samples;
 }

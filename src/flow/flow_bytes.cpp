@@ -7,7 +7,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kHead = "droplet-shape flow 3\n";
+constexpr std::string_view kHead = "droplet-shape flow 4\n";
 
 template <class Archive, class State>
 void scalars(Archive& archive, State& s)
@@ -15,7 +15,7 @@ void scalars(Archive& archive, State& s)
     archive.all(s.time, s.steps, s.next_id, s.next_raindrop, s.next_nucleus, s.until_raindrop, s.until_nucleus,
                 s.released, s.left, s.dried, s.counts.released, s.counts.crossings, s.counts.launches,
                 s.counts.landings, s.counts.merged, s.counts.beads, s.counts.left, s.counts.dried, s.counts.stuck,
-                s.counts.raindrops, s.counts.behind, s.counts.behind_volume);
+                s.counts.raindrops, s.counts.overflows, s.counts.behind, s.counts.behind_volume);
 }
 
 }  // namespace

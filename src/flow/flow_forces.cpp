@@ -19,16 +19,17 @@ FlowField fieldAt(const FlowParameters& parameters, double time)
     return {pose.toObject(parameters.gravity), pose.toObject(parameters.wind)};
 }
 
-double contactRadius(const FlowParameters& parameters, double volume)
+double contactRadius(const FlowParameters& parameters, std::uint32_t face, double volume)
 {
-    return capOf(volume, parameters.forces.wetting.contact_angle).contact_radius;
+    return capOf(volume, parameters.contactAngleOn(face)).contact_radius;
 }
 
 WalkForces forcesOn(const FlowParameters& parameters, const FlowField& field, const FlowDroplet& droplet,
                     std::optional<double> moves)
 {
     const ForceModel& model = parameters.forces;
-    const CapSize cap = capOf(droplet.volume, model.wetting.contact_angle);
+    const double angle = parameters.contactAngleOn(droplet.face);
+    const CapSize cap = capOf(droplet.volume, angle);
     const DropletForces forces = forcesOn(model, cap);
     const double mass = model.liquid.density * droplet.volume;
     WalkForces result;
@@ -49,8 +50,7 @@ WalkForces forcesOn(const FlowParameters& parameters, const FlowField& field, co
     }
     // a_N > D π r²/m. What surface tension holds around the contact line is 2 π r σ sin θ, so D is 2 σ sin θ / r.
     const double r = cap.contact_radius;
-    const double pressure =
-        parameters.adhesion.value_or(2.0 * model.liquid.surface_tension * std::sin(model.wetting.contact_angle) / r);
+    const double pressure = parameters.adhesion.value_or(2.0 * model.liquid.surface_tension * std::sin(angle) / r);
     result.adhesion = pressure * std::numbers::pi * r * r / mass;
     result.contact_width = 2.0 * r;
     return result;

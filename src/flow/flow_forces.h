@@ -20,7 +20,7 @@ FlowField fieldAt(const FlowParameters& parameters, double time);
 WalkForces forcesOn(const FlowParameters& parameters, const FlowField& field, const FlowDroplet& droplet,
                     std::optional<double> moves);
 
-/// Radius of the contact circle of a droplet [m].
-double contactRadius(const FlowParameters& parameters, double volume);
+/// Radius of the contact circle of a droplet on a face [m].
+double contactRadius(const FlowParameters& parameters, std::uint32_t face, double volume);
 
 }  // namespace droplet

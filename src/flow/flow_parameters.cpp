@@ -68,6 +68,7 @@ void FlowParameters::validate(std::size_t faces) const
     requireFaces(ground.roughness, faces, "ground.roughness");
     requireFaces(ground.friction, faces, "ground.friction");
     requireFaces(ground.hysteresis, faces, "ground.hysteresis");
+    requireFaces(ground.contact_angle, faces, "ground.contact_angle");
     for (const Vec2 height : ground.roughness) {
         require(atLeastZero(height.x), "ground.roughness", height.x, "finite and at least 0 m");
         require(atLeastZero(height.y), "ground.roughness", height.y, "finite and at least 0 m");
@@ -77,6 +78,11 @@ void FlowParameters::validate(std::size_t faces) const
     }
     for (const double factor : ground.hysteresis) {
         require(atLeastZero(factor), "ground.hysteresis", factor, "finite and at least 0");
+    }
+    for (const double angle : ground.contact_angle) {
+        Wetting wetting = forces.wetting;
+        wetting.contact_angle = angle;
+        wetting.validate();
     }
     pinning.validate();
     streaks.validate();

@@ -49,6 +49,7 @@ BodyConditions conditionsOf(const FlowSample& sample, Vec3 gravity)
     const DropletFrame frame = frameOf(sample, gravity);
     BodyConditions conditions;
     conditions.volume = sample.volume;
+    conditions.contact_angle = sample.contact_angle;
     conditions.airborne = sample.contact == FlowContact::Air;
     conditions.speed = length(alongSurface(sample.velocity, frame.normal));
     conditions.gravity = {dot(gravity, frame.ahead), dot(gravity, frame.left), dot(gravity, frame.normal)};

@@ -94,6 +94,11 @@ void validate(const FacePropertyOptions& options, const FlowObject& object)
         requireAtLeastZero("roughness of " + name, ground.roughness);
         requireAtLeastZero("friction of " + name, ground.friction);
         requireAtLeastZero("hysteresis of " + name, ground.hysteresis);
+        if (ground.contact_angle) {
+            Wetting wetting;
+            wetting.contact_angle = *ground.contact_angle;
+            wetting.validate();
+        }
         if (object.material_names.empty()) {
             refuseValue("material", name, "left out, because the object has no materials");
         }
@@ -145,6 +150,7 @@ FaceProperties faceProperties(const FlowObject& object, const FlowSurface& surfa
     std::vector<std::optional<Vec2>> roughness(object.material_names.size());
     std::vector<std::optional<double>> friction(object.material_names.size());
     std::vector<std::optional<double>> hysteresis(object.material_names.size());
+    std::vector<std::optional<double>> contact_angle(object.material_names.size());
     for (std::size_t m = 0; m < object.material_names.size(); ++m) {
         if (const auto found = options.materials.find(object.material_names[m]); found != options.materials.end()) {
             if (const std::optional<double>& height = found->second.roughness) {
@@ -152,11 +158,13 @@ FaceProperties faceProperties(const FlowObject& object, const FlowSurface& surfa
             }
             friction[m] = found->second.friction;
             hysteresis[m] = found->second.hysteresis;
+            contact_angle[m] = found->second.contact_angle;
         }
     }
     replace(ground.roughness, surface, object, roughness, Vec2{options.roughness, options.roughness});
     replace(ground.friction, surface, object, friction, 1.0);
     replace(ground.hysteresis, surface, object, hysteresis, 1.0);
+    replace(ground.contact_angle, surface, object, contact_angle, options.contact_angle);
     return ground;
 }
 

@@ -137,12 +137,13 @@ struct FlowAnimation::Content {
         }
         pose.moves = sample.velocity != Vec3{};
         pose.turn = turnOf(frame);
-        if (pose.moves) {
+        if (pose.moves || sample.contact_angle) {
             const Vec2 half = halfSizes(bodies, conditionsOf(sample, gravity));
             pose.along = toFloat(half.x);
             pose.across = toFloat(half.y);
             pose.up = toFloat(sample.volume / (unit_volume * half.x * half.y));
-        } else if (last != nullptr && !last->airborne && last->place == pose.place) {
+        }
+        if (!pose.moves && last != nullptr && !last->airborne && last->place == pose.place) {
             pose.turn = last->turn;  // it is round
         }
         return pose;

@@ -167,6 +167,7 @@ void writeFlowReport(std::ostream& out, const FlowReport& report)
                       {"left", report.counts.left},
                       {"dried", report.counts.dried},
                       {"stuck", report.counts.stuck},
+                      {"overflows", report.counts.overflows},
                       {"raindrops", report.counts.raindrops},
                       {"raindrops_behind", report.counts.behind},
                       {"raindrops_behind_m3", report.counts.behind_volume}};

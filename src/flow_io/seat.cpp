@@ -236,6 +236,16 @@ Local groundBelow(const Ground& ground, const Rim& rim, Vec2 p)
     return {level, height && std::abs(*height - expected) <= kMostStep * ground.size() ? *height : expected};
 }
 
+/// Mean height of a rim.
+double meanHeight(const Rim& rim, std::size_t count)
+{
+    double sum = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+        sum += rim.seated(k).height;
+    }
+    return sum / static_cast<double>(count);
+}
+
 /// Sums of the normals of the triangles around each vertex, not of unit length.
 std::vector<Vec3> facing(std::span<const Vec3> vertices, std::span<const Triangle> triangles)
 {
@@ -302,6 +312,112 @@ DropletFrame inward(const FlowTerrain& terrain, const DropletFrame& frame, const
     return best;
 }
 
+/// A droplet on flat ground.
+struct Shape {
+    const std::vector<Local>& flat;  ///< its vertices, those of the rim first
+    const std::vector<Vec2>& rim;
+    std::span<const Triangle> triangles;
+    Vec3 origin;  ///< of volumes
+    double volume = 0.0;
+};
+
+/// What is below a droplet, and how its volume depends on the factor on its heights.
+struct Seating {
+    std::vector<Local> below;  ///< each vertex without its height
+    std::vector<Vec3> base;
+    double empty = 0.0;  ///< volume without height
+    double gain = 0.0;   ///< more of it with the flat droplet's heights
+};
+
+Vec3 placed(const Ground& ground, const Local& below, double height)
+{
+    return ground.toSpace({below.level, below.height + height});
+}
+
+Seating seatingOf(const Ground& ground, const Shape& shape, std::optional<double> filled_share = std::nullopt)
+{
+    std::vector<Vec2> rim_points = shape.rim;
+    for (Vec2& p : rim_points) {
+        p = filled_share.value_or(1.0) * p;
+    }
+    const std::size_t count = rim_points.size();
+    const Rim rim(ground, rim_points);
+    const double middle = meanHeight(rim, count);
+    Seating made;
+    for (std::size_t v = 0; v < shape.flat.size(); ++v) {
+        const Vec2 level = filled_share.value_or(1.0) * shape.flat[v].level;
+        made.below.push_back(v < count ? rim.seated(v) : groundBelow(ground, rim, level));
+        if (filled_share && v >= count) {
+            const Rim::Place place = rim.towards(level);
+            const double share = std::min(place.share, 1.0);
+            const double between = (1.0 - share) * middle + share * place.height;  // the rims
+            made.below[v].height = std::max(made.below[v].height, between);
+        }
+    }
+    for (std::size_t ring = 0; ring <= kBaseRings; ++ring) {
+        const double share = 1.0 - static_cast<double>(ring) / (1 + kBaseRings);
+        for (std::size_t k = 0; k < count; ++k) {
+            made.base.push_back(
+                ground.toSpace(ring == 0 ? rim.seated(k) : groundBelow(ground, rim, share * rim_points[k])));
+        }
+    }
+    made.base.push_back(ground.toSpace(groundBelow(ground, rim, {})));
+    const double of_base = volumeUnder(made.base, baseTriangles(count), shape.origin);
+    const auto volume_at = [&](double factor) {
+        std::vector<Vec3> vertices;
+        for (std::size_t v = 0; v < shape.flat.size(); ++v) {
+            vertices.push_back(placed(ground, made.below[v], factor * shape.flat[v].height));
+        }
+        return volumeUnder(vertices, shape.triangles, shape.origin) + of_base;
+    };
+    made.empty = volume_at(0.0);
+    made.gain = volume_at(1.0) - made.empty;
+    return made;
+}
+
+/// Whether the ground rises around a droplet's middle: then it may be liquid in a hollow.
+bool isHollow(const Ground& ground)
+{
+    constexpr int kAround = 8;
+    constexpr double kAway = 0.5;
+    constexpr double kRise = 0.05;  // over the radius: less is filled as any ground
+    double rise = 0.0;
+    for (int k = 0; k < kAround; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / kAround;
+        rise += ground.at(kAway * ground.size() * Vec2{std::cos(angle), std::sin(angle)}).value_or(0.0) / kAround;
+    }
+    return rise - ground.at({}).value_or(0.0) > kRise * ground.size();
+}
+
+/// Liquid in a hollow has a level surface between its rims: its footprint is the smallest that holds it, that with
+/// which the hollow is fullest, or its own if the hollow is small.
+Seating inHollow(const Ground& ground, const Shape& shape)
+{
+    constexpr int kShares = 16;
+    constexpr int kHalvings = 10;
+    constexpr double kMostly = 0.5;  // of the liquid that is in the hollow, at least
+    double fullest = 1.0;
+    double most = kMostly * shape.volume;
+    for (int k = 1; k <= kShares; ++k) {
+        const double share = static_cast<double>(k) / kShares;
+        const double held = seatingOf(ground, shape, share).empty;
+        if (held >= shape.volume) {
+            double low = static_cast<double>(k - 1) / kShares;
+            double high = share;
+            for (int i = 0; i < kHalvings; ++i) {
+                const double middle = 0.5 * (low + high);
+                (seatingOf(ground, shape, middle).empty < shape.volume ? low : high) = middle;
+            }
+            return seatingOf(ground, shape, low > 0.0 ? low : high);
+        }
+        if (held > most) {
+            most = held;
+            fullest = share;
+        }
+    }
+    return seatingOf(ground, shape, fullest);
+}
+
 }  // namespace
 
 double volumeUnder(std::span<const Vec3> vertices, std::span<const Triangle> triangles, Vec3 origin)
@@ -352,42 +468,21 @@ std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, Fl
                dot(v, frame.normal) * leant.normal;
     };
     const Ground ground(terrain, leant, size);
-    const Rim rim(ground, rim_points);
-
-    std::vector<Local> below(flat.size());
-    for (std::size_t v = 0; v < flat.size(); ++v) {
-        below[v] = v < droplet.rim ? rim.seated(v) : groundBelow(ground, rim, flat[v].level);
-    }
-    std::vector<Vec3> base;
-    for (std::size_t ring = 0; ring <= kBaseRings; ++ring) {
-        const double share = 1.0 - static_cast<double>(ring) / (1 + kBaseRings);
-        for (std::size_t k = 0; k < droplet.rim; ++k) {
-            base.push_back(ground.toSpace(ring == 0 ? rim.seated(k) : groundBelow(ground, rim, share * rim_points[k])));
-        }
-    }
-    base.push_back(ground.toSpace(groundBelow(ground, rim, {})));
-
-    // The volume with no height and with the flat droplet's heights.
-    const std::vector<Triangle> base_triangles = baseTriangles(droplet.rim);
-    const double volume_of_base = volumeUnder(base, base_triangles, frame.place);
-    const auto place = [&](double factor) {
-        for (std::size_t v = 0; v < flat.size(); ++v) {
-            droplet.vertices[v] = ground.toSpace({below[v].level, below[v].height + factor * flat[v].height});
-        }
-    };
     const double volume = volumeUnder(droplet.vertices, droplet.triangles, frame.place);
+    const Shape shape{flat, rim_points, droplet.triangles, frame.place, volume};
+    const Seating seating = isHollow(ground) ? inHollow(ground, shape) : seatingOf(ground, shape);
+
     const std::vector<Vec3> before = facing(droplet.vertices, droplet.triangles);
-    place(0.0);
-    const double empty = volumeUnder(droplet.vertices, droplet.triangles, frame.place) + volume_of_base;
-    place(1.0);
-    const double full = volumeUnder(droplet.vertices, droplet.triangles, frame.place) + volume_of_base;
-    const double factor = (volume - empty) / (full - empty);
-    place(factor > 0.0 && factor <= kMostTall ? factor : kMostTall);
+    const double factor = (volume - seating.empty) / seating.gain;
+    const bool is_likely = factor >= 0.0 && factor <= kMostTall;
+    for (std::size_t v = 0; v < flat.size(); ++v) {
+        droplet.vertices[v] = placed(ground, seating.below[v], (is_likely ? factor : kMostTall) * flat[v].height);
+    }
     const std::vector<Vec3> after = facing(droplet.vertices, droplet.triangles);
     for (std::size_t v = 0; v < flat.size(); ++v) {
         droplet.normals[v] = unit(turned(droplet.normals[v] - unit(before[v])) + unit(after[v]));
     }
-    return base;
+    return seating.base;
 }
 
 }  // namespace droplet

@@ -40,7 +40,7 @@ std::vector<Edge> rimOf(std::span<const Triangle> triangles)
     return rim;
 }
 
-/// Base of a flat droplet.
+/// Base of a droplet.
 DropletBase baseOf(const DropletFrame& frame, const FlatDroplet& droplet)
 {
     DropletBase base;
@@ -109,8 +109,10 @@ SettledDroplets settled(const FlowTerrain& terrain, std::span<const FlowSample> 
         const DropletFrame frame = frameOf(sample, {});
         if (sample.contact != FlowContact::Air) {
             const FlatDroplet flat{vertices.first(vertex_count), normals.first(vertex_count), one, rim_vertices.size()};
-            bases[i] = baseOf(frame, flat);
+            const double height = baseOf(frame, flat).height;
             seat(terrain, frame, flat);
+            bases[i] = baseOf(frame, flat);
+            bases[i].height = height;
             depth = kSkirt * std::sqrt(bases[i].half_length * bases[i].half_width);
         }
         for (std::size_t k = 0; k < rim_vertices.size(); ++k) {

@@ -137,6 +137,38 @@ TEST(Flow, AccountsForAllLiquid)
     EXPECT_GT(balanceOf(state).dried, 0.0);
 }
 
+/// Two droplets on a corner of a box, so far from its upper edge on two sides that meet there; or on the two sides of a
+/// plate.
+std::size_t leftOfTwo(double from_edge, double thickness, bool both_sides)
+{
+    constexpr double kSize = 0.05;
+    Mesh box;
+    for (std::uint32_t i = 0; i < 8; ++i) {
+        box.vertices.push_back({(i & 1U) * kSize, (i >> 1U & 1U) * kSize, (i >> 2U) * thickness});
+    }
+    box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    const FlowTerrain terrain = sceneOf(box);
+    FlowParameters parameters;
+    parameters.forces.wetting.contact_angle = 90.0 * kDegree;
+    parameters.forces.wetting.hysteresis = 2.0;  // they stay
+    const double y = 0.4 * kSize;
+    const double volume = capVolume(2e-3, 90.0 * kDegree);
+    const Vec3 other = both_sides ? Vec3{from_edge, y, 0.0} : Vec3{0.0, y, thickness - from_edge};
+    FlowState state = startFlow(terrain, parameters, {{{from_edge, y, thickness}, volume, {}}, {other, volume, {}}});
+    state = advanceFlow(std::move(state), terrain, parameters, 0.1);
+    EXPECT_LT(std::abs(balanceOf(state).residual()), 1e-12);
+    return state.droplets.size();
+}
+
+// Contact circles have a radius of 2 mm.
+TEST(Flow, DropletsMergeOverSharpEdges)
+{
+    EXPECT_EQ(leftOfTwo(1.9e-3, 0.05, false), 1U) << "they touch on the way over the edge";
+    EXPECT_EQ(leftOfTwo(2.1e-3, 0.05, false), 2U) << "they are 3 mm apart, but 4.2 mm on the way over the edge";
+    EXPECT_EQ(leftOfTwo(0.5e-3, 1e-3, true), 2U) << "two sides of a plate, 1 mm apart";
+}
+
 TEST(Flow, ResumesFromItsBytes)
 {
     const FlowTerrain scene = slope();

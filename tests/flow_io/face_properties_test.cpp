@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "droplet/error.h"
+#include "droplet/flow/flow.h"
 #include "droplet/flow/scatter.h"
+#include "droplet/flow_io/flow_points.h"
+#include "droplet/units.h"
 
 namespace droplet {
 namespace {
@@ -63,6 +66,34 @@ TEST(FaceProperties, TakesMeansOfPicturesOverTriangles)
     }
     EXPECT_EQ(meansOverFaces(half(64), far, surface), meansOverFaces(half(64), object, surface));
     EXPECT_THAT(meansOverFaces({1, 1, {7.0F}, true}, object, surface), ElementsAre(1.0, 1.0));
+}
+
+TEST(FaceProperties, MaterialsHaveContactAngles)
+{
+    const FlowObject object = square();
+    FlowSurface surface = flowSurface(object.vertices, object.triangles);
+    FacePropertyOptions options;
+    options.contact_angle = 80.0 * kDegree;
+    options.materials["rust"].contact_angle = 30.0 * kDegree;
+    FlowParameters parameters;
+    parameters.ground = faceProperties(object, surface, options);
+    EXPECT_THAT(parameters.ground.contact_angle, ElementsAre(80.0 * kDegree, 30.0 * kDegree));
+    EXPECT_THAT(parameters.ground.hysteresis, IsEmpty());
+    options.materials["rust"].contact_angle = 180.0 * kDegree;
+    EXPECT_THROW(faceProperties(object, surface, options), Error);
+
+    // Droplets are as wide as the caps with these angles, and are drawn so.
+    const FlowTerrain terrain(std::move(surface));
+    parameters.merges = false;
+    constexpr double kVolume = 1e-10;  // hardly flattened by its weight
+    FlowState state = startFlow(terrain, parameters, {{{0.7, 0.3, 0.0}, kVolume, {}}, {{0.3, 0.7, 0.0}, kVolume, {}}});
+    state = advanceFlow(std::move(state), terrain, parameters, 0.1);
+    const std::vector<FlowSample> samples = sampleFlow(state, terrain, parameters);
+    const DropletBodies bodies(BodyShape::Capillary, parameters.forces, parameters.ground.contact_angle);
+    const auto points = flowPoints(samples, terrain, bodies, parameters.gravity);
+    ASSERT_EQ(points.size(), 2U);
+    EXPECT_NEAR(points[0].radius / capOf(kVolume, 80.0 * kDegree).contact_radius, 1.0, 0.01);
+    EXPECT_NEAR(points[1].radius / capOf(kVolume, 30.0 * kDegree).contact_radius, 1.0, 0.01);
 }
 
 TEST(FaceProperties, HasPropertiesOfMaterials)

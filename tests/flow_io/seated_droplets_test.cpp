@@ -186,6 +186,38 @@ INSTANTIATE_TEST_SUITE_P(Objects, SeatedDropletsOn,
                                            Scene{"Box", box, 120e-9, 0.08}),
                          [](const auto& tested) { return tested.param.name; });
 
+// A bowl z = x²/(2 R) holds π R h² up to the height h. On flat ground such puddles would be wider than the level.
+TEST(SeatedDroplets, LiquidInABowlIsLevel)
+{
+    constexpr double kRound = 40e-3;
+    testing::Sheet sheet;
+    sheet.columns = 80;
+    sheet.rows = 80;
+    sheet.turned = true;
+    sheet.place = [&](Vec2 uv) {
+        const Vec2 p{0.1 * (uv.x - 0.5), 0.1 * (uv.y - 0.5)};
+        return Vec3{p.x, p.y, dot(p, p) / (2.0 * kRound)};
+    };
+    const TexturedMesh bowl = testing::meshOf(sheet);
+    const FlowTerrain terrain(flowSurface(bowl.vertices, bowl.triangles));
+    FlowSample sample;
+    sample.contact = FlowContact::Still;
+    sample.face = terrain.nearest({0.0, 0.0, 0.0}).face;
+    sample.normal = {0.0, 0.0, 1.0};
+    for (const double height : {12e-3, 20e-3}) {
+        sample.volume = std::numbers::pi * kRound * height * height;
+        const std::vector<FlowSample> samples{sample};
+        const Surface seated = seatedDroplets(terrain, samples, {bodies(), kGravity});
+        seated.validate();
+        EXPECT_TRUE(isClosed(seated));
+        EXPECT_NEAR(enclosedVolume(seated) / sample.volume, 1.0, 1e-6);
+        for (std::size_t v = 0; v < bodies().vertices(); ++v) {
+            // The base's chords are above the bowl, so the level is a little too high.
+            EXPECT_NEAR(seated.vertices[v].z, height, 0.03 * height);
+        }
+    }
+}
+
 // Half of its base would be beyond the edge: on the other half it would be a fin of twice the height.
 TEST(SeatedDroplets, AtTheEdgeOfASheetMoveOntoIt)
 {

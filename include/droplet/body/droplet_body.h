@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,10 +23,11 @@ enum class BodyShape {
 /// What shapes a droplet. The frame of the droplet: the ground is z = 0, the droplet runs to +x, and the centre of mass
 /// of its footprint is the origin.
 struct BodyConditions {
-    double volume = 0.0;    ///< [m³], > 0
-    double speed = 0.0;     ///< along the ground [m/s], ≥ 0
-    Vec3 gravity;           ///< in the droplet's frame [m/s²]
-    bool airborne = false;  ///< true: a ball around the origin
+    double volume = 0.0;                       ///< [m³], > 0
+    double speed = 0.0;                        ///< along the ground [m/s], ≥ 0
+    Vec3 gravity;                              ///< in the droplet's frame [m/s²]
+    bool airborne = false;                     ///< true: a ball around the origin
+    std::optional<double> contact_angle = {};  ///< one that the bodies know [rad]; empty: that of their force model
 };
 
 /// Makes the surfaces of droplets. All have the same vertices and triangles, so that one can become another. Immutable,
@@ -35,8 +37,9 @@ public:
     /// Prepares a model: the capillary one solves its table here.
     /// @param shape  model of the shape
     /// @param model  liquid and contact angle
+    /// @param contact_angles  further ones that it shall know [rad], from 1° to 179°
     /// @throws Error InvalidArgument
-    explicit DropletBodies(BodyShape shape, const ForceModel& model = {});
+    explicit DropletBodies(BodyShape shape, const ForceModel& model = {}, std::span<const double> contact_angles = {});
     ~DropletBodies();
     DropletBodies(DropletBodies&&) noexcept;             ///< Moves the data.
     DropletBodies& operator=(DropletBodies&&) noexcept;  ///< Moves the data.
@@ -49,7 +52,7 @@ public:
     /// Triangles of the liquid's surface, wound outward; the base is open.
     [[nodiscard]] const std::vector<Triangle>& triangles() const;
     /// Makes one droplet.
-    /// @param conditions  what shapes it
+    /// @param conditions  what shapes it; of the known contact angles, the nearest serves
     /// @param vertices   receives all vertices [m]; the volume over z = 0 is `volume` to 1e-9
     /// @param normals     receives one per vertex, unit, outward
     void make(const BodyConditions& conditions, std::span<Vec3> vertices, std::span<Vec3> normals) const;

@@ -27,6 +27,7 @@ struct FlowCounts {
     std::uint64_t dried = 0;      ///< droplets that dried up
     std::uint64_t stuck = 0;      ///< droplets stopped, as they met events without end at one time
     std::uint64_t raindrops = 0;  ///< of those released, raindrops
+    std::uint64_t overflows = 0;  ///< times that liquid ran over the brim of a hollow
     std::uint64_t behind = 0;     ///< raindrops that met the back of an open sheet, and are lost
     double behind_volume = 0.0;   ///< of these, which is not in FlowBalance::released [m³]
 
@@ -137,6 +138,7 @@ struct FlowSample {
     Vec3 normal;          ///< of the surface, unit; in the air, of the face that it left
     double volume = 0.0;  ///< [m³]
     double age = 0.0;     ///< time since it was released, or became a bead [s]
+    std::optional<double> contact_angle;  ///< on its face [rad]; empty: that of the force model
 };
 
 /// All droplets at the state's time, in the order of their ids.

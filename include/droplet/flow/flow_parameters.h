@@ -64,9 +64,10 @@ struct FlowCondensation {
 
 /// Properties of every face. An empty array stands for the default everywhere.
 struct FaceProperties {
-    std::vector<Vec2> roughness;     ///< height of bumps along the face's first edge and across it [m], ≥ 0
-    std::vector<double> friction;    ///< factor on viscous friction, ≥ 0; default 1
-    std::vector<double> hysteresis;  ///< factor on the retention by hysteresis, ≥ 0; default 1
+    std::vector<Vec2> roughness;        ///< height of bumps along the face's first edge and across it [m], ≥ 0
+    std::vector<double> friction;       ///< factor on viscous friction, ≥ 0; default 1
+    std::vector<double> hysteresis;     ///< factor on the retention by hysteresis, ≥ 0; default 1
+    std::vector<double> contact_angle;  ///< [rad], from 1° to 179°; default: that of the force model
 };
 
 /// Hysteresis of the contact angle that varies over the surface, as dirt and roughness do: droplets stick, slip and
@@ -102,6 +103,13 @@ struct FlowParameters {
     double small_volume = 1e-13;                   ///< droplets from drying and beads of less vanish [m³], > 0
     double step = 1.0 / 120.0;  ///< droplets merge, arrive and dry at multiples of this time [s], > 0
     std::uint64_t seed = 1;     ///< of all random numbers
+
+    /// Contact angle on a face [rad].
+    /// @param face  number in FlowSurface::faces
+    [[nodiscard]] double contactAngleOn(std::uint32_t face) const
+    {
+        return ground.contact_angle.empty() ? forces.wetting.contact_angle : ground.contact_angle[face];
+    }
 
     /// Checks all fields.
     /// @param faces   of the surface

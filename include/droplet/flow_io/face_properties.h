@@ -18,9 +18,10 @@ namespace droplet {
 
 /// Properties of the faces of one material.
 struct MaterialProperties {
-    std::optional<double> roughness = {};   ///< height of bumps [m], ≥ 0; empty: as without the material
-    std::optional<double> friction = {};    ///< factor on viscous friction, ≥ 0
-    std::optional<double> hysteresis = {};  ///< factor on the retention by hysteresis, ≥ 0
+    std::optional<double> roughness = {};      ///< height of bumps [m], ≥ 0; empty: as without the material
+    std::optional<double> friction = {};       ///< factor on viscous friction, ≥ 0
+    std::optional<double> hysteresis = {};     ///< factor on the retention by hysteresis, ≥ 0
+    std::optional<double> contact_angle = {};  ///< [rad], from 1° to 179°
 };
 
 /// Options of faceProperties. Pictures lie over the object's uv and repeat beyond its unit square; black is 0, white
@@ -30,6 +31,7 @@ struct FacePropertyOptions {
     double max_roughness = 1e-4;                               ///< at white [m], ≥ 0
     std::optional<HeightMap> friction_picture = {};            ///< factor on viscous friction
     double max_friction = 1.0;                                 ///< at white, ≥ 0
+    double contact_angle = Wetting{}.contact_angle;            ///< of faces without another one [rad]
     double roughness = 0.0;                                    ///< of faces without another one [m], ≥ 0
     std::map<std::string, MaterialProperties> materials = {};  ///< by name; they replace the pictures
 };

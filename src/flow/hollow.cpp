@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Level rises from the lowest place near the droplet, and faces are flooded in the order of the edges that it passes
+// (priority flood: R. Barnes, C. Lehman, D. Mulla, Computers & Geosciences 62 (2014) 117), until a face beyond leads
+// down, or the hollow is known to hold the liquid.
+#include "flow/hollow.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <queue>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "droplet/wind/forces.h"
+#include "flow/flow_terrain_content.h"
+
+namespace droplet {
+namespace {
+
+// A hollow shallower than this share of the droplet's radius is none, as for hops (walk.cpp).
+constexpr double kShallow = 2e-3;
+// Faces after which it is asked first whether the hollow holds the liquid; then after twice as many, and so on.
+constexpr std::size_t kFirstCheck = 16;
+// Hollows with more faces are not followed to their end: they hold the liquid.
+constexpr std::size_t kMostFaces = 1'000'000;
+
+using Heights = std::array<double, 3>;
+
+/// Part of a face below a level, seen from above.
+struct Flooded {
+    double area = 0.0;
+    double volume = 0.0;
+};
+
+/// @param area  of the face seen from above; negative where it overhangs
+Flooded floodedPart(Heights h, double area, double level)
+{
+    std::sort(h.begin(), h.end());
+    const double mean = (h[0] + h[1] + h[2]) / 3.0;
+    if (level >= h[2]) {
+        return {area, area * (level - mean)};
+    }
+    if (level <= h[0]) {
+        return {};
+    }
+    if (level <= h[1]) {
+        const double part = area * (level - h[0]) * (level - h[0]) / ((h[1] - h[0]) * (h[2] - h[0]));
+        return {part, part * (level - h[0]) / 3.0};
+    }
+    const double dry = area * (h[2] - level) * (h[2] - level) / ((h[2] - h[0]) * (h[2] - h[1]));
+    return {area - dry, area * (level - mean) + dry * (h[2] - level) / 3.0};
+}
+
+/// An edge that the level may pass.
+struct Pass {
+    double height = 0.0;
+    std::uint32_t face = 0;  ///< before it
+    std::uint32_t side = 0;
+    friend bool operator>(const Pass& a, const Pass& b)
+    {
+        return std::tie(a.height, a.face, a.side) > std::tie(b.height, b.face, b.side);
+    }
+};
+
+class Flood {
+public:
+    Flood(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid)
+        : faces_(surface.faces), up_(up), liquid_(liquid), slack_(kShallow * liquid.radius)
+    {
+    }
+
+    std::optional<Brim> run()
+    {
+        if (!begin(liquid_.face, dot(up_, liquid_.place))) {
+            return std::nullopt;
+        }
+        std::size_t check = kFirstCheck;
+        while (!passes_.empty()) {
+            const Pass pass = passes_.top();
+            passes_.pop();
+            const std::uint32_t next = faces_[pass.face].neighbour[pass.side];
+            if (next != FlowSurface::kNone && flooded_.contains(next)) {
+                continue;
+            }
+            level_ = std::max(level_, pass.height);
+            if (flooded_.size() >= check) {
+                if (holds() || flooded_.size() > kMostFaces) {
+                    return std::nullopt;
+                }
+                check *= 2;
+            }
+            if (next == FlowSurface::kNone) {
+                return level_ - bottom_ > slack_ ? brim(pass, pass.face, true) : std::nullopt;
+            }
+            if (heightsOf(next)[lowestOf(next)] >= level_ - slack_) {
+                flood(next);
+            } else if (level_ - bottom_ > slack_) {
+                return brim(pass, next, false);
+            } else if (!begin(next, level_)) {
+                return std::nullopt;
+            }
+        }
+        return std::nullopt;
+    }
+
+private:
+    [[nodiscard]] Heights heightsOf(std::uint32_t face) const
+    {
+        const auto& [a, b, c] = faces_[face].corners;
+        return {dot(up_, a), dot(up_, b), dot(up_, c)};
+    }
+
+    [[nodiscard]] std::size_t lowestOf(std::uint32_t face) const
+    {
+        const Heights heights = heightsOf(face);
+        return static_cast<std::size_t>(std::min_element(heights.begin(), heights.end()) - heights.begin());
+    }
+
+    /// Begins at the bottom of a face, if the droplet reaches it: otherwise it rests on a slope.
+    /// @param height  of the droplet, or of the last bottom
+    bool begin(std::uint32_t face, double height)
+    {
+        const Vec3 corner = faces_[face].corners[lowestOf(face)];
+        bottom_ = std::min(height, dot(up_, corner));
+        level_ = bottom_;
+        flooded_.clear();
+        passes_ = {};
+        flood(face);
+        return height - bottom_ <= slack_ || length(corner - liquid_.place) <= liquid_.radius;
+    }
+
+    void flood(std::uint32_t face)
+    {
+        flooded_.insert(face);
+        const Heights heights = heightsOf(face);
+        for (std::uint32_t side = 0; side < 3; ++side) {
+            passes_.push({std::min(heights[side], heights[(side + 1) % 3]), face, side});
+        }
+    }
+
+    [[nodiscard]] Flooded filled() const
+    {
+        Flooded sum;
+        for (const std::uint32_t face : flooded_) {
+            const double area = dot(faces_[face].normal, up_) * areaOf(faces_[face]);
+            const Flooded part = floodedPart(heightsOf(face), area, level_);
+            sum.area += part.area;
+            sum.volume += part.volume;
+        }
+        return {std::max(sum.area, 0.0), std::max(sum.volume, 0.0)};
+    }
+
+    /// Whether the liquid stays below the level, but for what surface tension holds above it.
+    [[nodiscard]] bool holds() const
+    {
+        const Flooded sum = filled();
+        const double cap = capVolume(std::sqrt(sum.area / std::numbers::pi), liquid_.contact_angle);
+        return liquid_.volume <= sum.volume + std::min(sum.area * liquid_.puddle, cap);
+    }
+
+    [[nodiscard]] std::optional<Brim> brim(const Pass& pass, std::uint32_t beyond, bool is_open) const
+    {
+        if (holds()) {
+            return std::nullopt;
+        }
+        const FlowSurface::Face& from = faces_[pass.face];
+        const Vec3 a = from.corners[pass.side];
+        const Vec3 b = from.corners[(pass.side + 1) % 3];
+        Brim result{beyond, dot(up_, a) <= dot(up_, b) ? a : b, {}, is_open, filled().volume};
+        const Vec3 way =
+            is_open ? -1.0 * from.inward[pass.side] : faces_[beyond].corners[lowestOf(beyond)] - result.place;
+        result.ahead = (1.0 / length(way)) * way;
+        return result;
+    }
+
+    const std::vector<FlowSurface::Face>& faces_;
+    Vec3 up_;
+    const RestingLiquid& liquid_;
+    double slack_;  ///< [m]
+    double bottom_ = 0.0;
+    double level_ = 0.0;
+    std::set<std::uint32_t> flooded_;
+    std::priority_queue<Pass, std::vector<Pass>, std::greater<>> passes_;
+};
+
+}  // namespace
+
+std::optional<Brim> overflow(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid)
+{
+    return Flood(surface, up, liquid).run();
+}
+
+}  // namespace droplet

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flow/hollow.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "droplet/flow/flow.h"
+#include "droplet/units.h"
+
+namespace droplet {
+namespace {
+
+constexpr double kRadius = 0.02;
+constexpr double kDepth = 0.01;
+constexpr std::uint32_t kAround = 48;
+
+/// A cone with its tip below, in a plate around it that slopes down outward. A notch lowers the brim at +x.
+FlowSurface cone(double notch, double plate_slope = 0.3)
+{
+    std::vector<Vec3> vertices{{0.0, 0.0, -kDepth}};
+    std::vector<Triangle> triangles;
+    for (const double out : {1.0, 3.0}) {
+        for (std::uint32_t k = 0; k < kAround; ++k) {
+            const double angle = 2.0 * std::numbers::pi * k / kAround;
+            const double low = k == 0 ? notch : 0.0;
+            vertices.push_back({out * kRadius * std::cos(angle), out * kRadius * std::sin(angle),
+                                -plate_slope * (out - 1.0) * kRadius - low});
+        }
+    }
+    for (std::uint32_t k = 0; k < kAround; ++k) {
+        const std::uint32_t next = (k + 1) % kAround;
+        triangles.push_back({0, 1 + k, 1 + next});
+        triangles.push_back({1 + k, 1 + kAround + k, 1 + kAround + next});
+        triangles.push_back({1 + k, 1 + kAround + next, 1 + next});
+    }
+    return flowSurface(vertices, triangles);
+}
+
+/// Volume of the cone of kAround sides, up to its brim.
+double coneVolume()
+{
+    const double area = 0.5 * kAround * kRadius * kRadius * std::sin(2.0 * std::numbers::pi / kAround);
+    return area * kDepth / 3.0;
+}
+
+std::uint32_t faceAt(const FlowTerrain& terrain, Vec3 place)
+{
+    return terrain.nearest(place).face;
+}
+
+constexpr Vec3 kUp{0.0, 0.0, 1.0};
+constexpr Vec3 kTip{0.0, 0.0, -kDepth};
+
+RestingLiquid liquidAt(const FlowTerrain& terrain, Vec3 place, double volume)
+{
+    return {faceAt(terrain, place), place, volume, 4e-3, 90.0 * kDegree, 0.0};
+}
+
+TEST(Hollow, HoldsAConesVolume)
+{
+    const FlowTerrain terrain(cone(0.0));
+    const auto over = overflow(terrain.surface(), kUp, liquidAt(terrain, kTip, 1.001 * coneVolume()));
+    ASSERT_TRUE(over);
+    EXPECT_NEAR(over->capacity / coneVolume(), 1.0, 1e-9);
+    EXPECT_NEAR(std::hypot(over->place.x, over->place.y), kRadius, 1e-9);
+    EXPECT_NEAR(over->place.z, 0.0, 1e-12);
+    EXPECT_FALSE(over->is_open);
+    EXPECT_LT(over->ahead.z, 0.0) << "downward";
+    EXPECT_GT(dot(over->ahead, over->place), 0.0) << "away from the tip";
+    EXPECT_FALSE(overflow(terrain.surface(), kUp, liquidAt(terrain, kTip, 0.999 * coneVolume())));
+}
+
+TEST(Hollow, RunsOverAtTheLowestPlaceOfItsBrim)
+{
+    const FlowTerrain terrain(cone(0.004));
+    const auto over = overflow(terrain.surface(), kUp, liquidAt(terrain, kTip, coneVolume()));
+    ASSERT_TRUE(over);
+    EXPECT_NEAR(over->place.x, kRadius, 1e-9);
+    EXPECT_NEAR(over->place.z, -0.004, 1e-9);
+    // What is left of the cone's depth, cubed; the notch's own faces lean a little.
+    EXPECT_NEAR(over->capacity / coneVolume(), 0.6 * 0.6 * 0.6, 0.03);
+}
+
+TEST(Hollow, SurfaceTensionHoldsMoreThanItsVolume)
+{
+    const FlowTerrain terrain(cone(0.0));
+    RestingLiquid liquid = liquidAt(terrain, kTip, 0.0);
+    liquid.puddle = 1e-3;
+    const double area = 3.0 * coneVolume() / kDepth;
+    liquid.volume = coneVolume() + 0.999 * area * liquid.puddle;
+    EXPECT_FALSE(overflow(terrain.surface(), kUp, liquid));
+    liquid.volume = coneVolume() + 1.001 * area * liquid.puddle;
+    EXPECT_TRUE(overflow(terrain.surface(), kUp, liquid));
+    liquid.puddle = 1.0;  // then it is a cap, here half a ball
+    liquid.volume = coneVolume() + 0.9 * 2.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3);
+    EXPECT_FALSE(overflow(terrain.surface(), kUp, liquid));
+    liquid.volume = coneVolume() + 1.1 * 2.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3);
+    EXPECT_TRUE(overflow(terrain.surface(), kUp, liquid));
+}
+
+TEST(Hollow, SlopesAndPlatesHoldWhatLiesOnThem)
+{
+    const FlowTerrain terrain(cone(0.0));
+    EXPECT_FALSE(overflow(terrain.surface(), kUp, liquidAt(terrain, {2.0 * kRadius, 0.0, -0.3 * kRadius}, 1.0)))
+        << "on the plate's slope";
+    const FlowTerrain flat(cone(-kDepth, 0.0));
+    EXPECT_FALSE(overflow(flat.surface(), kUp, liquidAt(flat, {2.0 * kRadius, 0.0, 0.0}, 1.0))) << "on a flat plate";
+}
+
+TEST(Hollow, OpenEdgesAreBrims)
+{
+    FlowSurface surface = cone(0.0, -0.3);  // a bowl with a wide rim that ends high
+    const FlowTerrain terrain(std::move(surface));
+    const auto over = overflow(terrain.surface(), kUp, liquidAt(terrain, kTip, 1.0));
+    ASSERT_TRUE(over);
+    EXPECT_TRUE(over->is_open);
+    EXPECT_NEAR(std::hypot(over->place.x, over->place.y), 3.0 * kRadius, 1e-9);
+    EXPECT_GT(dot(over->ahead, over->place), 0.0) << "outward";
+}
+
+TEST(Hollow, FillsAndRunsOver)
+{
+    const FlowTerrain terrain(cone(0.004));
+    FlowParameters parameters;
+    parameters.forces.wetting.contact_angle = 60.0 * kDegree;
+    parameters.forces.wetting.hysteresis = 0.02;
+    parameters.pinning.spread = 0.0;
+    parameters.emitters = {{{0.25 * kRadius, 0.1 * kRadius, 0.03}, 1e-6, {50e-9, 0.0}}};
+    FlowState state = startFlow(terrain, parameters, {});
+    double largest = 0.0;
+    for (int k = 1; k <= 60; ++k) {
+        state = advanceFlow(std::move(state), terrain, parameters, 0.2 * k);
+        for (const FlowDroplet& d : state.droplets) {
+            largest = std::max(largest, d.volume);
+        }
+    }
+    EXPECT_GT(state.counts.overflows, 0U);
+    EXPECT_GT(state.counts.left, 0U) << "the plate ends";
+    EXPECT_LT(std::abs(balanceOf(state).residual()), 1e-12);
+    const double capacity = 0.216 * coneVolume();
+    EXPECT_GT(largest, capacity);
+    EXPECT_LT(balanceOf(state).still + balanceOf(state).running, 4.0 * capacity) << "12 mL came";
+}
+
+}  // namespace
+}  // namespace droplet
