@@ -5,7 +5,8 @@
 //
 // 1. The default glass with 2000 moving droplets, alone and among 200 000 still ones, dry and in the rain.
 // 2. Larger and larger glasses with the same number of droplets per area: time per droplet.
-// 3. An hour, or SECONDS, of rain at 25 mm/h: water balance and number of droplets.
+// 3. Maps for a renderer that runs along, and for files, one core: the thesis' scale, and heavy rain with wipers.
+// 4. An hour, or SECONDS, of rain at 25 mm/h: water balance and number of droplets.
 #include "droplet/windshield/windshield.h"
 
 #include <tbb/global_control.h>
@@ -23,6 +24,9 @@
 #include <vector>
 
 #include "droplet/windshield/presets.h"
+#include "droplet/windshield/wipers.h"
+#include "droplet/windshield_view/glass_maps.h"
+#include "droplet/windshield_view/windshield_maps.h"
 #include "memory.h"
 #include "windshield/still_droplets.h"
 
@@ -154,6 +158,55 @@ void timeGrowth()
     }
 }
 
+void timeMaps()
+{
+    std::puts("\n| maps of 1024 px | running | still | step | changed tiles | all from the start | for files |");
+    std::puts("| --- | ---: | ---: | ---: | ---: | ---: | ---: |");
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    struct Case {
+        const char* name;
+        double rainfall;  // [mm/h]
+        std::size_t running;
+        std::size_t still;
+        bool wipes;
+    };
+    const auto median = [](std::vector<double> values) {
+        std::nth_element(values.begin(), values.begin() + kSteps / 2, values.end());
+        return values[kSteps / 2];
+    };
+    for (const Case& c :
+         {Case{"the thesis' scale", 5.0, 500, 40'000, false}, Case{"heavy rain, wipers", 50.0, 2'000, 80'000, true},
+          Case{"many", 5.0, 14'000, 100'000, false}}) {
+        WindshieldParameters p = windshieldPresetNamed("figure-3.11").parameters;
+        p.rainfall = c.rainfall * kMillimetrePerHour;
+        if (c.wipes) {
+            p.wipers = tandemWipers(p.glass, 1.2);
+        }
+        WindshieldState state = scattered(p, c.running, c.still);
+        WindshieldMaps maps(p.glass);
+        std::vector<std::uint16_t> pixels(4 * static_cast<std::size_t>(maps.width()) *
+                                          static_cast<std::size_t>(maps.height()));
+        double begin = now();
+        maps.update(state, pixels);
+        const double first = now() - begin;
+        std::vector<double> steps;
+        std::vector<double> updates;
+        for (int k = 0; k < kSteps; ++k) {
+            begin = now();
+            state = step(std::move(state), p, kStep);
+            steps.push_back(now() - begin);
+            begin = now();
+            maps.update(state, pixels);
+            updates.push_back(now() - begin);
+        }
+        begin = now();
+        const GlassMaps files = glassMaps(p.glass, state, {.width = 1024});
+        const double whole = now() - begin;
+        std::printf("| %s | %zu | %zu | %.2f ms | %.2f ms | %.1f ms | %.1f ms |\n", c.name, state.droplets.size(),
+                    state.still.count(), 1e3 * median(steps), 1e3 * median(updates), 1e3 * first, 1e3 * whole);
+    }
+}
+
 void timeHour(double seconds)
 {
     WindshieldParameters p = windshieldPresetNamed("figure-3.12").parameters;
@@ -194,6 +247,7 @@ int main(int argc, char** argv)
     try {
         timeDefaultGlass();
         timeGrowth();
+        timeMaps();
         timeHour(seconds);
         return 0;
     } catch (const std::exception& error) {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Water of droplets on a raster of the glass, as whole numbers: sums do not depend on the order of droplets, and what
+// was added can be taken away again without a rest.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "droplet/body/running_shape.h"
+#include "droplet/vector.h"
+#include "droplet/windshield/glass.h"
+#include "windshield_view/body_relief.h"
+
+namespace droplet {
+
+/// Droplet of either kind, as drawn in maps.
+struct WaterDrop {
+    Vec2 position;
+    Vec2 velocity;
+    double volume = 0.0;
+    RunningShape shape;
+    bool may_run = false;
+    std::shared_ptr<const BodyRelief> relief = {};  ///< in place of the shape
+};
+
+/// Sums over a pixel.
+struct WaterPixel {
+    std::int64_t thickness = 0;  ///< in 1e-15 m
+    /// Weighted by their shares of the pixel, in 2^-18 of one, and of 1 m/s.
+    std::int32_t cover = 0;
+    std::array<std::int32_t, 2> slope = {};  ///< components of the outward unit normal along the glass
+    std::int32_t up = 0;                     ///< component of the normal out of the glass
+    std::int32_t runs = 0;                   ///< cover of running droplets
+    std::array<std::int32_t, 2> velocity = {};
+
+    static constexpr double kThickness = 1e-15;      ///< [m]
+    static constexpr double kShare = 1.0 / 262'144;  ///< of one
+
+    /// Adds another one, or with sign −1 takes it away.
+    void add(const WaterPixel& other, int sign);
+    /// Mean outward unit normal.
+    [[nodiscard]] Vec3f normal() const;
+};
+
+/// Water of one droplet in a pixel.
+struct WaterStamp {
+    std::uint32_t pixel = 0;  ///< row by row from the upper left
+    WaterPixel water;
+};
+
+/// Nearly square pixels of a glass, upper edge up.
+class WaterRaster {
+public:
+    /// @param width  [px], > 0
+    WaterRaster(const Glass& glass, int width);
+
+    [[nodiscard]] int width() const { return width_; }
+    [[nodiscard]] int height() const { return height_; }
+
+    /// Appends the pixels that a droplet covers, by rows. At least seven sample places lie across it. Their thickness
+    /// adds up to its volume, also beyond the edge and between sample places.
+    void draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) const;
+
+private:
+    struct Samples;
+    [[nodiscard]] Samples sampled(const WaterDrop& drop, std::array<int, 2> pixel, int across) const;
+
+    int width_;
+    double pixel_;  ///< width of a pixel [m]
+    int height_;
+    double top_;   ///< of the glass [m]
+    double down_;  ///< height of a pixel [m]
+};
+
+}  // namespace droplet

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/windshield_view/windshield_maps.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "droplet/error.h"
+#include "droplet/windshield/balance.h"
+#include "droplet/windshield_view/glass_maps.h"
+
+namespace droplet {
+namespace {
+
+/// Everything happens: rain, running, merging, tearing, wiping.
+WindshieldParameters storm()
+{
+    WindshieldParameters parameters;
+    parameters.glass = Glass(Glass::Cylinder{.width = 0.5, .height = 0.3, .radius = 5.0});
+    parameters.rainfall = 100.0 * kMillimetrePerHour;
+    parameters.vehicle = constantSpeed(17.0);
+    parameters.forces.wetting.hysteresis = 0.2;
+    parameters.wipers = tandemWipers(parameters.glass, 1.2);
+    return parameters;
+}
+
+struct Map {
+    WindshieldMaps maps;
+    std::vector<std::uint16_t> pixels;
+
+    explicit Map(const Glass& glass, const WindshieldMapOptions& options = {.width = 300})
+        : maps(glass, options),
+          pixels(4 * static_cast<std::size_t>(maps.width()) * static_cast<std::size_t>(maps.height()))
+    {
+    }
+
+    [[nodiscard]] float at(std::size_t pixel, std::size_t channel) const
+    {
+        return static_cast<float>(Eigen::numext::bit_cast<Eigen::half>(pixels[4 * pixel + channel]));
+    }
+};
+
+TEST(WindshieldMapsOf, AreThoseOfNewOnesAfterAnySteps)
+{
+    const WindshieldParameters parameters = storm();
+    WindshieldState state = startWindshield(parameters);
+    Map kept(parameters.glass);
+    for (int k = 0; k < 120; ++k) {
+        state = step(std::move(state), parameters, 1.0 / 60.0);
+        if (k % 7 != 3) {  // not every step is shown
+            kept.maps.update(state, kept.pixels);
+        }
+    }
+    EXPECT_GT(state.counts.wiped, 0U);
+    EXPECT_GT(state.counts.merged, 0U);
+    EXPECT_GT(state.counts.swept, 0U);
+    Map fresh(parameters.glass);
+    fresh.maps.update(state, fresh.pixels);
+    EXPECT_EQ(kept.pixels, fresh.pixels);
+    EXPECT_TRUE(kept.maps.update(state, kept.pixels).empty()) << "nothing has changed";
+    kept.maps.update(startWindshield(parameters), kept.pixels);
+    EXPECT_THAT(kept.pixels, ::testing::Each(0)) << "all is taken away again without a rest";
+}
+
+TEST(WindshieldMapsOf, NameEveryTileThatChanges)
+{
+    const WindshieldParameters parameters = storm();
+    WindshieldState state = startWindshield(parameters);
+    Map map(parameters.glass);
+    std::size_t changed = 0;
+    for (int k = 0; k < 40; ++k) {
+        state = step(std::move(state), parameters, 1.0 / 60.0);
+        const std::vector<std::uint16_t> before = map.pixels;
+        const std::vector<MapTile> tiles = map.maps.update(state, map.pixels);
+        std::vector<std::uint16_t> copied = before;
+        for (const MapTile& tile : tiles) {
+            ASSERT_LE(tile.x + tile.width, map.maps.width());
+            ASSERT_LE(tile.y + tile.height, map.maps.height());
+            for (int y = tile.y; y < tile.y + tile.height; ++y) {
+                const std::size_t begin = 4 * static_cast<std::size_t>(y * map.maps.width() + tile.x);
+                std::copy_n(map.pixels.begin() + static_cast<std::ptrdiff_t>(begin), 4 * tile.width,
+                            copied.begin() + static_cast<std::ptrdiff_t>(begin));
+            }
+        }
+        EXPECT_EQ(copied, map.pixels);
+        changed += tiles.size();
+    }
+    EXPECT_GT(changed, 40U);
+}
+
+TEST(WindshieldMapsOf, AgreeWithTheMapsOfFiles)
+{
+    WindshieldParameters parameters = storm();
+    parameters.wipers.clear();
+    WindshieldState state = startWindshield(parameters);
+    for (int k = 0; k < 60; ++k) {
+        state = step(std::move(state), parameters, 1.0 / 60.0);
+    }
+    Map map(parameters.glass);
+    map.maps.update(state, map.pixels);
+    const GlassFloatMaps files = glassFloatMaps(parameters.glass, state, {.width = 300});
+    ASSERT_EQ(files.normal.width, map.maps.width());
+    ASSERT_EQ(files.normal.height, map.maps.height());
+    double water = 0.0;
+    for (std::size_t i = 0; i < files.thickness.values.size(); ++i) {
+        // Half floats have 11 bits.
+        EXPECT_NEAR(map.at(i, 0), files.normal.values[3 * i], 5e-4F);
+        EXPECT_NEAR(map.at(i, 1), files.normal.values[3 * i + 1], 5e-4F);
+        EXPECT_NEAR(map.at(i, 2), 1e3F * files.thickness.values[i], 5e-4F * map.at(i, 2) + 1e-6F);
+        EXPECT_GE(map.at(i, 3), 0.0F);
+        water += static_cast<double>(map.at(i, 2));
+    }
+    const WaterBalance all = balanceOf(state);
+    const double pixel =
+        parameters.glass.width() * parameters.glass.height() / static_cast<double>(files.thickness.values.size());
+    EXPECT_NEAR(1e-3 * water * pixel / (all.on_glass_still + all.on_glass_running), 1.0, 0.005);
+}
+
+TEST(WindshieldMapsOf, RefusesOtherSizes)
+{
+    EXPECT_THROW(WindshieldMaps(Glass(), {.width = 8}), Error);
+    EXPECT_THROW(WindshieldMaps(Glass(Glass::Cylinder{.width = 0.1, .height = 2.0}), {.width = 8192}), Error);
+    WindshieldMaps maps{Glass()};
+    std::vector<std::uint16_t> small(16);
+    EXPECT_THROW(maps.update(startWindshield({}), small), Error);
+}
+
+}  // namespace
+}  // namespace droplet
