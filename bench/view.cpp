@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "droplet/windshield/presets.h"
+#include "droplet/windshield/wipers.h"
 
 namespace {
 
@@ -85,12 +86,26 @@ double medianOf(std::vector<double> values)
 
 enum class Background { Still, Changing, Road };
 
-void timeFrames(const WindshieldParameters& parameters, const WindshieldState& begin_state, std::size_t threads,
-                Background background, int samples)
+struct Case {
+    std::size_t threads = 1;
+    Background background = Background::Still;
+    int samples = 2;
+    bool wipes = false;
+};
+
+void timeFrames(WindshieldParameters parameters, const WindshieldState& begin_state, const Case& c)
 {
+    const auto [threads, background, samples, wipes] = c;
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     ViewOptions options;
     options.samples = samples;
+    if (wipes) {
+        parameters.wipers = tandemWipers(parameters.glass, 1.2);
+        for (Wiper& wiper : parameters.wipers) {
+            wiper.start = begin_state.time;
+        }
+        options.wipers = parameters.wipers;
+    }
     options.shape.contact_angle = parameters.forces.wetting.contact_angle;
     DriversView view(parameters.glass, options);
     const DefaultBackground road(options);
@@ -123,11 +138,12 @@ void timeFrames(const WindshieldParameters& parameters, const WindshieldState& b
         all.push_back(end - begin);
         processor.push_back(processorTime() - processor_begin);
     }
-    std::printf("| %zu | %d x %d | %s | %.1f ms | %.1f ms | %.1f ms | %.1f ms | %.1f ms | %.0f |\n", threads, samples,
+    std::printf("| %zu | %d x %d | %s%s | %.1f ms | %.1f ms | %.1f ms | %.1f ms | %.1f ms | %.0f |\n", threads, samples,
                 samples,
                 background == Background::Still      ? "one for all frames"
                 : background == Background::Changing ? "a new one per frame"
                                                      : "the built-in road",
+                wipes ? ", wipers" : "",
                 1e3 * medianOf(look), 1e3 * medianOf(show), 1e3 * medianOf(frame), 1e3 * medianOf(processor),
                 1e3 * medianOf(all), 1.0 / medianOf(all));
     std::fflush(stdout);
@@ -150,10 +166,13 @@ int main()
         std::puts("| ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |");
         for (const std::size_t threads : {1U, 2U}) {
             for (const Background background : {Background::Still, Background::Changing, Background::Road}) {
-                timeFrames(parameters, state, threads, background, 2);
+                timeFrames(parameters, state, {threads, background});
             }
         }
-        timeFrames(parameters, state, 2, Background::Changing, 1);
+        timeFrames(parameters, state, {2, Background::Changing, 1});
+        for (const std::size_t threads : {1U, 2U}) {
+            timeFrames(parameters, state, {threads, Background::Still, 2, true});
+        }
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "bench_view: %s\n", error.what());

@@ -168,21 +168,24 @@ void timeMaps()
         double rainfall;  // [mm/h]
         std::size_t running;
         std::size_t still;
-        bool wipes;
+        double rains;  // before [s]
     };
     const auto median = [](std::vector<double> values) {
         std::nth_element(values.begin(), values.begin() + kSteps / 2, values.end());
         return values[kSteps / 2];
     };
     for (const Case& c :
-         {Case{"the thesis' scale", 5.0, 500, 40'000, false}, Case{"heavy rain, wipers", 50.0, 2'000, 80'000, true},
-          Case{"many", 5.0, 14'000, 100'000, false}}) {
+         {Case{"the thesis' scale", 5.0, 500, 40'000, 0.0}, Case{"50 mm/h for 20 s, wipers", 50.0, 0, 0, 20.0},
+          Case{"many", 5.0, 14'000, 100'000, 0.0}}) {
         WindshieldParameters p = windshieldPresetNamed("figure-3.11").parameters;
         p.rainfall = c.rainfall * kMillimetrePerHour;
-        if (c.wipes) {
+        if (c.rains > 0.0) {
             p.wipers = tandemWipers(p.glass, 1.2);
         }
-        WindshieldState state = scattered(p, c.running, c.still);
+        WindshieldState state = c.running > 0 ? scattered(p, c.running, c.still) : startWindshield(p);
+        while (state.time < c.rains) {
+            state = step(std::move(state), p, kStep);
+        }
         WindshieldMaps maps(p.glass);
         std::vector<std::uint16_t> pixels(4 * static_cast<std::size_t>(maps.width()) *
                                           static_cast<std::size_t>(maps.height()));

@@ -46,6 +46,12 @@ std::vector<WaterDrop> dropsOf(const Glass& glass, const WindshieldState& state,
     return drops;
 }
 
+/// A pixel of the maps.
+struct MapPixel {
+    WaterPixel water;
+    WaterMotion motion;
+};
+
 /// Sums up the pixels and calls take(row, its pixels), in parallel, once for each row.
 template <typename Take>
 void forRows(const WaterRaster& raster, const std::vector<WaterDrop>& drops, const Take& take)
@@ -63,10 +69,11 @@ void forRows(const WaterRaster& raster, const std::vector<WaterDrop>& drops, con
             return stamps;
         },
         kDropsPerBlock);
-    std::vector<WaterPixel> sums(width * height);
+    std::vector<MapPixel> sums(width * height);
     for (const std::vector<WaterStamp>& block : blocks) {
         for (const WaterStamp& stamp : block) {
-            sums[stamp.pixel].add(stamp.water, 1);
+            sums[stamp.pixel].water.add(stamp.water, 1);
+            sums[stamp.pixel].motion.add(stamp.motion);
         }
     }
     tbb::parallel_for(std::size_t{0}, height, [&](std::size_t row) {
@@ -82,22 +89,22 @@ WaterRaster rasterFor(const Glass& glass, const GlassMapOptions& options)
     return raster;
 }
 
-Vec2 velocityOf(const WaterPixel& pixel)
+Vec2 velocityOf(const MapPixel& pixel)
 {
-    return pixel.runs > 0 ? (1.0 / pixel.runs) *
-                                Vec2{static_cast<double>(pixel.velocity[0]), static_cast<double>(pixel.velocity[1])}
-                          : Vec2{};
+    return pixel.motion.cover > 0 ? (1.0 / pixel.motion.cover) * Vec2{static_cast<double>(pixel.motion.velocity[0]),
+                                                                      static_cast<double>(pixel.motion.velocity[1])}
+                                  : Vec2{};
 }
 
-double thicknessOf(const WaterPixel& pixel)
+double thicknessOf(const MapPixel& pixel)
 {
-    return static_cast<double>(pixel.thickness) * WaterPixel::kThickness;
+    return static_cast<double>(pixel.water.thickness) * WaterPixel::kThickness;
 }
 
 /// Share of a pixel that running droplets cover.
-double runsOf(const WaterPixel& pixel)
+double runsOf(const MapPixel& pixel)
 {
-    return pixel.runs * WaterPixel::kShare;
+    return pixel.motion.cover * WaterPixel::kShare;
 }
 
 // Levels of bare glass.
@@ -126,24 +133,24 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
     maps.normal.levels.resize(3 * pixels);
     maps.thickness.levels.resize(pixels);
     maps.velocity.levels.resize(3 * pixels);
-    forRows(raster, dropsOf(glass, state, options), [&](int row, std::span<const WaterPixel> held) {
+    forRows(raster, dropsOf(glass, state, options), [&](int row, std::span<const MapPixel> held) {
         // The rounding error goes to the next wet pixel of the row; else thin water would vanish.
         double left_over = 0.0;
         std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
-        for (const WaterPixel& pixel : held) {
+        for (const MapPixel& pixel : held) {
             std::uint16_t* const facing = &maps.normal.levels[3 * at];
             std::uint16_t* const motion = &maps.velocity.levels[3 * at];
-            if (pixel.cover == 0) {
+            if (pixel.water.cover == 0) {
                 std::copy(kBare.begin(), kBare.end(), facing);
                 std::copy(kStill.begin(), kStill.end(), motion);
                 ++at;
                 continue;
             }
-            const Vec3f normal = pixel.normal();
+            const Vec3f normal = pixel.water.normal();
             facing[0] = signedLevel(static_cast<double>(normal.x));
             facing[1] = signedLevel(static_cast<double>(normal.y));
             facing[2] = signedLevel(static_cast<double>(normal.z));
-            if (pixel.thickness > 0) {
+            if (pixel.water.thickness > 0) {
                 const double wanted = thicknessOf(pixel) + left_over;
                 maps.thickness.levels[at] = unsignedLevel(wanted / options.full_thickness);
                 const double in_map = maps.thickness.levels[at] / 65535.0 * options.full_thickness;
@@ -170,10 +177,10 @@ GlassFloatMaps glassFloatMaps(const Glass& glass, const WindshieldState& state, 
     maps.normal.values.resize(3 * pixels);
     maps.thickness.values.resize(pixels);
     maps.velocity.values.resize(3 * pixels);
-    forRows(raster, dropsOf(glass, state, options), [&](int row, std::span<const WaterPixel> held) {
+    forRows(raster, dropsOf(glass, state, options), [&](int row, std::span<const MapPixel> held) {
         std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
-        for (const WaterPixel& pixel : held) {
-            const Vec3f normal = pixel.normal();
+        for (const MapPixel& pixel : held) {
+            const Vec3f normal = pixel.water.normal();
             const Vec2 velocity = velocityOf(pixel);
             const std::array<double, 3> motion{velocity.x, velocity.y, std::min(runsOf(pixel), 1.0)};
             const auto narrow = [](double value) { return static_cast<float>(value); };

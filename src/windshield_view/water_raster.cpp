@@ -8,9 +8,16 @@
 namespace droplet {
 namespace {
 
+/// As std::llround(), without its check.
+template <typename Integer>
+Integer rounded(double value)
+{
+    return static_cast<Integer>(value + std::copysign(0.5, value));
+}
+
 std::int32_t share(double value)
 {
-    return static_cast<std::int32_t>(std::lround(value / WaterPixel::kShare));
+    return rounded<std::int32_t>(value * (1.0 / WaterPixel::kShare));
 }
 
 /// Along the motion; at rest along the glass's x.
@@ -46,9 +53,13 @@ void WaterPixel::add(const WaterPixel& other, int sign)
     slope[0] += sign * other.slope[0];
     slope[1] += sign * other.slope[1];
     up += sign * other.up;
-    runs += sign * other.runs;
-    velocity[0] += sign * other.velocity[0];
-    velocity[1] += sign * other.velocity[1];
+}
+
+void WaterMotion::add(const WaterMotion& other)
+{
+    cover += other.cover;
+    velocity[0] += other.velocity[0];
+    velocity[1] += other.velocity[1];
 }
 
 Vec3f WaterPixel::normal() const
@@ -64,10 +75,72 @@ Vec3f WaterPixel::normal() const
 /// Sums over the sample places in a pixel that lie on a droplet, in its frame.
 struct WaterRaster::Samples {
     int count = 0;
-    float ahead = 0.0F;  ///< of normals, times the radius
+    float ahead = 0.0F;  ///< of normals, times the radius of a capsule
     float left = 0.0F;
     float up = 0.0F;
     float thickness = 0.0F;  ///< [m]
+};
+
+/// A droplet in single precision, in its frame.
+struct WaterRaster::Body {
+    Vec2f along;
+    float half = 0.0F;    ///< half the length of its axis [m]
+    float wide = 0.0F;    ///< radius of its outline's ends [m]
+    float square = 0.0F;  ///< of its radius [m²]
+    float centre = 0.0F;  ///< height of its axis [m]
+    const BodyRelief* relief = nullptr;
+
+    /// Where its outline, or a box around a relief, begins and ends on a line across the glass; begins after its end if
+    /// it does not meet it.
+    [[nodiscard]] std::pair<float, float> widthAt(float y, float reach) const
+    {
+        if (relief != nullptr) {
+            return {-reach, reach};
+        }
+        std::pair<float, float> ends{reach, -reach};
+        const auto take = [&](float x) { ends = {std::min(ends.first, x), std::max(ends.second, x)}; };
+        for (const float end : {-half, half}) {
+            const float off = y - end * along.y;
+            if (std::abs(off) < wide) {
+                const float chord = std::sqrt(wide * wide - off * off);
+                take(end * along.x - chord);
+                take(end * along.x + chord);
+            }
+        }
+        // On its straight flanks.
+        for (const float side : {-wide, wide}) {
+            const float place = (y - side * along.x) / along.y;
+            if (std::abs(place) < half) {
+                take(place * along.x - side * along.y);
+            }
+        }
+        return ends;
+    }
+
+    void sample(float x, float y, Samples& sum) const
+    {
+        const float a = along.x * x + along.y * y;
+        const float b = along.x * y - along.y * x;
+        if (relief != nullptr) {
+            if (relief->inside({a, b}) > 0.0F) {
+                const BodyRelief::Point point = relief->at({a, b});
+                ++sum.count;
+                sum.ahead += point.normal.x;
+                sum.left += point.normal.y;
+                sum.up += point.normal.z;
+                sum.thickness += point.height;
+            }
+            return;
+        }
+        const float end = a - std::clamp(a, -half, half);
+        const float up = std::sqrt(std::max(square - end * end - b * b, 0.0F));
+        ++sum.count;
+        sum.ahead += end;
+        sum.left += b;
+        sum.up += up;
+        // Where the droplet overhangs its contact, there is air below it.
+        sum.thickness += std::min(up + centre, 2.0F * up);
+    }
 };
 
 WaterRaster::WaterRaster(const Glass& glass, int width)
@@ -77,53 +150,6 @@ WaterRaster::WaterRaster(const Glass& glass, int width)
       top_(glass.height()),
       down_(top_ / height_)
 {
-}
-
-WaterRaster::Samples WaterRaster::sampled(const WaterDrop& drop, std::array<int, 2> pixel, int across) const
-{
-    const Vec2 along_exact = alongOf(drop);
-    const auto f = [](double v) { return static_cast<float>(v); };
-    const Vec2f along{f(along_exact.x), f(along_exact.y)};
-    const float wide2 = f(drop.shape.silhouette() * drop.shape.silhouette());
-    const float r2 = f(drop.shape.radius * drop.shape.radius);
-    const float half = f(drop.shape.half_length);
-    const float centre = f(drop.shape.centre_height);
-    const float step_x = f(pixel_ / across);
-    const float step_y = f(down_ / across);
-    const float x0 = f(pixel[0] * pixel_ - drop.position.x) + 0.5F * step_x;
-    const float y0 = f(top_ - pixel[1] * down_ - drop.position.y) - 0.5F * step_y;
-    Samples sum;
-    for (int j = 0; j < across; ++j) {
-        const float y = y0 - static_cast<float>(j) * step_y;
-        for (int i = 0; i < across; ++i) {
-            const float x = x0 + static_cast<float>(i) * step_x;
-            const float a = along.x * x + along.y * y;
-            const float b = along.x * y - along.y * x;
-            if (drop.relief) {
-                if (drop.relief->inside({a, b}) > 0.0F) {
-                    const BodyRelief::Point point = drop.relief->at({a, b});
-                    ++sum.count;
-                    sum.ahead += point.normal.x;
-                    sum.left += point.normal.y;
-                    sum.up += point.normal.z;
-                    sum.thickness += point.height;
-                }
-                continue;
-            }
-            const float end = a - std::clamp(a, -half, half);
-            const float far2 = end * end + b * b;
-            if (far2 < wide2) {
-                const float up = std::sqrt(std::max(r2 - far2, 0.0F));
-                ++sum.count;
-                sum.ahead += end;
-                sum.left += b;
-                sum.up += up;
-                // Where the droplet overhangs its contact, there is air below it.
-                sum.thickness += std::min(up + centre, 2.0F * up);
-            }
-        }
-    }
-    return sum;
 }
 
 void WaterRaster::draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) const
@@ -137,38 +163,62 @@ void WaterRaster::draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) c
     const int right = std::min(limited((drop.position.x + reach.x) / pixel_, width_), width_ - 1);
     const int first = std::max(limited((top_ - drop.position.y - reach.y) / down_, height_), 0);
     const int last = std::min(limited((top_ - drop.position.y + reach.y) / down_, height_), height_ - 1);
+    if (right < left || last < first) {
+        return;
+    }
+    const auto f = [](double v) { return static_cast<float>(v); };
+    const RunningShape& shape = drop.shape;
+    const Body body{{f(along.x), f(along.y)},       f(shape.half_length),   f(shape.silhouette()),
+                    f(shape.radius * shape.radius), f(shape.centre_height), drop.relief.get()};
     const int across = static_cast<int>(std::max(std::ceil(3.5 * std::max(pixel_, down_) / halfWidthOf(drop)), 2.0));
+    const float step_x = f(pixel_ / across);
+    const float step_y = f(down_ / across);
+    const float x0 = f(left * pixel_ - drop.position.x) + 0.5F * step_x;
+    const float y0 = f(top_ - first * down_ - drop.position.y) - 0.5F * step_y;
+    const int columns = right - left + 1;
+    const int rows = last - first + 1;
+    std::vector<Samples> sums(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+    for (int j = 0; j < rows * across; ++j) {
+        const float y = y0 - static_cast<float>(j) * step_y;
+        const auto [begin_x, end_x] = body.widthAt(y, f(reach.x));
+        int i = std::max(static_cast<int>(std::ceil((begin_x - x0) / step_x)), 0);
+        const int end = std::min(static_cast<int>(std::floor((end_x - x0) / step_x)), columns * across - 1);
+        while (i <= end) {
+            const int column = i / across;
+            Samples& sum = sums[static_cast<std::size_t>(j / across * columns + column)];
+            for (const int until = std::min(end, (column + 1) * across - 1); i <= until; ++i) {
+                body.sample(x0 + static_cast<float>(i) * step_x, y, sum);
+            }
+        }
+    }
+
     const double place = 1.0 / (static_cast<double>(across) * across);
-    const double unit = drop.relief ? place : place / drop.shape.radius;
-    const std::size_t begin = stamps.size();
-    std::vector<double> thickness;
-    double sum = 0.0;
-    for (int row = first; row <= last; ++row) {
-        for (int column = left; column <= right; ++column) {
-            const Samples samples = sampled(drop, {column, row}, across);
-            if (samples.count == 0) {
+    const double unit = drop.relief ? place : place / shape.radius;
+    double total = 0.0;
+    for (const Samples& sum : sums) {
+        total += static_cast<double>(sum.thickness);
+    }
+    const double scale = total > 0.0 ? drop.volume / (pixel_ * down_ * total * WaterPixel::kThickness) : 0.0;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            const Samples& sum = sums[static_cast<std::size_t>(row * columns + column)];
+            if (sum.count == 0) {
                 continue;
             }
             WaterStamp& stamp = stamps.emplace_back();
-            stamp.pixel = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(width_) +
-                          static_cast<std::uint32_t>(column);
-            const auto ahead = unit * static_cast<double>(samples.ahead);
-            const auto aside = unit * static_cast<double>(samples.left);
-            const double cover = samples.count * place;
+            stamp.pixel = static_cast<std::uint32_t>((first + row) * width_ + left + column);
+            const double ahead = unit * static_cast<double>(sum.ahead);
+            const double aside = unit * static_cast<double>(sum.left);
+            const double cover = sum.count * place;
+            stamp.water.thickness = rounded<std::int64_t>(scale * static_cast<double>(sum.thickness));
             stamp.water.cover = share(cover);
             stamp.water.slope = {share(along.x * ahead - along.y * aside), share(along.y * ahead + along.x * aside)};
-            stamp.water.up = share(unit * static_cast<double>(samples.up));
+            stamp.water.up = share(unit * static_cast<double>(sum.up));
             if (drop.may_run) {
-                stamp.water.runs = stamp.water.cover;
-                stamp.water.velocity = {share(cover * drop.velocity.x), share(cover * drop.velocity.y)};
+                stamp.motion.cover = stamp.water.cover;
+                stamp.motion.velocity = {share(cover * drop.velocity.x), share(cover * drop.velocity.y)};
             }
-            thickness.push_back(static_cast<double>(samples.thickness));
-            sum += thickness.back();
         }
-    }
-    const double scale = sum > 0.0 ? drop.volume / (pixel_ * down_ * sum * WaterPixel::kThickness) : 0.0;
-    for (std::size_t k = 0; k < thickness.size(); ++k) {
-        stamps[begin + k].water.thickness = std::llround(scale * thickness[k]);
     }
 }
 

@@ -27,15 +27,12 @@ struct WaterDrop {
     std::shared_ptr<const BodyRelief> relief = {};  ///< in place of the shape
 };
 
-/// Sums over a pixel.
+/// Sums over a pixel, weighted by shares of it.
 struct WaterPixel {
-    std::int64_t thickness = 0;  ///< in 1e-15 m
-    /// Weighted by their shares of the pixel, in 2^-18 of one, and of 1 m/s.
-    std::int32_t cover = 0;
+    std::int64_t thickness = 0;              ///< in 1e-15 m
+    std::int32_t cover = 0;                  ///< in 2^-18 of one, as all that follow
     std::array<std::int32_t, 2> slope = {};  ///< components of the outward unit normal along the glass
     std::int32_t up = 0;                     ///< component of the normal out of the glass
-    std::int32_t runs = 0;                   ///< cover of running droplets
-    std::array<std::int32_t, 2> velocity = {};
 
     static constexpr double kThickness = 1e-15;      ///< [m]
     static constexpr double kShare = 1.0 / 262'144;  ///< of one
@@ -46,10 +43,19 @@ struct WaterPixel {
     [[nodiscard]] Vec3f normal() const;
 };
 
+/// The same of running droplets alone.
+struct WaterMotion {
+    std::int32_t cover = 0;
+    std::array<std::int32_t, 2> velocity = {};  ///< in 2^-18 m/s
+
+    void add(const WaterMotion& other);
+};
+
 /// Water of one droplet in a pixel.
 struct WaterStamp {
     std::uint32_t pixel = 0;  ///< row by row from the upper left
     WaterPixel water;
+    WaterMotion motion;
 };
 
 /// Nearly square pixels of a glass, upper edge up.
@@ -67,7 +73,7 @@ public:
 
 private:
     struct Samples;
-    [[nodiscard]] Samples sampled(const WaterDrop& drop, std::array<int, 2> pixel, int across) const;
+    struct Body;
 
     int width_;
     double pixel_;  ///< width of a pixel [m]

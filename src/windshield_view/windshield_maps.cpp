@@ -20,12 +20,20 @@ void WindshieldMapOptions::validate() const
 }
 
 struct WindshieldMaps::Content {
+    /// Running droplet as it is drawn.
+    struct Drawn {
+        RunningDroplet droplet;
+        std::size_t begin = 0;  ///< of its water
+        std::size_t count = 0;
+    };
+
     WaterRaster raster;
     ShapeOptions shape;
-    std::vector<WaterPixel> sums = {};         ///< of every pixel
-    StillCells still = {};                     ///< as drawn
-    std::vector<RunningDroplet> running = {};  ///< as drawn
-    std::vector<std::uint32_t> changed = {};   ///< pixels since the last update
+    std::vector<WaterPixel> sums = {};  ///< of every pixel
+    StillCells still = {};              ///< as drawn
+    std::vector<Drawn> running = {};
+    std::vector<WaterStamp> running_water = {};  ///< of all running droplets
+    std::vector<std::uint32_t> changed = {};     ///< pixels since the last update
     std::vector<std::uint8_t> is_changed = {};
     std::vector<std::uint8_t> is_stale = {};  ///< for every tile
     std::vector<MapTile> tiles = {};
@@ -33,11 +41,9 @@ struct WindshieldMaps::Content {
 
     [[nodiscard]] std::size_t columns() const { return static_cast<std::size_t>((raster.width() + kTile - 1) / kTile); }
 
-    void draw(const WaterDrop& drop, int sign)
+    void add(std::span<const WaterStamp> some, int sign)
     {
-        stamps.clear();
-        raster.draw(drop, stamps);
-        for (const WaterStamp& stamp : stamps) {
+        for (const WaterStamp& stamp : some) {
             sums[stamp.pixel].add(stamp.water, sign);
             if (is_changed[stamp.pixel] == 0) {
                 is_changed[stamp.pixel] = 1;
@@ -48,14 +54,9 @@ struct WindshieldMaps::Content {
 
     void draw(const StillDroplet& droplet, int sign)
     {
-        draw({droplet.position, {}, droplet.volume, runningShape(droplet.volume, 0.0, shape), false}, sign);
-    }
-
-    void draw(const RunningDroplet& droplet, int sign)
-    {
-        draw({droplet.position, droplet.velocity, droplet.volume,
-              runningShape(droplet.volume, length(droplet.velocity), shape), true},
-             sign);
+        stamps.clear();
+        raster.draw({droplet.position, {}, droplet.volume, runningShape(droplet.volume, 0.0, shape), false}, stamps);
+        add(stamps, sign);
     }
 
     /// Draws what one span of droplets has and the other has not.
@@ -94,30 +95,45 @@ struct WindshieldMaps::Content {
         }
     }
 
-    /// Both lists are in the order of ids.
+    /// Both lists are in the order of ids. Most droplets that run have changed; what they were is kept.
     void update(const std::vector<RunningDroplet>& now)
     {
-        const auto looks_alike = [](const RunningDroplet& a, const RunningDroplet& b) {
-            return a.position == b.position && a.velocity == b.velocity && a.volume == b.volume;
-        };
+        std::vector<Drawn> drawn;
+        drawn.reserve(now.size());
+        std::vector<WaterStamp> water;
+        water.reserve(running_water.size());
+        const auto stamps_of = [&](const Drawn& of) { return std::span(running_water).subspan(of.begin, of.count); };
         auto old = running.cbegin();
         for (const RunningDroplet& droplet : now) {
-            for (; old != running.cend() && old->id < droplet.id; ++old) {
-                draw(*old, -1);
+            for (; old != running.cend() && old->droplet.id < droplet.id; ++old) {
+                add(stamps_of(*old), -1);
             }
-            const bool was_there = old != running.cend() && old->id == droplet.id;
-            if (!was_there || !looks_alike(*old, droplet)) {
+            const std::size_t begin = water.size();
+            const bool was_there = old != running.cend() && old->droplet.id == droplet.id;
+            if (was_there && looksAs(old->droplet, droplet)) {
+                const auto kept = stamps_of(*old);
+                water.insert(water.end(), kept.begin(), kept.end());
+            } else {
                 if (was_there) {
-                    draw(*old, -1);
+                    add(stamps_of(*old), -1);
                 }
-                draw(droplet, 1);
+                const RunningShape shaped = runningShape(droplet.volume, length(droplet.velocity), shape);
+                raster.draw({droplet.position, droplet.velocity, droplet.volume, shaped, true}, water);
+                add(std::span(water).subspan(begin), 1);
             }
+            drawn.push_back({droplet, begin, water.size() - begin});
             old += was_there ? 1 : 0;
         }
         for (; old != running.cend(); ++old) {
-            draw(*old, -1);
+            add(stamps_of(*old), -1);
         }
-        running = now;
+        running = std::move(drawn);
+        running_water = std::move(water);
+    }
+
+    static bool looksAs(const RunningDroplet& a, const RunningDroplet& b)
+    {
+        return a.position == b.position && a.velocity == b.velocity && a.volume == b.volume;
     }
 
     void write(std::span<std::uint16_t> pixels)
