@@ -141,7 +141,7 @@ void declare(CommandLine& line, FlowOptions& options)
              into(options.friction_map));
     line.addList(kMotion, "--ground", "NAME:VALUES",
                  "Properties of a material of the object: roughness, contact-angle, and factors on friction and "
-                 "hysteresis, such as Glass:contact-angle=30deg,roughness=0.1mm,hysteresis=0.5");
+                 "hysteresis, such as Glass:contact-angle=30deg,hysteresis=0.5");
     line.add(kMotion, "--adhesion", "P", "Pressure in Pa that holds droplets to the surface [by surface tension]",
              within(0.0, 1e12));
     line.add(kMotion, "--gravity-direction", "X,Y,Z", "Direction of gravity [0,-1,0]");
@@ -305,7 +305,7 @@ void readSources(const CommandLine& line, FlowOptions& options)
 /// Reads a material's properties, NAME:roughness=L,contact-angle=A,friction=F,hysteresis=F.
 void readMaterial(const Given& given, FlowOptions& options)
 {
-    constexpr const char* kAllowed = "a name and values such as Glass:contact-angle=30deg,roughness=0.1mm,hysteresis=0.5";
+    constexpr const char* kAllowed = "a name and values such as Glass:contact-angle=30deg,hysteresis=0.5";
     const std::size_t colon = given.text.rfind(':');
     if (colon == std::string::npos || colon == 0) {
         refuse(given, kAllowed);

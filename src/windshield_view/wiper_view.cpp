@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "windshield_view/hashed_number.h"
 
@@ -23,14 +24,20 @@ struct Field {
     float by_v = 0.0F;
 };
 
-Field fieldAt(float u, float v, std::uint32_t seed)
+float numberAt(std::int32_t column, std::int32_t row, std::uint32_t seed)
+{
+    return hashedNumber(static_cast<std::uint32_t>(column) * 0x9e3779b9U +
+                        static_cast<std::uint32_t>(row) * 0x85ebca6bU + seed * 0xc2b2ae35U);
+}
+
+/// @param number  random numbers of (column, row)
+template <typename Number>
+Field fieldFrom(float u, float v, const Number& number)
 {
     const float column = std::floor(u);
     const float row = std::floor(v);
     const auto corner = [&](float i, float j) {
-        const auto a = static_cast<std::uint32_t>(static_cast<std::int32_t>(column + i));
-        const auto b = static_cast<std::uint32_t>(static_cast<std::int32_t>(row + j));
-        return hashedNumber(a * 0x9e3779b9U + b * 0x85ebca6bU + seed * 0xc2b2ae35U);
+        return number(static_cast<std::int32_t>(column + i), static_cast<std::int32_t>(row + j));
     };
     const float x = u - column;
     const float y = v - row;
@@ -44,6 +51,18 @@ Field fieldAt(float u, float v, std::uint32_t seed)
     return {a + sx * (b - a) + sy * (c - a) + sx * sy * twist, 6.0F * x * (1.0F - x) * (b - a + sy * twist),
             6.0F * y * (1.0F - y) * (c - a + sx * twist)};
 }
+
+Field fieldAt(float u, float v, std::uint32_t seed)
+{
+    return fieldFrom(u, v, [&](std::int32_t i, std::int32_t j) { return numberAt(i, j, seed); });
+}
+
+// Streaks of the film along the blade's motion, thick and thin.
+constexpr float kLong = 0.045F;    // [m]
+constexpr float kWide = 0.0042F;   // [m]
+constexpr float kThinLong = 2.1F;  // times as many along
+constexpr float kThinWide = 2.7F;
+constexpr std::uint32_t kThinSeed = 77;
 
 Vec2f toFloats2(Vec2 v)
 {
@@ -88,6 +107,36 @@ WaterMet beadAt(float across, float width, Vec2f direction, float pixel)
 
 }  // namespace
 
+WiperView::Lattice::Lattice(const Wiper& wiper, Vec2f per_metre, std::uint32_t seed)
+{
+    const auto round = static_cast<float>(std::numbers::pi * wiper.outer);
+    first_column_ = static_cast<std::int32_t>(std::floor(-round * per_metre.x)) - 1;
+    columns_ = static_cast<std::int32_t>(std::ceil(round * per_metre.x)) + 2 - first_column_;
+    first_row_ = static_cast<std::int32_t>(std::floor(static_cast<float>(wiper.inner) * per_metre.y)) - 1;
+    const std::int32_t end = static_cast<std::int32_t>(std::ceil(static_cast<float>(wiper.outer) * per_metre.y)) + 2;
+    numbers_.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(end - first_row_));
+    for (std::int32_t row = first_row_; row < end; ++row) {
+        for (std::int32_t column = first_column_; column < first_column_ + columns_; ++column) {
+            numbers_.push_back(numberAt(column, row, seed));
+        }
+    }
+}
+
+std::vector<WiperView::FilmStreaks> WiperView::streaksOf(const WiperState& one, const std::vector<FilmStreaks>& before)
+{
+    std::vector<FilmStreaks> streaks;
+    for (const std::uint32_t seed : {2 * one.stroke - 1, 2 * one.stroke, 2 * one.stroke + 1}) {
+        const auto known =
+            std::find_if(before.begin(), before.end(), [&](const FilmStreaks& of) { return of.seed == seed; });
+        const Vec2f thick{1.0F / kLong, 1.0F / kWide};
+        const Vec2f thin{kThinLong / kLong, kThinWide / kWide};
+        streaks.push_back(known != before.end()
+                              ? *known
+                              : FilmStreaks{seed, {one.wiper, thick, seed}, {one.wiper, thin, seed + kThinSeed}});
+    }
+    return streaks;
+}
+
 WiperView::Blade WiperView::bladeAt(const Wiper& wiper, double time)
 {
     const double angle = wiper.angleAt(time);
@@ -111,7 +160,7 @@ void WiperView::update(double time)
     if (options.wipers.empty()) {
         return;
     }
-    states_.clear();
+    const std::vector<WiperState> before = std::exchange(states_, {});
     moments_ = 1;
     const Vec2 middle{0.5 * scene_.glass.width(), 0.5 * scene_.glass.height()};
     for (const Wiper& wiper : options.wipers) {
@@ -123,13 +172,15 @@ void WiperView::update(double time)
         const double since = time - wiper.start;
         const double strokes = std::floor(since / wiper.period);
         WiperState one{
-            wiper, since - wiper.period * strokes, since > 0.0 ? static_cast<std::uint32_t>(strokes) : 0U, {}};
+            wiper, since - wiper.period * strokes, since > 0.0 ? static_cast<std::uint32_t>(strokes) : 0U, {}, {}};
         if (since <= 0.0) {
             one.since = -1.0;
         }
         for (int k = 0; k < moments_; ++k) {
             one.blades.push_back(bladeAt(wiper, time + scene_.timeOf(k, moments_)));
         }
+        const std::size_t number = states_.size();
+        one.streaks = streaksOf(one, number < before.size() ? before[number].streaks : std::vector<FilmStreaks>());
         states_.push_back(std::move(one));
     }
     // Tiles with a part within reach of a blade.
@@ -189,18 +240,20 @@ WaterMet WiperView::film(const WiperState& one, Vec2f from, float pixel) const
     if (age >= kFilmLasts) {
         return {};
     }
-    // Streaks along the blade's motion, thick and thin.
-    constexpr float kLong = 0.045F;
-    constexpr float kWide = 0.0042F;
+    const auto streaks =
+        std::find_if(one.streaks.begin(), one.streaks.end(), [&](const FilmStreaks& of) { return of.seed == seed; });
     const float along = angle * static_cast<float>(wiper.outer);
-    const Field thick = fieldAt(along / kLong, radius / kWide, seed);
-    const Field thin = fieldAt(2.1F * along / kLong, 2.7F * radius / kWide, seed + 77U);
+    const auto field = [&](float u, float v, const Lattice& lattice) {
+        return fieldFrom(u, v, [&](std::int32_t i, std::int32_t j) { return lattice.at(i, j); });
+    };
+    const Field thick = field(along / kLong, radius / kWide, streaks->thick);
+    const Field thin = field(kThinLong * along / kLong, kThinWide * radius / kWide, streaks->thin);
     const float level = 0.62F * thick.value + 0.38F * thin.value - (0.12F + 0.88F * std::sqrt(age / kFilmLasts));
     if (level <= 0.0F) {
         return {};
     }
-    const float along_slope = (0.62F * thick.by_u + 0.38F * 2.1F * thin.by_u) / kLong;
-    const float across_slope = (0.62F * thick.by_v + 0.38F * 2.7F * thin.by_v) / kWide;
+    const float along_slope = (0.62F * thick.by_u + 0.38F * kThinLong * thin.by_u) / kLong;
+    const float across_slope = (0.62F * thick.by_v + 0.38F * kThinWide * thin.by_v) / kWide;
     // The rims are steeper, as they recede.
     constexpr float kThick = 4.5e-5F;  // [m]
     const float scale = kThick * (0.35F + 0.65F * std::exp(-age / 0.3F)) * (1.0F + 1.2F * std::exp(-level / 0.05F));

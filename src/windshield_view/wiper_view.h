@@ -56,14 +56,40 @@ private:
         float forward = 0.0F;  ///< 1: its angle grows; −1: it shrinks; 0: at rest
         float pushed = 0.0F;   ///< amount of pushed water, 0 … 1
     };
+    /// Random numbers on a lattice over a wiper's field, along its motion and its blade.
+    class Lattice {
+    public:
+        /// @param per_metre  columns and rows
+        Lattice(const Wiper& wiper, Vec2f per_metre, std::uint32_t seed);
+        [[nodiscard]] float at(std::int32_t column, std::int32_t row) const
+        {
+            return numbers_[static_cast<std::size_t>((row - first_row_) * columns_ + column - first_column_)];
+        }
+
+    private:
+        std::int32_t first_column_;
+        std::int32_t columns_;
+        std::int32_t first_row_;
+        std::vector<float> numbers_;
+    };
+    /// Streaks of the film of one way of a blade, there or back.
+    struct FilmStreaks {
+        std::uint32_t seed = 0;
+        Lattice thick;
+        Lattice thin;
+    };
     /// Wiper at the present time.
     struct WiperState {
         Wiper wiper;
-        double since = 0.0;         ///< time since the begin of its period [s]
-        std::uint32_t stroke = 0;   ///< number of the stroke
-        std::vector<Blade> blades;  ///< blade at each moment
+        double since = 0.0;                ///< time since the begin of its period [s]
+        std::uint32_t stroke = 0;          ///< number of the stroke
+        std::vector<Blade> blades;         ///< blade at each moment
+        std::vector<FilmStreaks> streaks;  ///< of the last way of the stroke before, and of both ways of this one
     };
 
+    /// @param before  those of the last time
+    [[nodiscard]] static std::vector<FilmStreaks> streaksOf(const WiperState& one,
+                                                            const std::vector<FilmStreaks>& before);
     [[nodiscard]] static Blade bladeAt(const Wiper& wiper, double time);
     [[nodiscard]] WaterMet film(const WiperState& one, Vec2f from, float pixel) const;
     [[nodiscard]] WaterMet wedge(const WiperState& one, Vec2f from, float pixel) const;
