@@ -189,9 +189,10 @@ void declare(CommandLine& line, FlowOptions& options)
              into(options.full_thickness, kMapThickness));
     line.add(kOut, "--map-age", "DURATION", "Greatest age in the textures, white in a PNG",
              into(options.full_age, kTime));
-    line.add(kOut, "--droplets", "FILE",
-             "Write a table of all droplets in every frame, .csv or .json, or a PLY of points for each, such as "
-             "points/%04d.ply");
+    line.add(
+        kOut, "--droplets", "FILE",
+        "Write a table of all droplets in every frame, .csv or .json, points over time with droplets as instances, "
+        ".usda or .usdz, or a PLY of points for each frame, such as points/%04d.ply");
     line.add(kOut, "--json", "FILE", "Write a report, with the liquid's balance every second; - is standard output",
              into(options.json));
     constexpr const char* kRun = "Run";
@@ -488,8 +489,14 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     if (line.value("--map-thickness") && options.are_maps_exr) {
         refuse("--map-thickness needs --maps with .png: .exr has metres");
     }
-    options.droplets = ending_in("--droplets", {".csv", ".json", ".ply"},
-                                 "a file that ends in .csv or .json, or files such as points/%04d.ply");
+    options.droplets = ending_in("--droplets", {".csv", ".json", ".usda", ".usdz", ".ply"},
+                                 "a file that ends in .csv, .json, .usda or .usdz, or files such as points/%04d.ply");
+    if (options.droplets && (options.droplets->ends_with(".usda") || options.droplets->ends_with(".usdz"))) {
+        options.usd_points = droplet::formatNamed(std::filesystem::path(*options.droplets).extension().string());
+        if (NumberedPath::of(*options.droplets, "--droplets")) {
+            refuse(*line.value("--droplets"), "one file for all frames, such as points.usda");
+        }
+    }
     if (options.droplets && options.droplets->ends_with(".ply")) {
         options.point_files = NumberedPath::of(*options.droplets, "--droplets");
         if (!options.point_files) {

@@ -66,8 +66,9 @@ struct FlowOptions {
     double full_thickness = 5e-3;  ///< of white in PNG maps [m]
     double full_age = 10.0;        ///< of white in PNG maps [s]
     std::optional<std::string> streaks;
-    std::optional<NumberedPath> streak_files;  ///< set if every frame gets a file of streaks
-    std::optional<NumberedPath> point_files;   ///< set if `droplets` is a PLY for every frame
+    std::optional<NumberedPath> streak_files;   ///< set if every frame gets a file of streaks
+    std::optional<NumberedPath> point_files;    ///< set if `droplets` is a PLY for every frame
+    std::optional<droplet::Format> usd_points;  ///< set if `droplets` is points over time
     std::optional<std::string> droplets;
     std::optional<std::string> json;
     std::optional<double> duration;  ///< [s]; empty: the preset's, or 5 s

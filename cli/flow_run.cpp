@@ -113,6 +113,7 @@ private:
     droplet::Picture picture_;  ///< of the last frame
     Moment shown_;              ///< of the preview
     std::optional<droplet::FlowTable> table_;
+    std::vector<std::vector<droplet::FlowPoint>> points_;  ///< of every frame, if one file has them all
     droplet::StreakRibbons ribbons_;
     droplet::Surface streaks_;  ///< at the end
     droplet::FlowState state_;
@@ -241,6 +242,13 @@ droplet::FlowReport FlowRun::execute()
             files.push_back(std::move(file));
         }
     }
+    if (options_.usd_points) {
+        files.push_back({*options_.droplets, [&](std::ostream& out) {
+                             const droplet::UsdPointsOptions usd{options_.frames_per_second, material_,
+                                                                 droplet::length(plan_.parameters.gravity)};
+                             droplet::writePointsAsUsd(points_, bodies_, usd, out, *options_.usd_points);
+                         }});
+    }
     if (options_.json) {
         files.push_back({*options_.json, [&](std::ostream& out) {
                              finish();
@@ -248,7 +256,8 @@ droplet::FlowReport FlowRun::execute()
                          }});
     }
     film_.write(
-        options_.point_files ? std::nullopt : options_.droplets, [&](std::ostream* table) { run(table); }, files);
+        options_.point_files || options_.usd_points ? std::nullopt : options_.droplets,
+        [&](std::ostream* table) { run(table); }, files);
     finish();
     return std::move(report_);
 }
@@ -288,6 +297,9 @@ std::function<void()> FlowRun::frame(std::size_t number)
                   std::exchange(tracks_, {})};
     if (table_) {
         table_->add(number, moment.time, pointsOf(moment));
+    }
+    if (options_.usd_points) {
+        points_.push_back(pointsOf(moment));
     }
     if (animation_) {
         animation_->add(moment.time, moment.samples);

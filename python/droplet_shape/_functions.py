@@ -1164,8 +1164,8 @@ def flow(
       map_width: Width and height of the textures in pixels (default: 1024)
       map_thickness [m]: Thickness of the water that is white in a PNG (default: 5mm)
       map_age [s]: Greatest age in the textures, white in a PNG (default: 10s)
-      droplets: Write a table of all droplets in every frame, .csv or .json, or a PLY of points for each, such as
-        points/%04d.ply
+      droplets: Write a table of all droplets in every frame, .csv or .json, points over time with droplets as
+        instances, .usda or .usdz, or a PLY of points for each frame, such as points/%04d.ply
 
     Picture:
       preview: Write a rendered picture of the last frame beside meshes, as PNG

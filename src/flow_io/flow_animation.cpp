@@ -237,14 +237,8 @@ std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) 
         throw Error(ErrorCode::InvalidArgument, "an animation of droplets must have at least one frame");
     }
     constexpr double kUsualVolume = 20e-9;
-    constexpr double kSlope = 0.7071067811865476;
-    const DropletBodies& bodies = content.bodies;
-    const double unit = content.unit_volume;
-    BodyConditions conditions;
-    conditions.volume =
+    const double volume =
         content.volumes > 0 ? std::exp(content.logarithms / static_cast<double>(content.volumes)) : kUsualVolume;
-    const double gravity = length(content.options.gravity);
-    conditions.gravity = {0.0, 0.0, -gravity};
     Scene scene;
     scene.frames_per_second = content.options.frames_per_second;
     CrowdOptions droplets;
@@ -261,17 +255,10 @@ std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) 
     droplets.corner = "corner of the scene";
     droplets.poses = content.poses;
     constexpr std::uint32_t kAround = 16;
-    droplets.resting = unitBody(bodies, conditions, {.around = kAround, .rings = 4}, unit);
-    // A running droplet of usual length stands for all.
-    constexpr double kUsualLength = 1.6;  // over the width
-    constexpr double kFastest = 2.0;      // [m/s]
-    conditions.gravity = kSlope * Vec3{gravity, 0.0, -gravity};
-    conditions.speed = 0.05;
-    for (Vec2 half; conditions.speed < kFastest && half.x <= kUsualLength * half.y; conditions.speed *= 1.25) {
-        half = halfSizes(bodies, conditions);
-    }
-    droplets.running = unitBody(bodies, conditions, {.around = kAround, .rings = 5}, unit);
-    droplets.falling = unitBall({.around = 10, .rings = 6}, unit);
+    UnitDroplets unit = unitDroplets(content.bodies, volume, length(content.options.gravity), kAround);
+    droplets.resting = std::move(unit.resting);
+    droplets.running = std::move(unit.running);
+    droplets.falling = std::move(unit.falling);
     droplets.seating = {[&](const DropletMesh& mesh, const DropletPose& pose) {
                             return seatedBody(content.terrain, mesh, kAround, pose);
                         },

@@ -318,4 +318,25 @@ DropletMesh unitBall(const BodyDetail& detail, double volume)
     return mesh;
 }
 
+UnitDroplets unitDroplets(const DropletBodies& bodies, double volume, double gravity, std::uint32_t around)
+{
+    const double unit = unitVolume(bodies);
+    BodyConditions conditions;
+    conditions.volume = volume;
+    conditions.gravity = {0.0, 0.0, -gravity};
+    UnitDroplets droplets;
+    droplets.resting = unitBody(bodies, conditions, {.around = around, .rings = around / 4}, unit);
+    constexpr double kSlope = 0.7071067811865476;
+    constexpr double kUsualLength = 1.6;  // over the width
+    constexpr double kFastest = 2.0;      // [m/s]
+    conditions.gravity = kSlope * Vec3{gravity, 0.0, -gravity};
+    conditions.speed = 0.05;
+    for (Vec2 half; conditions.speed < kFastest && half.x <= kUsualLength * half.y; conditions.speed *= 1.25) {
+        half = halfSizes(bodies, conditions);
+    }
+    droplets.running = unitBody(bodies, conditions, {.around = around, .rings = around * 5 / 16}, unit);
+    droplets.falling = unitBall({.around = around * 5 / 8, .rings = around * 3 / 8}, unit);
+    return droplets;
+}
+
 }  // namespace droplet

@@ -53,4 +53,16 @@ double rimGap(const FlowTerrain& terrain, const std::vector<Vec3>& vertices, std
 /// Ball.
 DropletMesh unitBall(const BodyDetail& detail, double volume);
 
+/// Meshes that stand for all droplets, scaled. Each has the volume unitVolume().
+struct UnitDroplets {
+    DropletMesh resting;  ///< unitBody() on level ground
+    DropletMesh running;  ///< unitBody() of usual length; +x is ahead
+    DropletMesh falling;  ///< ball
+};
+
+/// @param volume   usual one of the droplets [m³]
+/// @param gravity  [m/s²]
+/// @param around   vertices around those on the ground, a multiple of 16
+UnitDroplets unitDroplets(const DropletBodies& bodies, double volume, double gravity, std::uint32_t around);
+
 }  // namespace droplet

@@ -116,6 +116,26 @@ struct SceneInstances {
     std::vector<Float3> scales;
 };
 
+/// Copies of the meshes of ScenePoints in a frame. All arrays have one length.
+struct ScenePointFrame {
+    std::vector<std::int64_t> ids;           ///< each once
+    std::vector<std::uint32_t> meshes;       ///< indices of ScenePoints::meshes
+    std::vector<Float3> translations;        ///< [m]
+    std::vector<Float3> velocities;          ///< [m/s]
+    std::vector<Float4> rotations;           ///< quaternions, x first, w last
+    std::vector<Float3> angular_velocities;  ///< about the axes of the scene [degrees/s]
+    std::vector<Float3> scales;
+    std::vector<std::vector<float>> values;  ///< one list for each of ScenePoints::values
+};
+
+/// Points that come, move and go, each with a copy of one of a few meshes.
+struct ScenePoints {
+    std::string name;
+    std::vector<std::size_t> meshes;      ///< indices of Scene::meshes, of no node
+    std::vector<std::string> values;      ///< names of the further numbers of a point
+    std::vector<ScenePointFrame> frames;  ///< from time 0 on; at least one
+};
+
 /// What a track changes.
 enum class SceneChange { Translation, Rotation, Scale, Weights };
 
@@ -143,6 +163,7 @@ struct Scene {
     std::vector<std::size_t> roots = {};  ///< nodes without a parent
     std::vector<SceneCrowd> crowds = {};
     std::vector<SceneInstances> instances = {};
+    std::optional<ScenePoints> points = {};  ///< in USD alone
     /// Whether glTF has instances by EXT_mesh_gpu_instancing; otherwise each one is a node.
     bool gpu_instancing = false;
     std::vector<std::size_t> corners = {};  ///< nodes at corners of a box that holds the crowds at all times

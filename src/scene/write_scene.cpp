@@ -16,6 +16,10 @@ std::uint64_t writeScene(const Scene& scene, std::ostream& out, const AnimatedFi
                     std::string("format = ") + name(file.format) + " holds no animations; glb, gltf, usda and usdz do");
     }
     const bool is_usd = file.format == Format::Usda || file.format == Format::Usdz;
+    if (scene.points && !is_usd) {
+        throw Error(ErrorCode::InvalidArgument,
+                    std::string("format = ") + name(file.format) + " holds no points over time; usda and usdz do");
+    }
     if (is_usd && !scene.instances.empty()) {
         Scene spread = scene;
         spread.spreadInstances();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pixar, "OpenUSD": UsdGeomMesh, UsdGeomPrimvar, "UsdPreviewSurface Specification" (2.6), "Usdz File Format
-// Specification" (1.3).
+// Pixar, "OpenUSD": UsdGeomMesh, UsdGeomPointInstancer, UsdGeomPrimvar, "UsdPreviewSurface Specification" (2.6), "Usdz
+// File Format Specification" (1.3).
 #include "scene/write_usd.h"
 
 #include <algorithm>
@@ -116,6 +116,11 @@ void write(ByteStream& bytes, float number)
 }
 
 void write(ByteStream& bytes, std::uint32_t number)
+{
+    bytes.digits(number);
+}
+
+void write(ByteStream& bytes, std::int64_t number)
 {
     bytes.digits(number);
 }
@@ -505,8 +510,9 @@ public:
     {
         bytes_.text(std::string("#usda 1.0\n(\n    defaultPrim = \"droplet\"\n    doc = \"droplet-shape ") + kVersion +
                     "\"\n");
-        if (!scene_.tracks.empty()) {
-            double end = 0.0;
+        const bool is_animated = !scene_.tracks.empty() || scene_.points;
+        if (is_animated) {
+            double end = scene_.points ? static_cast<double>(scene_.points->frames.size() - 1) : 0.0;
             for (const std::vector<float>& times : scene_.times) {
                 end = std::max(end, timeCode(times.back(), scene_.frames_per_second));
             }
@@ -517,7 +523,7 @@ public:
             bytes_.u8('\n');
         }
         bytes_.text("    metersPerUnit = 1\n");
-        if (!scene_.tracks.empty()) {
+        if (is_animated) {
             bytes_.text("    startTimeCode = 0\n    timeCodesPerSecond = ");
             bytes_.digits(scene_.frames_per_second);
             bytes_.u8('\n');
@@ -527,6 +533,9 @@ public:
         const std::vector<std::size_t> shown = shownOf(scene_.roots);
         for (std::size_t i = 0; i < shown.size(); ++i) {
             writeNode(shown[i], root_names_[i], "    ");
+        }
+        if (scene_.points) {
+            writePoints(*scene_.points, root_names_.back());
         }
         for (std::size_t k = 0; k < classes_.size(); ++k) {
             writeClass(k);
@@ -544,12 +553,15 @@ private:
         std::size_t shape = 0;  ///< as in SceneCrowd::shape_of
     };
 
-    /// Names what lies directly below the default prim: nodes, classes, materials. Equal looks share one.
+    /// Names what lies directly below the default prim: nodes, points, classes, materials. Equal looks share one.
     void nameAll()
     {
         std::vector<std::string> names;
         for (const std::size_t node : shownOf(scene_.roots)) {
             names.push_back(scene_.nodes[node].name);
+        }
+        if (scene_.points) {
+            names.push_back(scene_.points->name);
         }
         const std::size_t nodes = names.size();
         for (const Class& one : classes_) {
@@ -670,6 +682,110 @@ private:
         bytes_.text(indent + "}\n");
     }
 
+    /// Writes points as an instancer with the meshes below it, and a sample for every frame. Velocities, not the
+    /// samples around, tell where a point is between frames, since the next frame may have others.
+    void writePoints(const ScenePoints& points, const PrimName& name)
+    {
+        const std::string indent = "        ";
+        Samples frames;
+        for (std::size_t k = 0; k < points.frames.size(); ++k) {
+            frames.codes.push_back(static_cast<double>(k));
+            frames.keys.push_back(k);
+        }
+        const auto samples = [&](const std::string& declaration, const auto& list_of) {
+            bytes_.text(indent + declaration);
+            writeSamples(bytes_, indent, frames, [&](std::size_t key) {
+                const auto& list = list_of(points.frames[key]);
+                writeList(bytes_, list.size(), [&](std::size_t i) { return list[i]; });
+            });
+            bytes_.u8('\n');
+        };
+        beginPrim(bytes_, "    ", "PointInstancer", name.prim, {displayName(name)});
+        samples("vector3f[] angularVelocities", std::mem_fn(&ScenePointFrame::angular_velocities));
+        writeExtent(points, indent);
+        samples("int64[] ids", std::mem_fn(&ScenePointFrame::ids));
+        samples("quath[] orientations", [](const ScenePointFrame& frame) { return orientations(frame.rotations); });
+        samples("point3f[] positions", std::mem_fn(&ScenePointFrame::translations));
+        for (std::size_t v = 0; v < points.values.size(); ++v) {
+            const std::string declaration = "float[] primvars:" + points.values[v];
+            bytes_.text(indent + declaration);
+            bytes_.text(" (\n            interpolation = \"vertex\"\n        )\n");
+            samples(
+                declaration, [v](const ScenePointFrame& frame) -> const auto& { return frame.values[v]; });
+        }
+        samples("int[] protoIndices", std::mem_fn(&ScenePointFrame::meshes));
+        std::vector<std::string> mesh_names;
+        for (const std::size_t mesh : points.meshes) {
+            mesh_names.push_back(scene_.meshes[mesh].name);
+        }
+        const std::vector<PrimName> prims = primNames(mesh_names);
+        bytes_.text(indent + "rel prototypes = [");
+        for (std::size_t i = 0; i < prims.size(); ++i) {
+            bytes_.text(i == 0 ? "<" : ", <");
+            bytes_.text(std::string(kRoot) + name.prim + "/Prototypes/" + prims[i].prim + ">");
+        }
+        bytes_.text("]\n");
+        samples("float3[] scales", std::mem_fn(&ScenePointFrame::scales));
+        samples("vector3f[] velocities", std::mem_fn(&ScenePointFrame::velocities));
+        beginPrim(bytes_, indent, "Scope", "Prototypes", {});
+        for (std::size_t i = 0; i < prims.size(); ++i) {
+            const MeshWriter::Place place{indent + "    ", prims[i], material_paths_};
+            MeshWriter writer(scene_, scene_.meshes[points.meshes[i]], nullptr, bytes_);
+            writer.begin(place);
+            writer.end(place, material_names_);
+        }
+        bytes_.text(indent + "}\n    }\n");
+    }
+
+    /// Quaternions with the real part first. They are of half precision, so more digits would be lost.
+    static std::vector<Float4> orientations(const std::vector<Float4>& rotations)
+    {
+        constexpr float kParts = 1e4F;
+        std::vector<Float4> all;
+        all.reserve(rotations.size());
+        for (const auto& [x, y, z, w] : rotations) {
+            Float4& turn = all.emplace_back(Float4{w, x, y, z});
+            for (float& part : turn) {
+                part = std::round(kParts * part) / kParts + 0.0F;
+            }
+        }
+        return all;
+    }
+
+    /// Writes a box that holds all copies at all times, unless there are none.
+    void writeExtent(const ScenePoints& points, const std::string& indent)
+    {
+        std::vector<float> radii;
+        for (const std::size_t mesh : points.meshes) {
+            float radius = 0.0F;
+            for (const SceneGeometry& geometry : scene_.meshes[mesh].geometries) {
+                for (const Float3& p : geometry.vertices) {
+                    radius = std::max(radius, std::hypot(p[0], p[1], p[2]));
+                }
+            }
+            radii.push_back(radius);
+        }
+        std::array<Float3, 2> box{};
+        bool is_empty = true;
+        for (const ScenePointFrame& frame : points.frames) {
+            for (std::size_t i = 0; i < frame.ids.size(); ++i) {
+                const Float3& scale = frame.scales[i];
+                const float reach = radii[frame.meshes[i]] * std::max({scale[0], scale[1], scale[2]});
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const float at = frame.translations[i][k];
+                    box[0][k] = is_empty ? at - reach : std::min(box[0][k], at - reach);
+                    box[1][k] = is_empty ? at + reach : std::max(box[1][k], at + reach);
+                }
+                is_empty = false;
+            }
+        }
+        if (!is_empty) {
+            bytes_.text(indent + "float3[] extent = ");
+            writeList(bytes_, box.size(), [&](std::size_t i) { return box[i]; });
+            bytes_.u8('\n');
+        }
+    }
+
     /// Blender and Omniverse show attributes of this namespace as a prim's own.
     void writeProperties(const SceneNode& node, const std::string& indent)
     {
@@ -723,7 +839,7 @@ private:
     std::vector<std::vector<const SceneTrack*>> tracks_;  ///< of every node
     std::vector<Class> classes_;
     std::vector<std::optional<std::size_t>> class_of_;  ///< of every node
-    std::vector<PrimName> root_names_;                  ///< of nodes
+    std::vector<PrimName> root_names_;                  ///< of nodes, then of the points
     std::vector<PrimName> class_names_;
     std::vector<PrimName> material_names_;
     std::vector<std::string> material_paths_;

@@ -14,7 +14,8 @@ namespace droplet {
 /// The default prim is `/droplet`. A node is a Mesh, or an Xform with what it carries; looks are materials beside them.
 /// A crowd is a class, of which every copy is an instance with a transform of its own. Tracks are time samples in
 /// frames: of transforms, and of points and normals where weights change. Values that hold until the next key get a
-/// sample just before it, since USD knows one kind of interpolation for all of a stage.
+/// sample just before it, since USD knows one kind of interpolation for all of a stage. Points are a PointInstancer,
+/// with a sample for every frame.
 ///
 /// Guarantees: the same scene gives the same bytes, in any locale; nothing is written if it throws.
 /// @param file   Usda or Usdz, without compression

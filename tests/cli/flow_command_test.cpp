@@ -10,7 +10,9 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -21,6 +23,7 @@
 #include "droplet/units.h"
 #include "support/command.h"
 #include "support/paths.h"
+#include "support/usda.h"
 
 namespace droplet {
 namespace {
@@ -455,6 +458,51 @@ TEST_F(FlowCommand, PointsOfEveryFrameAreThoseOfTheTable)
     EXPECT_EQ(ply.size(), head + 76 * count);
     EXPECT_GT(count, 0U);
     expectRefused({"--drops", "3", "--droplets", path("points.ply")}, 2, "points/%04d.ply");
+}
+
+TEST_F(FlowCommand, PointsOverTimeAreThoseOfTheTable)
+{
+    const auto with = [&](const char* droplets) {
+        return flow("out.glb",
+                    {"--rain", "2mm/h", "--drops", "7", "--time", "0.5s", "--fps", "10", "--droplets", path(droplets)})
+            .exit_code;
+    };
+    ASSERT_EQ(with("rows.csv"), 0);
+    ASSERT_EQ(with("points.usda"), 0);
+    const testing::UsdPrim root = testing::UsdaReader(readFile(path("points.usda"))).read();
+    EXPECT_EQ(root.metadata.at("timeCodesPerSecond"), "10");
+    const testing::UsdPrim& instancer = root.child("droplet").child("droplets");
+    const auto& samples = instancer.properties.at("ids").samples;
+    ASSERT_EQ(samples.size(), 5U);
+    EXPECT_EQ(samples.begin()->first, 0.0) << "frame 1";
+    std::map<double, std::vector<std::vector<double>>> frames;
+    for (const std::vector<double>& row : rows("rows.csv")) {
+        frames[row[0] - 1.0].push_back(row);
+    }
+    for (const auto& [code, text] : samples) {
+        const std::vector<double> ids = testing::numbersIn(text);
+        const auto& table = frames[code];
+        ASSERT_EQ(ids.size(), table.size()) << code;
+        const auto at = [&, time = code](const char* name) {
+            return testing::numbersIn(instancer.properties.at(name).samples.at(time));
+        };
+        const std::vector<double> positions = at("positions");
+        const std::vector<double> velocities = at("velocities");
+        double sum = 0.0;
+        for (std::size_t i = 0; i < ids.size(); ++i) {
+            EXPECT_EQ(ids[i], table[i][2]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                EXPECT_NEAR(positions.at(3 * i + k), table[i][3 + k], 1e-7);
+                EXPECT_NEAR(velocities.at(3 * i + k), table[i][6 + k], 1e-6);
+            }
+            sum += table[i][9];
+        }
+        const std::vector<double> volumes = at("primvars:volume");
+        EXPECT_NEAR(std::accumulate(volumes.begin(), volumes.end(), 0.0) / sum, 1.0, 1e-6);
+    }
+    EXPECT_GT(frames[4.0].size(), frames[0.0].size()) << "it rains";
+    expectRefused({"--drops", "3", "--droplets", path("points/%04d.usda")}, 2, "one file for all frames");
+    expectRefused({"--drops", "3", "--droplets", path("points.abc")}, 2, ".usda or .usdz");
 }
 
 TEST_F(FlowCommand, StreaksOfEveryFrameGrow)

@@ -371,14 +371,6 @@ std::string valueAt(const testing::UsdProperty& property, double code)
     return next == property.samples.begin() ? next->second : std::prev(next)->second;
 }
 
-std::vector<double> numbersIn(std::string list)
-{
-    std::replace_if(
-        list.begin(), list.end(), [](char c) { return std::string("[](),").find(c) != std::string::npos; }, ' ');
-    std::istringstream in(list);
-    return {std::istream_iterator<double>(in), {}};
-}
-
 // The same frames as in glTF, as samples of scale, points and normals. Steps are held to a thousandth of a frame.
 TEST(Animation, HasTimeSamplesInUsd)
 {
@@ -394,7 +386,8 @@ TEST(Animation, HasTimeSamplesInUsd)
         for (const double code : {static_cast<double>(frame), static_cast<double>(frame) + 0.998}) {
             std::size_t shown = 0;
             for (const auto& [name, prim] : droplet.children) {
-                if (prim.type != "Mesh" || numbersIn(valueAt(prim.properties.at("xformOp:scale"), code))[0] == 0.0) {
+                if (prim.type != "Mesh" ||
+                    testing::numbersIn(valueAt(prim.properties.at("xformOp:scale"), code))[0] == 0.0) {
                     continue;
                 }
                 ++shown;
@@ -404,9 +397,10 @@ TEST(Animation, HasTimeSamplesInUsd)
                 }
                 meshes.push_back(name);
                 const Surface& surface = film.frames[frame];
-                const std::vector<double> points = numbersIn(valueAt(prim.properties.at("points"), code));
-                const std::vector<double> normals = numbersIn(valueAt(prim.properties.at("primvars:normals"), code));
-                const std::vector<double> corners = numbersIn(prim.value("faceVertexIndices"));
+                const std::vector<double> points = testing::numbersIn(valueAt(prim.properties.at("points"), code));
+                const std::vector<double> normals =
+                    testing::numbersIn(valueAt(prim.properties.at("primvars:normals"), code));
+                const std::vector<double> corners = testing::numbersIn(prim.value("faceVertexIndices"));
                 ASSERT_EQ(corners.size(), 3 * surface.triangles.size());
                 ASSERT_EQ(normals.size(), 3 * surface.normals.size());
                 for (std::size_t c = 0; c < corners.size(); ++c) {

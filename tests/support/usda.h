@@ -3,8 +3,11 @@
 // Pixar, "OpenUSD": "Crate and text file formats", pxr/usd/sdf/textFileFormat.
 #pragma once
 
+#include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -33,6 +36,16 @@ struct UsdPrim {
     [[nodiscard]] const UsdPrim& child(const std::string& name) const { return children.at(name); }
     [[nodiscard]] const std::string& value(const std::string& name) const { return properties.at(name).value; }
 };
+
+/// Numbers of a value, or of a list or tuples of them.
+inline std::vector<double> numbersIn(std::string list)
+{
+    std::replace_if(
+        list.begin(), list.end(), [](char c) { return std::string_view("[](),").find(c) != std::string_view::npos; },
+        ' ');
+    std::istringstream in(list);
+    return {std::istream_iterator<double>(in), {}};
+}
 
 class UsdaReader {
 public:
