@@ -172,7 +172,7 @@ void WiperView::update(double time)
         const double since = time - wiper.start;
         const double strokes = std::floor(since / wiper.period);
         WiperState one{
-            wiper, since - wiper.period * strokes, since > 0.0 ? static_cast<std::uint32_t>(strokes) : 0U, {}, {}};
+            wiper, since - wiper.period * strokes, since > 0.0 ? static_cast<std::uint32_t>(strokes) : 0U, {}, {}, {}};
         if (since <= 0.0) {
             one.since = -1.0;
         }
@@ -181,6 +181,7 @@ void WiperView::update(double time)
         }
         const std::size_t number = states_.size();
         one.streaks = streaksOf(one, number < before.size() ? before[number].streaks : std::vector<FilmStreaks>());
+        one.wedge = wedgeOf(one);
         states_.push_back(std::move(one));
     }
     // Tiles with a part within reach of a blade.
@@ -265,37 +266,48 @@ WaterMet WiperView::film(const WiperState& one, Vec2f from, float pixel) const
             false};
 }
 
-WaterMet WiperView::wedge(const WiperState& one, Vec2f from, float pixel) const
+WiperView::Wedge WiperView::wedgeOf(const WiperState& one)
 {
     const Wiper& wiper = one.wiper;
-    const float radius = size(from);
-    const auto inner = static_cast<float>(wiper.inner);
-    const auto outer = static_cast<float>(wiper.outer);
-    if (one.since < 0.0 || radius < inner || radius > outer) {
-        return {};
-    }
     // Place of the last turn: at `last`, or back at `first`.
     const bool is_far = one.since >= 0.5 * wiper.stroke && one.since < wiper.stroke;
     const double turned = is_far                      ? 0.5 * wiper.stroke
                           : one.since >= wiper.stroke ? wiper.stroke
                                                       : wiper.stroke - wiper.period;
     const auto age = static_cast<float>(one.since - turned);
-    if (age > kWedgeLasts || (turned < 0.0 && one.stroke == 0)) {
+    if (one.since < 0.0 || age > kWedgeLasts || (turned < 0.0 && one.stroke == 0)) {
         return {};
     }
     const double angle = is_far ? wiper.last : wiper.first;
     const float way = is_far == (wiper.last > wiper.first) ? 1.0F : -1.0F;
-    const Vec2f along{static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
-    const Vec2f ahead{-way * along.y, way * along.x};
-    const float beyond = from.x * ahead.x + from.y * ahead.y - kBladeHalf;
+    return {true,
+            {-way * static_cast<float>(std::sin(angle)), way * static_cast<float>(std::cos(angle))},
+            age / kWedgeLasts,
+            2 * one.stroke + (is_far ? 1U : 0U)};
+}
+
+WaterMet WiperView::wedge(const WiperState& one, Vec2f from, float pixel)
+{
+    constexpr float kWidest = 1.7F * kWidestBead * 1.1F;
+    const Wedge& wedge = one.wedge;
+    const float beyond = from.x * wedge.ahead.x + from.y * wedge.ahead.y - kBladeHalf;
+    if (!wedge.is_there || beyond < -pixel || beyond > kWidest + pixel) {
+        return {};
+    }
+    const float radius = size(from);
+    const auto inner = static_cast<float>(one.wiper.inner);
+    const auto outer = static_cast<float>(one.wiper.outer);
+    if (radius < inner || radius > outer) {
+        return {};
+    }
     // The wedge drains along the blade's line, last at thick places, and is wider further out.
-    const float left = age / kWedgeLasts;
+    const float left = wedge.drained;
     const float place = (radius - inner) / (outer - inner);
-    const Field uneven = fieldAt(radius / 0.018F + 2.0F * left, 0.5F, 2 * one.stroke + (is_far ? 1U : 0U));
+    const Field uneven = fieldAt(radius / 0.018F + 2.0F * left, 0.5F, wedge.seed);
     const float width = 1.7F * kWidestBead * (0.35F + 0.65F * place) *
                         std::max(uneven.value * 0.6F + 0.5F - 1.1F * left, 0.0F) *
                         smoothstep(0.0F, 0.03F, std::min(radius - inner, outer - radius));
-    return beadAt(beyond, width, ahead, pixel);
+    return beadAt(beyond, width, wedge.ahead, pixel);
 }
 
 WaterMet WiperView::waterLeft(Vec2f place, float pixel) const
@@ -351,13 +363,14 @@ WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
             const float gleam = std::exp(-12.0F * (across - 0.45F) * (across - 0.45F));
             met.shine = on_blade >= on_arm ? 0.25F + 2.2F * gleam : 0.35F + 2.8F * gleam;
         }
-        if (blade.forward != 0.0F && end > 0.0F) {
+        const float beyond = blade.forward * aside - half;
+        if (blade.forward != 0.0F && end > 0.0F && beyond > -pixel && beyond < kWidestBead + pixel) {
             const Vec2f ahead{-blade.forward * blade.along.y, blade.forward * blade.along.x};
             const Field uneven = fieldAt(along / 0.014F, 2.0F * blade.pushed, 2 * one.stroke + 5U);
             const float fades = isInOtherField(one, place) ? 1.0F - smoothstep(0.6F, 0.95F, blade.pushed) : 1.0F;
             const float width =
                 kWidestBead * blade.pushed * fades * (0.35F + 0.65F * uneven.value) * smoothstep(0.0F, 0.03F, end);
-            const WaterMet bead = beadAt(blade.forward * aside - half, width, ahead, pixel);
+            const WaterMet bead = beadAt(beyond, width, ahead, pixel);
             if (bead.cover > met.pushed.cover) {
                 met.pushed = bead;
             }

@@ -78,6 +78,13 @@ private:
         Lattice thick;
         Lattice thin;
     };
+    /// Water where a blade has turned.
+    struct Wedge {
+        bool is_there = false;
+        Vec2f ahead;           ///< unit; where the blade was going
+        float drained = 0.0F;  ///< share of its lifetime
+        std::uint32_t seed = 0;
+    };
     /// Wiper at the present time.
     struct WiperState {
         Wiper wiper;
@@ -85,6 +92,7 @@ private:
         std::uint32_t stroke = 0;          ///< number of the stroke
         std::vector<Blade> blades;         ///< blade at each moment
         std::vector<FilmStreaks> streaks;  ///< of the last way of the stroke before, and of both ways of this one
+        Wedge wedge;
     };
 
     /// @param before  those of the last time
@@ -92,7 +100,8 @@ private:
                                                             const std::vector<FilmStreaks>& before);
     [[nodiscard]] static Blade bladeAt(const Wiper& wiper, double time);
     [[nodiscard]] WaterMet film(const WiperState& one, Vec2f from, float pixel) const;
-    [[nodiscard]] WaterMet wedge(const WiperState& one, Vec2f from, float pixel) const;
+    [[nodiscard]] static Wedge wedgeOf(const WiperState& one);
+    [[nodiscard]] static WaterMet wedge(const WiperState& one, Vec2f from, float pixel);
     /// Whether a place is in the field of another wiper.
     [[nodiscard]] bool isInOtherField(const WiperState& own, Vec2f place) const;
 
