@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <locale>
@@ -174,9 +175,12 @@ std::optional<Vec3> colourIn(std::istringstream& line)
     return Vec3{share(colour.x), share(colour.y), share(colour.z)};
 }
 
-void readStatement(const std::string& key, std::istringstream& line, const std::filesystem::path& folder,
-                   ObjMaterial& to)
+void readStatement(std::string key, std::istringstream& line, const std::filesystem::path& folder, ObjMaterial& to)
 {
+    if (key.starts_with("map_")) {
+        std::transform(key.begin(), key.end(), key.begin(),  // map_kd is written, too
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    }
     FileMaterial& material = to.material;
     Look& look = material.look;
     const auto number = [&]() -> std::optional<double> {
@@ -209,9 +213,9 @@ void readStatement(const std::string& key, std::istringstream& line, const std::
         if (const auto value = number(); value && *value >= 1.0 && *value <= 4.0) {
             look.ior = *value;
         }
-    } else if (key == "map_Kd") {
+    } else if (key == "map_kd") {
         material.colours = readTexture(textureLine(line), folder);
-    } else if (key == "norm" || key == "map_Bump" || key == "map_bump" || key == "bump") {
+    } else if (key == "norm" || key == "map_bump" || key == "bump") {
         const TextureLine texture = textureLine(line);
         material.normals = readTexture(texture, folder);
         material.relief = texture.bump;
@@ -221,7 +225,9 @@ void readStatement(const std::string& key, std::istringstream& line, const std::
 void readLibrary(std::string_view text, const std::filesystem::path& folder,
                  std::map<std::string, FileMaterial>& materials)
 {
-    std::istringstream in{std::string(withoutMark(text))};
+    std::string lines(withoutMark(text));
+    std::replace(lines.begin(), lines.end(), '\r', '\n');  // old files have no other ends of lines
+    std::istringstream in(std::move(lines));
     std::optional<std::string> name;
     ObjMaterial material;
     const auto keep = [&] {
@@ -236,7 +242,7 @@ void readLibrary(std::string_view text, const std::filesystem::path& folder,
         line >> key;
         if (key == "newmtl") {
             keep();
-            name = restOf(line);
+            name = materialName(restOf(line));
         } else if (name) {
             readStatement(key, line, folder, material);
         }
@@ -268,6 +274,14 @@ std::string_view withoutMark(std::string_view text)
 {
     constexpr std::string_view kMark = "\xef\xbb\xbf";  // UTF-8's byte order mark
     return text.substr(text.starts_with(kMark) ? kMark.size() : 0);
+}
+
+std::string materialName(std::string_view written)
+{
+    const std::size_t comment = std::min(written.find(" #"), written.find("\t#"));
+    std::string_view name = written.substr(0, comment);
+    name = name.substr(0, name.find_last_not_of(" \t\r") + 1);
+    return std::string(name);
 }
 
 FileMaterial plainMaterial()
@@ -316,8 +330,12 @@ ObjMaterials objMaterials(std::string_view text, const std::filesystem::path& fo
             }
             try {
                 const Bytes bytes = readBytes(*path, kMaxLibrary, [](std::byte) { return true; });
-                readLibrary({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path->parent_path(),
-                            materials.by_name);
+                const std::string_view library(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+                if (library.find('\0') != std::string_view::npos) {
+                    materials.faults.push_back(name + " is not text in UTF-8");
+                    continue;
+                }
+                readLibrary(library, path->parent_path(), materials.by_name);
             } catch (const Damage& damage) {
                 materials.faults.push_back(name + ": " + damage.what());
             }

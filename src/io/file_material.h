@@ -54,6 +54,9 @@ struct ObjMaterials {
 /// @param folder  of the OBJ
 ObjMaterials objMaterials(std::string_view text, const std::filesystem::path& folder);
 
+/// Name of a material in `newmtl` or `usemtl`: without blanks around it, and without a comment after a blank.
+std::string materialName(std::string_view written);
+
 /// Text without UTF-8's byte order mark.
 std::string_view withoutMark(std::string_view text);
 

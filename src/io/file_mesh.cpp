@@ -33,6 +33,7 @@
 #include "droplet/io/read_surface.h"
 #include "droplet/units.h"
 #include "file_bytes.h"
+#include "io/file_material.h"
 #include "io/gltf_scene.h"
 #include "io/length_unit.h"
 #include "io/vertex_normals.h"
@@ -211,7 +212,7 @@ private:
     void useMaterial(std::string_view line)
     {
         line.remove_prefix(std::min(line.size(), line.find_first_not_of(kBlank)));
-        const std::string name(line.substr(0, line.find_last_not_of(kBlank) + 1));
+        const std::string name = materialName(line);
         const auto [found, is_new] =
             materials_.try_emplace(name, static_cast<std::uint32_t>(mesh_.material_names.size()));
         if (is_new) {

@@ -191,6 +191,18 @@ TEST_F(FlowObjectFile, ObjFindsTexturesHoweverTheyAreNamed)
     EXPECT_NEAR(1.0 - at.y, 1.25, 1e-12);
 }
 
+TEST_F(FlowObjectFile, ObjLibrariesAreReadHoweverTheyAreWritten)
+{
+    writeFile(folder() / "red.png", pngOf({255, 0, 0}));
+    for (const char* const library : {"newmtl rough # old\nmap_kd red.png\n", "newmtl rough\rmap_Kd red.png\r",
+                                      "newmtl  rough\t\nmap_KD red.png"}) {
+        writeFile(folder() / "ignored.mtl", library);
+        EXPECT_TRUE(read("wall.obj", kObj).looks.at(1).colours) << library;
+    }
+    writeFile(folder() / "ignored.mtl", std::string("\xff\xfen\0e\0w\0", 8));
+    EXPECT_THAT(read("wall.obj", kObj).warnings, ElementsAre(HasSubstr("ignored.mtl is not text in UTF-8")));
+}
+
 TEST_F(FlowObjectFile, ObjHasSeveralLibrariesAndTellsWhatTheyLack)
 {
     writeFile(folder() / "one.mtl", "newmtl rough\nKd 1 0 0\n");
