@@ -17,7 +17,9 @@ namespace {
 /// Files whose content decides what the frames show.
 void addInputs(RunFiles& files, const FlowOptions& options)
 {
-    files.reads("OBJECT", options.object);
+    for (const std::string& path : objectFiles(options)) {
+        files.reads("OBJECT", path);
+    }
     files.reads("--mask", options.mask);
     files.reads("--start", options.start);
     files.reads("--motion", options.motion);

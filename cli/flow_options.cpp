@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow_options.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <set>
 #include <string_view>
@@ -66,7 +68,10 @@ const CommandText& commandText()
 void declare(CommandLine& line, FlowOptions& options)
 {
     droplet::FlowParameters& parameters = options.parameters;
-    line.addArgument("OBJECT", "Mesh to run over: .glb, .gltf, .obj, .ply or .stl; OBJ and STL in millimetres");
+    line.addArgument(
+        "OBJECT",
+        "Mesh to run over: .glb, .gltf, .obj, .ply or .stl; OBJ and STL in millimetres. Or a mesh for every "
+        "frame of an object that deforms, walk/%04d.obj, with the same triangles");
     line.addArgument(
         "OUTPUT",
         "Animation of object and droplets, .glb, .gltf, .usda or .usdz; meshes of the droplets in every frame, such as "
@@ -156,7 +161,8 @@ void declare(CommandLine& line, FlowOptions& options)
              into(parameters.drying, kTime));
     declareForces(line, parameters.forces);
     constexpr const char* kTimes = "Time";
-    line.add(kTimes, "--time", "DURATION", "Time to show [5s]", into(options.duration, kTime));
+    line.add(kTimes, "--time", "DURATION", "Time to show [5s, of a mesh for every frame all]",
+             into(options.duration, kTime));
     line.add(kTimes, "--fps", "RATE", "Frames per second; they do not change the paths",
              into(options.frames_per_second, kFrameRate));
     line.add(kTimes, "--seed", "N", "Random seed", seedInto(parameters.seed));
@@ -238,6 +244,15 @@ void readObject(const CommandLine& line, FlowOptions& options)
 {
     if (!options.preset) {
         options.object = line.argument("OBJECT");
+        options.shapes = NumberedPath::of(*options.object, "OBJECT");
+    }
+    if (options.shapes) {
+        for (const char* option : {"--spin", "--motion", "--no-animation", "--floor", "--deformation"}) {
+            if (line.value(option) || line.flag(option)) {
+                refuse(fmt::format("{} needs one mesh as OBJECT, not one for every frame such as '{}'", option,
+                                   *options.object));
+            }
+        }
     }
     const auto spin = line.value("--spin");
     const auto axis = line.value("--spin-axis");
@@ -431,6 +446,12 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
         options.file = {*format, readCompression(line, *format)};
     } else if (line.value("--compress")) {
         refuse("--compress needs a .glb as OUTPUT, not '" + options.output + "'");
+    }
+    if (options.shapes && options.kind == FlowOutput::Animation) {
+        refuse(
+            fmt::format("OUTPUT '{}' is an animation of an object that keeps its shape; for one with a mesh for every "
+                        "frame give meshes such as out/%04d.glb, pictures or a video",
+                        options.output));
     }
     const bool is_picture = options.kind != FlowOutput::Animation && options.kind != FlowOutput::Meshes;
     readFlowPreview(line, options, is_picture);

@@ -34,8 +34,9 @@ enum class FlowOutput {
 /// Options of `droplet-shape flow`. All values are in range; vectors are turned to z up; no file but the configuration
 /// file has been read.
 struct FlowOptions {
-    std::optional<std::string> object;  ///< path; empty: the preset's
-    std::string output;                 ///< path
+    std::optional<std::string> object;   ///< path; empty: the preset's
+    std::optional<NumberedPath> shapes;  ///< set if the object deforms: a mesh for every frame
+    std::string output;                  ///< path
     FlowOutput kind = FlowOutput::Animation;
     std::optional<NumberedPath> files;  ///< set if every frame gets a file
     droplet::AnimatedFile file;         ///< form of the animation, or of every mesh
@@ -71,7 +72,7 @@ struct FlowOptions {
     std::optional<droplet::Format> usd_points;  ///< set if `droplets` is points over time
     std::optional<std::string> droplets;
     std::optional<std::string> json;
-    std::optional<double> duration;  ///< [s]; empty: the preset's, or 5 s
+    std::optional<double> duration;  ///< [s]; empty: the preset's, that of all shapes, or 5 s
     double frames_per_second = 30.0;
     bool resume = false;
     std::string fingerprint;  ///< all options that decide what the frames show, as of optionsOfFrames()

@@ -61,21 +61,21 @@ std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowP
         std::optional<droplet::Mask> mask;
         if (options.mask) {
             mask = droplet::readMask(*options.mask);
-            scatter.coverage =
-                forOption("--mask", [&] { return droplet::coverageOver(*mask, plan.object, plan.terrain.surface()); });
+            scatter.coverage = forOption(
+                "--mask", [&] { return droplet::coverageOver(*mask, plan.object, plan.terrain().surface()); });
         }
         if (options.reading.weights) {
             scatter.coverage = forOption("--vertex-weights",
-                                         [&] { return droplet::weightsOver(plan.object, plan.terrain.surface()); });
+                                         [&] { return droplet::weightsOver(plan.object, plan.terrain().surface()); });
         }
         if (options.floor) {
             scatter.coverage = [&plan, inner = scatter.coverage](const droplet::FlowTerrain::Point& point) {
-                const bool is_floor = plan.terrain.surface().faces[point.face].source >= plan.floor_begins;
+                const bool is_floor = plan.terrain().surface().faces[point.face].source >= plan.floor_begins;
                 return is_floor ? 0.0 : inner ? inner(point) : 1.0;
             };
         }
-        const auto scattered = forOption("--drops", [&] { return droplet::scatterDroplets(plan.terrain, scatter); });
-        warnOfCover(scattered, plan, droplet::scatterArea(plan.terrain, scatter), warnings);
+        const auto scattered = forOption("--drops", [&] { return droplet::scatterDroplets(plan.terrain(), scatter); });
+        warnOfCover(scattered, plan, droplet::scatterArea(plan.terrain(), scatter), warnings);
         starts.insert(starts.end(), scattered.begin(), scattered.end());
     }
     return starts;
@@ -95,6 +95,21 @@ double longestEdge(const FlowOptions& options, const droplet::FlowSurface& surfa
     // Halved, edges are ¾ of the longest on average; a triangle with such sides has an area of about a quarter of its
     // square.
     return std::max(width, std::sqrt(4.0 * area / kMostFaces));
+}
+
+/// Files of the shapes that the frames show.
+std::vector<std::string> shapesOf(const FlowOptions& options)
+{
+    std::vector<std::string> files = objectFiles(options);
+    const std::size_t frames = frameCount(options);
+    if (options.shapes && frames > files.size()) {
+        throw droplet::Error(
+            droplet::ErrorCode::InvalidArgument,
+            fmt::format("--time: {} frames need as many meshes, but {} has {}; give at most {:.6g} s", frames,
+                        *options.object, files.size(), static_cast<double>(files.size()) / options.frames_per_second));
+    }
+    files.resize(options.shapes ? frames : files.size());
+    return files;
 }
 
 droplet::FaceProperties groundOf(const FlowOptions& options, const FlowPlan& plan)
@@ -118,7 +133,7 @@ droplet::FaceProperties groundOf(const FlowOptions& options, const FlowPlan& pla
     }
     ground.materials = std::move(materials);
     return forOption("--roughness-map, --friction-map, --ground",
-                     [&] { return droplet::faceProperties(plan.object, plan.terrain.surface(), ground); });
+                     [&] { return droplet::faceProperties(plan.object, plan.terrain().surface(), ground); });
 }
 
 }  // namespace
@@ -128,8 +143,24 @@ std::string nameOfObject(const FlowOptions& options)
     return options.preset ? "preset " + options.preset->name : *options.object;
 }
 
+std::vector<std::string> objectFiles(const FlowOptions& options)
+{
+    std::vector<std::string> files;
+    if (options.shapes) {
+        for (const auto& [number, path] : options.shapes->existing()) {
+            files.push_back(path);
+        }
+    } else if (options.object) {
+        files.push_back(*options.object);
+    }
+    return files;
+}
+
 std::size_t frameCount(const FlowOptions& options)
 {
+    if (options.shapes && !options.duration) {
+        return objectFiles(options).size();
+    }
     const double duration = options.duration.value_or(options.preset ? options.preset->duration : kDefaultDuration);
     return std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);
 }
@@ -137,8 +168,10 @@ std::size_t frameCount(const FlowOptions& options)
 FlowPlan planOf(const FlowOptions& options)
 {
     const std::string name = nameOfObject(options);
-    droplet::FlowObject object = options.preset ? droplet::presetObject(options.preset->object)
-                                                : droplet::readFlowObject(*options.object, options.reading);
+    droplet::DeformingObject read = options.preset
+                                        ? droplet::DeformingObject{droplet::presetObject(options.preset->object), {}}
+                                        : droplet::readDeformingObject(shapesOf(options), options.reading);
+    droplet::FlowObject object = std::move(read.object);
     const std::size_t triangles = object.triangles.size();
     const droplet::Vec3 size = sizeOf(object);
     const auto surface_of = [&](const droplet::FlowObject& mesh) {
@@ -155,11 +188,20 @@ FlowPlan planOf(const FlowOptions& options)
     if (!options.preset || options.parameters.model == droplet::FlowModel::Capillary) {
         surface = droplet::refined(surface, longestEdge(options, surface));
     }
-    FlowPlan plan{
-        std::move(object), droplet::FlowTerrain(std::move(surface)), options.parameters, {}, 1, {}, triangles, size};
+    droplet::FlowShapes shapes =
+        options.shapes ? forOption(name,
+                                   [&] {
+                                       return droplet::FlowShapes(std::move(surface), object.triangles,
+                                                                  std::move(read.vertices), options.frames_per_second);
+                                   })
+                       : droplet::FlowShapes(std::move(surface));
+    FlowPlan plan{std::move(object), std::move(shapes), options.parameters, {}, 1, {}, triangles, size};
+    if (options.shapes) {
+        plan.parameters.step = std::min(plan.parameters.step, 1.0 / options.frames_per_second);
+    }
     plan.warnings = plan.object.warnings;
-    warnOfDefects(plan.terrain.surface().report, name, plan.warnings);
-    if (options.keeps_animation) {
+    warnOfDefects(plan.terrain().surface().report, name, plan.warnings);
+    if (options.keeps_animation && !options.shapes) {
         plan.parameters.motion = plan.object.motion;
     } else if (options.motion) {
         plan.parameters.motion = droplet::readObjectMotion(*options.motion);

@@ -44,6 +44,8 @@ struct Moment {
     std::vector<droplet::FlowSample> samples;
     std::vector<std::vector<droplet::FlowTrack>> tracks = {};  ///< of every advance
     droplet::Surface streaks = {};                             ///< if every frame has a file of them
+    std::size_t shape = 0;                                     ///< of the object
+    std::shared_ptr<const droplet::FlowTerrain> terrain = {};  ///< of this shape
 };
 
 /// Run that can be resumed, if every frame has a file.
@@ -64,6 +66,10 @@ public:
 private:
     /// Resumes from the checkpoint, if that is possible; otherwise the run starts from the first frame.
     void resume();
+    /// Droplets at the state's time.
+    [[nodiscard]] Moment momentOf(std::size_t number);
+    /// Shows the object of a moment in pictures and maps, if it deforms.
+    void showShape(const Moment& moment);
     /// Simulates a frame.
     /// @return what draws it
     std::function<void()> frame(std::size_t number);
@@ -157,14 +163,14 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
       material_(options.material.value_or(droplet::materialOf(plan_.parameters.forces.liquid))),
       ribbons_(filmOf(plan_.parameters))
 {
-    state_ = droplet::startFlow(plan_.terrain, plan_.parameters, plan_.starts);
+    state_ = droplet::startFlow(plan_.terrain(), plan_.parameters, plan_.starts);
     if (options_.kind == FlowOutput::Animation) {
         droplet::FlowAnimationOptions animation;
         animation.frames_per_second = options_.frames_per_second;
         animation.material = material_;
         animation.gravity = plan_.parameters.gravity;
         animation.motion = plan_.parameters.motion;
-        animation_.emplace(plan_.object, plan_.terrain, bodies_, animation);
+        animation_.emplace(plan_.object, plan_.terrain(), bodies_, animation);
     }
     if (isPicture() || options_.has_preview) {
         preparePainter();
@@ -176,10 +182,10 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
         maps.full_thickness = options_.full_thickness;
         maps.full_age = options_.full_age;
         maps.film = filmOf(plan_.parameters);
-        mapper_ = forOption("--maps", [&] { return droplet::WetMapper(plan_.object, plan_.terrain, maps); });
+        mapper_ = forOption("--maps", [&] { return droplet::WetMapper(plan_.object, plan_.terrain(), maps); });
     }
     report_.input = nameOfObject(options_);
-    report_.surface = plan_.terrain.surface().report;
+    report_.surface = plan_.terrain().surface().report;
     report_.size = plan_.size;
     report_.output = options_.output;
     if (options_.preset) {
@@ -212,9 +218,10 @@ void FlowRun::preparePainter()
     painter.render.fit_all_azimuths = options_.view.turns.has_value();
     painter.render.look = droplet::lookOf(material_);
     const double end = static_cast<double>(plan_.frames - 1) / options_.frames_per_second;
-    painter.render.framed = framedOver(plan_.object, plan_.parameters.motion, end);
+    painter.render.framed =
+        plan_.shapes.count() > 1 ? framedOver(plan_.shapes) : framedOver(plan_.object, plan_.parameters.motion, end);
     painter.film = filmOf(plan_.parameters);
-    painter_.emplace(plan_.object, plan_.terrain, painter);
+    painter_.emplace(plan_.object, plan_.terrain(), painter);
 }
 
 droplet::FlowReport FlowRun::execute()
@@ -270,8 +277,9 @@ void FlowRun::resume()
     }
     // Tables and streaks need every frame to be simulated again, and so do missing files. The camera sees all that an
     // object that moves will reach in --time.
+    const bool has_one_camera = plan_.parameters.motion.rests() && plan_.shapes.count() == 1;
     const bool has_same_camera =
-        !painter_ || plan_.parameters.motion.rests() || (*checkpoint)["planned frames"] == std::to_string(plan_.frames);
+        !painter_ || has_one_camera || (*checkpoint)["planned frames"] == std::to_string(plan_.frames);
     if (!has_same_camera) {
         film_.writeAgain();
     }
@@ -285,16 +293,40 @@ void FlowRun::resume()
     if (mapper_) {
         mapper_->restore((*checkpoint)["wet maps"], path);
     }
-    state_ = droplet::flowStateFromBytes((*checkpoint)["flow"], plan_.terrain.surface().faces.size(), path);
+    state_ = droplet::flowStateFromBytes((*checkpoint)["flow"], plan_.terrain().surface().faces.size(), path);
     report_.balance = rowsFromBytes<droplet::FlowBalanceRow>((*checkpoint)["balance"]);
     done_ = checkpoint->frames;
+}
+
+Moment FlowRun::momentOf(std::size_t number)
+{
+    const std::size_t shape = plan_.shapes.of(state_, plan_.parameters.step);
+    return {.number = number,
+            .time = state_.time,
+            .samples = droplet::sampleFlow(state_, plan_.shapes, plan_.parameters),
+            .shape = shape,
+            .terrain = plan_.shapes.at(shape)};
+}
+
+void FlowRun::showShape(const Moment& moment)
+{
+    if (plan_.shapes.count() == 1 || !(painter_ || mapper_)) {
+        return;
+    }
+    const droplet::FlowObject object = inShape(plan_.object, plan_.shapes.vertices(moment.shape));
+    if (painter_) {
+        painter_->reshape(object, *moment.terrain);
+    }
+    if (mapper_) {
+        mapper_->reshape(object, *moment.terrain);
+    }
 }
 
 std::function<void()> FlowRun::frame(std::size_t number)
 {
     advance(static_cast<double>(number - 1) / options_.frames_per_second);
-    Moment moment{number, state_.time, droplet::sampleFlow(state_, plan_.terrain, plan_.parameters),
-                  std::exchange(tracks_, {})};
+    Moment moment = momentOf(number);
+    moment.tracks = std::exchange(tracks_, {});
     if (table_) {
         table_->add(number, moment.time, pointsOf(moment));
     }
@@ -305,7 +337,7 @@ std::function<void()> FlowRun::frame(std::size_t number)
         animation_->add(moment.time, moment.samples);
     }
     if (options_.streak_files) {
-        moment.streaks = ribbons_.mesh(state_.time).surface;
+        moment.streaks = ribbons_.mesh(state_.time, &moment.terrain->surface()).surface;
     }
     return [this, moment = std::move(moment)] { draw(moment); };
 }
@@ -321,7 +353,8 @@ void FlowRun::run(std::ostream* table)
         table_->finish();
     }
     if (options_.has_preview) {
-        shown_ = {plan_.frames, state_.time, droplet::sampleFlow(state_, plan_.terrain, plan_.parameters)};
+        shown_ = momentOf(plan_.frames);
+        showShape(shown_);
     }
     if (report_.balance.empty() || report_.balance.back().time != state_.time) {
         report_.balance.push_back(flowBalanceRow(state_));
@@ -330,7 +363,8 @@ void FlowRun::run(std::ostream* table)
     report_.counts = state_.counts;
     report_.time = state_.time;
     if (options_.streaks) {
-        streaks_ = ribbons_.mesh(state_.time).surface;
+        const std::size_t shape = plan_.shapes.of(state_, plan_.parameters.step);
+        streaks_ = ribbons_.mesh(state_.time, &plan_.shapes.at(shape)->surface()).surface;
         if (animation_) {
             animation_->setStreaks(ribbons_.growing(1.0 / options_.frames_per_second));
         }
@@ -341,12 +375,13 @@ void FlowRun::run(std::ostream* table)
 void FlowRun::warnOfLostVolume()
 {
     constexpr std::size_t kAtOnce = 1000;  // whose meshes are in memory
-    const std::vector<droplet::FlowSample> samples = droplet::sampleFlow(state_, plan_.terrain, plan_.parameters);
+    const Moment end = momentOf(plan_.frames);
+    const std::vector<droplet::FlowSample>& samples = end.samples;
     std::size_t count = 0;
     for (std::size_t first = 0; first < samples.size(); first += kAtOnce) {
         const auto some = std::span(samples).subspan(first, std::min(kAtOnce, samples.size() - first));
         const std::vector<double> volumes = droplet::seatedVolumes(
-            droplet::seatedDroplets(plan_.terrain, some, shapesAt(state_.time)), some.size(), bodies_);
+            droplet::seatedDroplets(*end.terrain, some, shapesAt(state_.time)), some.size(), bodies_);
         for (std::size_t i = 0; i < some.size(); ++i) {
             count += volumes[i] < 0.99 * some[i].volume ? 1U : 0U;
         }
@@ -376,9 +411,9 @@ Blobs FlowRun::state() const
 void FlowRun::advance(double until)
 {
     const auto move_to = [&](double time) {
-        state_ = droplet::advanceFlow(std::move(state_), plan_.terrain, plan_.parameters, time);
+        state_ = droplet::advanceFlow(std::move(state_), plan_.shapes, plan_.parameters, time);
         if (options_.streaks) {
-            ribbons_.add(state_.tracks, plan_.terrain.surface());
+            ribbons_.add(state_.tracks, plan_.terrain().surface());
             if (!animation_) {
                 ribbons_.forgetDry(state_.time);
             }
@@ -400,7 +435,7 @@ void FlowRun::advance(double until)
 
 std::vector<droplet::FlowPoint> FlowRun::pointsOf(const Moment& moment) const
 {
-    return droplet::flowPoints(moment.samples, plan_.terrain, bodies_, gravityAt(moment.time));
+    return droplet::flowPoints(moment.samples, plan_.terrain(), bodies_, gravityAt(moment.time));
 }
 
 void FlowRun::draw(const Moment& moment)
@@ -425,6 +460,9 @@ void FlowRun::draw(const Moment& moment)
     }
     if (film_.isWritten(moment.number)) {
         return;
+    }
+    if (options_.kind != FlowOutput::Picture || options_.maps || moment.number == plan_.frames) {
+        showShape(moment);
     }
     if (options_.kind == FlowOutput::Meshes) {
         writeMesh(moment);
@@ -518,7 +556,7 @@ void FlowRun::writeMaps(const Moment& moment)
 
 void FlowRun::writeMesh(const Moment& moment) const
 {
-    writeSurface(droplet::seatedDroplets(plan_.terrain, moment.samples, shapesAt(moment.time)),
+    writeSurface(droplet::seatedDroplets(*moment.terrain, moment.samples, shapesAt(moment.time)),
                  options_.files->at(moment.number), options_.file.compression);
 }
 

@@ -14,9 +14,11 @@
 
 #include "blocks.h"
 #include "droplet/error.h"
+#include "droplet/flow/flow_shapes.h"
 #include "flow/break_up.h"
 #include "flow/flow_forces.h"
 #include "flow/flow_terrain_content.h"
+#include "flow/following.h"
 #include "flow/hollow.h"
 #include "flow/touching.h"
 #include "flow/walk.h"
@@ -62,13 +64,14 @@ public:
         droplet.has_grown = true;
         droplet.born = begin_;
         droplet.leg = {begin_, start.place, start.velocity, {}, 0.0};
-        const WalkForces forces = forcesOf(droplet);
         const FlowTerrain::Point point = terrain_.nearest(start.place);
+        droplet.face = point.face;
+        const WalkForces forces = forcesOf(droplet);
         if (length(point.place - start.place) <= 0.5 * forces.contact_width) {
             putOnFace(walkField(), forces, droplet, point.face, {begin_, point.place, start.velocity, {}, 0.0});
         } else {
-            droplet.face = point.face;
-            droplet.leg.push = forces.fall;
+            const GroundMotion::Drift drift = c_.motion.driftOf(droplet.face, begin_);
+            droplet.leg = {begin_, start.place - drift.way, start.velocity - drift.velocity, forces.fall, 0.0};
         }
         s_.released.add(droplet.volume);
         ++s_.counts.released;
@@ -76,10 +79,43 @@ public:
         forces_.push_back(forces);
     }
 
+    /// Takes over droplets and trails from another shape of the surface, at the begin of the present step. Those on a
+    /// face follow it. Those in the air go on as they do in space, unless the ground has met them.
+    void follow(const FlowTerrain& from)
+    {
+        const std::vector<FlowSurface::Face>& before = from.surface().faces;
+        const std::vector<FlowSurface::Face>& now = c_.surface.faces;
+        const bool has_moved = moves() || !from.motion().rests();
+        const WalkField field = walkField();
+        forBlocks(
+            s_.droplets.size(),
+            [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) {
+                    FlowDroplet& d = s_.droplets[i];
+                    const FlowSurface::Face& was = before[d.face];
+                    const FlowSurface::Face& is = now[d.face];
+                    if (d.contact == FlowContact::Air) {
+                        followInAir(from, d, forces_[i]);
+                    } else if (has_moved || was.corners != is.corners) {
+                        const Vec3 velocity = turnedWith(was, is, d.leg.velocityAt(begin_));
+                        d.leg = {begin_, followed(was, is, d.leg.placeAt(begin_)), velocity, {}, 0.0};
+                        d.heading = turnedWith(was, is, d.heading);
+                        d.has_grown = true;  // neighbours may have come nearer
+                        forces_[i] = forcesOf(d);
+                        redirect(field, forces_[i], d, begin_);
+                    }
+                }
+            },
+            kDropletsPerBlock);
+        for (FlowState::Trail& trail : s_.trails) {
+            trail.place = followed(before[trail.face], now[trail.face], trail.place);
+        }
+    }
+
     void run()
     {
         arrive();
-        if (!p_.motion.rests()) {
+        if (moves()) {
             redirectAll();
         }
         move(timeOf(s_.steps + 1), true);
@@ -107,7 +143,7 @@ public:
     /// Moves all droplets to a time in the step that begins, without their meetings.
     void moveWithin(double until)
     {
-        if (!p_.motion.rests()) {
+        if (moves()) {
             redirectAll();
         }
         move(until, false);
@@ -120,7 +156,7 @@ private:
     /// Field, forces and ground for the step that begins.
     void update()
     {
-        if (forces_.empty() || !p_.motion.rests() || !p_.ground.contact_angle.empty()) {
+        if (forces_.empty() || moves() || !p_.ground.contact_angle.empty()) {
             field_ = fieldAt(p_, begin_);
             forces_.resize(s_.droplets.size());
             forBlocks(
@@ -136,7 +172,47 @@ private:
 
     [[nodiscard]] WalkForces forcesOf(const FlowDroplet& droplet) const
     {
-        return forcesOn(p_, field_, droplet, p_.motion.rests() ? std::nullopt : std::optional(begin_));
+        WalkForces forces = forcesOn(p_, field_, droplet, p_.motion.rests() ? std::nullopt : std::optional(begin_));
+        if (!c_.motion.rests()) {
+            forces.acceleration = forces.acceleration + c_.feltOn(droplet, begin_);
+            forces.fall = forces.fall - c_.motion.driftOf(droplet.face, begin_).acceleration;
+        }
+        return forces;
+    }
+
+    /// Whether the ground has accelerations, which differ from step to step.
+    [[nodiscard]] bool moves() const { return !p_.motion.rests() || !c_.motion.rests(); }
+
+    /// In the air a droplet's place and velocity are less by what the nearest face drifts, so that it meets the ground
+    /// where both are in space.
+    void followInAir(const FlowTerrain& from, FlowDroplet& d, WalkForces& forces)
+    {
+        const Vec3 place = d.leg.placeAt(begin_);
+        const GroundMotion::Drift drifted = from.motion().driftOf(d.face, begin_);
+        const FlowTerrain::Point ground = from.nearest(place);
+        const FlowSurface::Face& was = from.surface().faces[ground.face];
+        const FlowSurface::Face& is = c_.surface.faces[ground.face];
+        if (c_.motion.rests() && from.motion().rests() && was.corners == is.corners) {
+            return;
+        }
+        d.face = ground.face;
+        const GroundMotion::Drift drift = c_.motion.driftOf(d.face, begin_);
+        const Vec3 to = place + drifted.way - drift.way;
+        const Vec3 velocity = d.leg.velocityAt(begin_) + drifted.velocity - drift.velocity;
+        d.leg = {begin_, to, velocity, {}, 0.0};
+        forces = forcesOf(d);
+        d.leg.push = forces.fall;
+        // Seen from the ground it came from there: the ground may have swept over it.
+        const Vec3 away = followed(was, is, ground.place) + turnedWith(was, is, place - ground.place);
+        if (const auto hit = c_.landing.next({0.0, away, to - away, {}, 0.0}, d.face, 0.0, 1.0)) {
+            putOnFace(walkField(), forces, d, hit->face, {begin_, hit->place, velocity, {}, 0.0});
+        }
+    }
+
+    /// A place on a face, in the shape of the surface that pinning belongs to.
+    [[nodiscard]] Vec3 atRest(std::uint32_t face, Vec3 place) const
+    {
+        return c_.rest ? followed(c_.surface.faces[face], c_.rest->faces[face], place) : place;
     }
 
     [[nodiscard]] WalkField walkField() const
@@ -151,7 +227,12 @@ private:
             ground.dry_before = dryBefore();
             ground.wet_is_slippery = p_.model == FlowModel::Capillary;
         }
-        return {c_.surface, c_.landing, ground, isPinned() ? &pinning_ : nullptr};
+        return {c_.surface,
+                c_.landing,
+                ground,
+                isPinned() ? &pinning_ : nullptr,
+                c_.motion.rests() ? nullptr : &c_.motion,
+                c_.rest.get()};
     }
 
     [[nodiscard]] bool isPinned() const { return p_.model == FlowModel::Capillary && !pinning_.isEven(); }
@@ -465,7 +546,7 @@ private:
             FlowDroplet& d = s_.droplets[*i];
             const double way = length(track.to - track.from);
             // Where the ground holds the droplet more, it keeps more of it.
-            const double film = p_.streaks.film * (isPinned() ? pinning_.at(track.to) : 1.0);
+            const double film = p_.streaks.film * (isPinned() ? pinning_.at(atRest(track.face, track.to)) : 1.0);
             const double volume = std::min(film * track.width * way, 0.5 * d.volume);
             auto at = last.find(track.id);
             if (at == last.end() || s_.trails[at->second].isWhole()) {
@@ -532,6 +613,8 @@ private:
                 bead.drying = trail.drying;
                 bead.has_grown = true;
                 bead.born = begin_;
+                bead.face = trail.face;
+                bead.leg = {begin_, trail.place, {}, {}, 0.0};
                 const WalkForces forces = forcesOf(bead);
                 putOnFace(walkField(), forces, bead, trail.face, {begin_, trail.place, {}, {}, 0.0});
                 s_.droplets.push_back(bead);
@@ -622,7 +705,7 @@ private:
                 for (std::size_t i = first; i < last; ++i) {
                     const FlowDroplet& d = s_.droplets[i];
                     const bool rests = d.contact == FlowContact::Still;
-                    const bool is_new = d.has_grown || (rests && (d.leg.begin >= begin_ || !p_.motion.rests()));
+                    const bool is_new = d.has_grown || (rests && (d.leg.begin >= begin_ || moves()));
                     if (d.contact == FlowContact::Air || !is_new || !(d.volume > 0.0)) {
                         continue;
                     }
@@ -800,12 +883,69 @@ std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowTerrain& te
     samples.reserve(shown->droplets.size());
     for (const FlowDroplet& d : shown->droplets) {
         const bool is_airborne = d.contact == FlowContact::Air;
-        samples.push_back({d.id, d.contact, is_airborne ? std::nullopt : std::optional(d.face), d.leg.placeAt(time),
-                           d.leg.velocityAt(time), terrain.surface().faces[d.face].normal, d.volume, time - d.born,
+        const GroundMotion::Drift drift = is_airborne ? terrain.motion().driftOf(d.face, time) : GroundMotion::Drift();
+        samples.push_back({d.id, d.contact, is_airborne ? std::nullopt : std::optional(d.face),
+                           d.leg.placeAt(time) + drift.way, d.leg.velocityAt(time) + drift.velocity,
+                           terrain.surface().faces[d.face].normal, d.volume, time - d.born,
                            parameters.ground.contact_angle.empty() ? std::nullopt
                                                                    : std::optional(parameters.contactAngleOn(d.face))});
     }
     return samples;
+}
+
+FlowState advanceFlow(FlowState state, FlowShapes& shapes, const FlowParameters& parameters, double until)
+{
+    if (shapes.count() == 1) {
+        return advanceFlow(std::move(state), shapes.first(), parameters, until);
+    }
+    require(until >= state.time && std::isfinite(until), "until", until, "finite and not before the state's time");
+    require(parameters.motion.rests(), "motion", "", "at rest: the shapes of the surface have its motion");
+    const double seconds = parameters.step;
+    const double whole = until * (1.0 + 1e-12);
+    const auto has_step = [&] { return static_cast<double>(state.steps + 1) * seconds <= whole; };
+    std::vector<FlowTrack> tracks;
+    std::size_t shape = state.steps == 0 ? 0 : shapes.ofStep(state.steps - 1, seconds);
+    while (has_step()) {
+        const std::size_t next = shapes.ofStep(state.steps, seconds);
+        const std::shared_ptr<const FlowTerrain> terrain = shapes.at(next);
+        state.tracks.clear();
+        Step step(*terrain, parameters, state);
+        if (next != shape) {
+            step.follow(*shapes.at(shape));
+            shape = next;
+        }
+        while (has_step() && shapes.ofStep(state.steps, seconds) == shape) {
+            step.run();
+        }
+        for (FlowTrack track : state.tracks) {
+            const FlowSurface::Face& from = terrain->surface().faces[track.face];
+            const FlowSurface::Face& to = shapes.first().surface().faces[track.face];
+            if (from.corners != to.corners) {
+                const double stretch = std::sqrt(areaOf(to) / areaOf(from));
+                track.from = followed(from, to, track.from);
+                track.to = followed(from, to, track.to);
+                track.width *= stretch;
+                track.speed *= stretch;
+            }
+            tracks.push_back(track);
+        }
+    }
+    state.tracks = std::move(tracks);
+    state.time = until;
+    return state;
+}
+
+std::vector<FlowSample> sampleFlow(const FlowState& state, FlowShapes& shapes, const FlowParameters& parameters)
+{
+    const std::size_t shape = shapes.of(state, parameters.step);
+    const std::size_t last = state.steps == 0 ? 0 : shapes.ofStep(state.steps - 1, parameters.step);
+    if (shape == last) {
+        return sampleFlow(state, *shapes.at(shape), parameters);
+    }
+    FlowState followed = state;
+    const std::shared_ptr<const FlowTerrain> terrain = shapes.at(shape);
+    Step(*terrain, parameters, followed).follow(*shapes.at(last));
+    return sampleFlow(followed, *terrain, parameters);
 }
 
 FlowBalance balanceOf(const FlowState& state)

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "flow/flow_terrain_content.h"
+#include "flow/following.h"
 
 namespace droplet {
 namespace {
@@ -59,8 +60,13 @@ double areaOf(const FlowSurface::Face& face)
     return 0.5 * length(cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]));
 }
 
-FlowTerrain::Content::Content(FlowSurface of)
-    : surface(std::move(of)), landing(surface), area_until(areasUntil(surface)), tree(scaledTriangles(surface))
+FlowTerrain::Content::Content(FlowSurface of, GroundMotion moving, std::shared_ptr<const FlowSurface> at_rest)
+    : surface(std::move(of)),
+      motion(std::move(moving)),
+      rest(std::move(at_rest)),
+      landing(surface),
+      area_until(areasUntil(surface)),
+      tree(scaledTriangles(surface))
 {
     std::tie(low, high) = boxOf(surface);
 }
@@ -68,6 +74,39 @@ FlowTerrain::Content::Content(FlowSurface of)
 double FlowTerrain::Content::halfSize() const
 {
     return halfSizeOf(low, high);
+}
+
+Vec3 FlowTerrain::Content::feltOn(const FlowDroplet& droplet, double time) const
+{
+    if (droplet.contact == FlowContact::Air) {
+        return -1.0 * motion.driftOf(droplet.face, time).acceleration;
+    }
+    const FlowSurface::Face& face = surface.faces[droplet.face];
+    const std::array<Vec3, 3>& velocity = motion.velocity[droplet.face];
+    // The change of the ground's velocity along a direction of the face.
+    const auto change_along = [&](Vec3 v) {
+        Vec3 change;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t side = (k + 1) % 3;  // opposite to the corner
+            const double height = dot(face.corners[k] - face.corners[side], face.inward[side]);
+            change = change + (dot(v, face.inward[side]) / height) * velocity[k];
+        }
+        return change;
+    };
+    const Vec3 side = face.corners[1] - face.corners[0];
+    const Vec3 x = (1.0 / length(side)) * side;
+    const Vec3 y = cross(face.normal, x);
+    const Vec3 along_x = change_along(x);
+    const Vec3 along_y = change_along(y);
+    // The angular velocity: a normal stays one, and the face turns as its sides do on average.
+    const Vec3 spin = dot(along_y, face.normal) * x - dot(along_x, face.normal) * y +
+                      0.5 * (dot(along_x, y) - dot(along_y, x)) * face.normal;
+    const Vec3 speed = droplet.leg.velocityAt(time);
+    const Vec3 place = droplet.leg.placeAt(time);
+    // A point of the face has X = Σ w c; with weights w that change, X'' = Σ w c'' + 2 Σ w' c' + Σ w'' c. A velocity
+    // along the face turns with it, which is one of the two Σ w' c' as far as it is a turn.
+    return -1.0 * mixed(motion.acceleration[droplet.face], weightsOn(face.corners, place)) - change_along(speed) -
+           cross(spin, speed);
 }
 
 bool FlowTerrain::Content::areJoined(std::uint32_t from, std::uint32_t to, Vec3 place, double reach) const
@@ -89,7 +128,23 @@ bool FlowTerrain::Content::areJoined(std::uint32_t from, std::uint32_t to, Vec3 
     return std::find(open.begin(), open.end(), to) != open.end();
 }
 
-FlowTerrain::FlowTerrain(FlowSurface surface) : content_(std::make_unique<Content>(std::move(surface))) {}
+GroundMotion::Drift GroundMotion::driftOf(std::uint32_t face, double at) const
+{
+    if (rests()) {
+        return {};
+    }
+    const auto mean = [](const std::array<Vec3, 3>& v) { return (1.0 / 3.0) * (v[0] + v[1] + v[2]); };
+    const Vec3 speed = mean(velocity[face]);
+    const Vec3 change = mean(acceleration[face]);
+    const double t = at - time;
+    return {t * speed + 0.5 * t * t * change, speed + t * change, change};
+}
+
+FlowTerrain::FlowTerrain(FlowSurface surface) : FlowTerrain(std::move(surface), {}, nullptr) {}
+FlowTerrain::FlowTerrain(FlowSurface surface, GroundMotion motion, std::shared_ptr<const FlowSurface> rest)
+    : content_(std::make_unique<Content>(std::move(surface), std::move(motion), std::move(rest)))
+{
+}
 FlowTerrain::~FlowTerrain() = default;
 FlowTerrain::FlowTerrain(FlowTerrain&& other) noexcept = default;
 FlowTerrain& FlowTerrain::operator=(FlowTerrain&& other) noexcept = default;
@@ -97,6 +152,11 @@ FlowTerrain& FlowTerrain::operator=(FlowTerrain&& other) noexcept = default;
 const FlowSurface& FlowTerrain::surface() const
 {
     return content_->surface;
+}
+
+const GroundMotion& FlowTerrain::motion() const
+{
+    return content_->motion;
 }
 
 double FlowTerrain::area() const

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "flow/following.h"
 #include "flow/leg_means.h"
 
 namespace droplet {
@@ -39,7 +40,8 @@ constexpr double kOnce = 1e-6;
 class Walk {
 public:
     Walk(const WalkField& field, const WalkForces& forces, FlowDroplet& droplet)
-        : faces_(field.surface.faces),
+        : field_(field),
+          faces_(field.surface.faces),
           landing_(field.landing),
           ground_(field.ground),
           pinning_(field.pinning),
@@ -255,7 +257,13 @@ private:
     void pin(Vec3 place, Vec3 ahead)
     {
         const Vec3 left = droplet::cross(faces_[d_.face].normal, ahead);
-        hold_ = pinning_->over({place, 0.5 * f_.contact_width, ahead, left});
+        ContactFront front{place, 0.5 * f_.contact_width, ahead, left};
+        if (field_.rest != nullptr) {
+            const Face& from = faces_[d_.face];
+            const Face& to = field_.rest->faces[d_.face];
+            front = {followed(from, to, place), front.radius, turnedWith(from, to, ahead), turnedWith(from, to, left)};
+        }
+        hold_ = pinning_->over(front);
         aside_ = hold_->aside * left;
     }
 
@@ -616,7 +624,12 @@ private:
             return false;
         }
         ++counts_.landings;
-        enter(hit->face, hit->time, hit->place, d_.leg.velocityAt(hit->time));
+        Vec3 velocity = d_.leg.velocityAt(hit->time);
+        if (field_.motion != nullptr) {  // it was over ground that moves otherwise
+            velocity = velocity + field_.motion->driftOf(d_.face, hit->time).velocity -
+                       field_.motion->driftOf(hit->face, hit->time).velocity;
+        }
+        enter(hit->face, hit->time, hit->place, velocity);
         return true;
     }
 
@@ -626,6 +639,7 @@ private:
         d_.leg = {time_, place, {}, {}, 0.0};
     }
 
+    const WalkField& field_;
     const std::vector<Face>& faces_;
     const Landing& landing_;
     const WalkFaces& ground_;

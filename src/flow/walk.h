@@ -84,6 +84,8 @@ struct WalkField {
     const Landing& landing;  ///< of the same surface
     WalkFaces ground = {};
     const PinningField* pinning = nullptr;  ///< null: hysteresis is even
+    const GroundMotion* motion = nullptr;   ///< of the surface; null: it rests
+    const FlowSurface* rest = nullptr;      ///< the surface in the shape that pinning belongs to; null: this one
 };
 
 /// Events of walking.

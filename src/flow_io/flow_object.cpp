@@ -13,6 +13,7 @@
 #include "droplet/error.h"
 #include "droplet/io/read_surface.h"
 #include "file_bytes.h"
+#include "flow/following.h"
 #include "flow_io/box_of.h"
 #include "io/file_mesh.h"
 #include "number_text.h"
@@ -63,7 +64,8 @@ bool hasArea(const FileMesh& mesh)
     });
 }
 
-void resize(FileMesh& mesh, const FlowObjectOptions& options, const std::string& name)
+/// @return  factor on the file's lengths
+double resize(FileMesh& mesh, const FlowObjectOptions& options, const std::string& name)
 {
     const auto refuse = [&](const std::string& what) { throw Error(ErrorCode::InvalidInput, name + " " + what); };
     Extent extent = extentOf(mesh);
@@ -107,6 +109,7 @@ void resize(FileMesh& mesh, const FlowObjectOptions& options, const std::string&
             key.place = factor * key.place;
         }
     }
+    return factor;
 }
 
 ObjectMotion motionOf(const FileMotion& from)
@@ -222,6 +225,67 @@ void takeLook(const FileMaterial& material, double plate, const std::string& nam
     }
 }
 
+/// How the first shape of an object was read.
+struct Reading {
+    double factor = 1.0;  ///< on the file's lengths
+    std::vector<std::uint32_t> fans;
+    std::vector<std::uint32_t> weld;
+};
+
+bool isYUp(const std::filesystem::path& path, const FlowObjectOptions& options)
+{
+    return options.up.value_or(readableFormat(path) == Format::Ply ? UpAxis::Z : UpAxis::Y) == UpAxis::Y;
+}
+
+FlowObject readObject(const std::filesystem::path& path, const FlowObjectOptions& options, Reading& reading)
+{
+    const auto is_positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+    if (options.scale) {
+        require(is_positive(*options.scale), "scale", *options.scale, "finite and more than 0");
+    }
+    if (options.size) {
+        require(is_positive(*options.size), "size", *options.size, "finite and more than 0 m");
+        require(!options.scale, "size", *options.size, "left out if there is a scale");
+    }
+    FileMesh mesh = readFileMesh(path, {.uvs = true,
+                                        .polygons = true,
+                                        .weights = options.weights,
+                                        .creases = true,
+                                        .looks = true,
+                                        .motion = true,
+                                        .y_up = isYUp(path, options)});
+    const std::string name = shown(path);
+    reading = {resize(mesh, options, name), std::move(mesh.fans), std::move(mesh.weld)};
+    const std::vector<double> plates = platesOf(mesh);
+    FlowObject object;
+    if (mesh.ignores_animation) {
+        object.warnings.push_back(name + " has an animation that is not a motion of the whole object; it is ignored");
+    }
+    if (mesh.deforms) {
+        object.warnings.push_back(name + " has skins or morph targets; they are ignored, and the rest pose is read");
+    }
+    if (mesh.lacks_uv) {
+        object.warnings.push_back(name + " has triangles without uv; pictures have their first pixel there");
+    }
+    object.vertices = std::move(mesh.vertices);
+    object.normals = std::move(mesh.normals);
+    object.uvs = std::move(mesh.uvs);
+    object.weights = std::move(mesh.weights);
+    object.triangles = std::move(mesh.triangles);
+    object.materials = std::move(mesh.materials);
+    object.material_names = std::move(mesh.material_names);
+    for (const std::string& fault : mesh.look_faults) {
+        object.warnings.push_back(fmt::format("{} is shown without all of its materials: {}", name, fault));
+    }
+    for (std::size_t m = 0; m < mesh.looks.size(); ++m) {
+        takeLook(mesh.looks[m], plates[m], name, object);
+    }
+    if (mesh.motion) {
+        object.motion = motionOf(*mesh.motion);
+    }
+    return object;
+}
+
 }  // namespace
 
 void faceAs(const FlowSurface& surface, FlowObject& object)
@@ -257,51 +321,80 @@ Vec3 sizeOf(const FlowObject& object)
 
 FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOptions& options)
 {
-    const auto is_positive = [](double value) { return value > 0.0 && std::isfinite(value); };
-    if (options.scale) {
-        require(is_positive(*options.scale), "scale", *options.scale, "finite and more than 0");
+    Reading ignored;
+    return readObject(path, options, ignored);
+}
+
+DeformingObject readDeformingObject(const std::vector<std::string>& paths, const FlowObjectOptions& options)
+{
+    require(!paths.empty(), "number of paths", paths.size(), "at least 1");
+    Reading reading;
+    DeformingObject all{readObject(paths.front(), options, reading), {}};
+    const FlowObject& object = all.object;
+    all.vertices.push_back(object.vertices);
+    for (std::size_t k = 1; k < paths.size(); ++k) {
+        const FileMesh mesh =
+            readFileMesh(paths[k], {.polygons = true, .fans = reading.fans, .y_up = isYUp(paths[k], options)});
+        if (mesh.triangles.size() != object.triangles.size()) {
+            throw Error(
+                ErrorCode::InvalidInput,
+                fmt::format("{} has {} triangles, but {} has {}; all meshes must have the same triangles",
+                            shown(paths[k]), mesh.triangles.size(), shown(paths.front()), object.triangles.size()));
+        }
+        // Files may join corners to vertices otherwise, by their normals; places tell which are the same.
+        std::vector<std::optional<Vec3>> places(object.vertices.size());
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const Vec3 place = reading.factor * mesh.vertices[mesh.triangles[t][c]];
+                std::optional<Vec3>& known = places[reading.weld[object.triangles[t][c]]];
+                if (known && !(*known == place)) {
+                    throw Error(
+                        ErrorCode::InvalidInput,
+                        fmt::format("{} has other triangles than {}: corner {} of triangle {} of {} is not "
+                                    "where that of the triangles beside it is",
+                                    shown(paths[k]), shown(paths.front()), c + 1, t + 1, mesh.triangles.size()));
+                }
+                known = place;
+            }
+        }
+        std::vector<Vec3>& vertices = all.vertices.emplace_back(object.vertices);
+        for (std::size_t v = 0; v < vertices.size(); ++v) {
+            vertices[v] = places[reading.weld[v]].value_or(vertices[v]);  // no triangle has the vertex otherwise
+        }
     }
-    if (options.size) {
-        require(is_positive(*options.size), "size", *options.size, "finite and more than 0 m");
-        require(!options.scale, "size", *options.size, "left out if there is a scale");
+    return all;
+}
+
+FlowObject inShape(FlowObject object, const std::vector<Vec3>& vertices)
+{
+    if (vertices == object.vertices) {
+        return object;
     }
-    const bool is_ply = readableFormat(path) == Format::Ply;
-    FileMesh mesh = readFileMesh(path, {.uvs = true,
-                                        .polygons = true,
-                                        .weights = options.weights,
-                                        .creases = true,
-                                        .looks = true,
-                                        .motion = true,
-                                        .y_up = options.up.value_or(is_ply ? UpAxis::Z : UpAxis::Y) == UpAxis::Y});
-    const std::string name = shown(path);
-    resize(mesh, options, name);
-    const std::vector<double> plates = platesOf(mesh);
-    FlowObject object;
-    if (mesh.ignores_animation) {
-        object.warnings.push_back(name + " has an animation that is not a motion of the whole object; it is ignored");
+    std::vector<Vec3> normals(vertices.size());
+    for (const Triangle& triangle : object.triangles) {
+        const auto face_of = [&](const std::vector<Vec3>& places) {
+            FlowSurface::Face face;
+            face.corners = {places[triangle[0]], places[triangle[1]], places[triangle[2]]};
+            face.normal = cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
+            return face;
+        };
+        FlowSurface::Face from = face_of(object.vertices);
+        FlowSurface::Face to = face_of(vertices);
+        const double area = length(to.normal);
+        if (!(area > 0.0 && length(from.normal) > 0.0)) {
+            continue;
+        }
+        from.normal = (1.0 / length(from.normal)) * from.normal;
+        to.normal = (1.0 / area) * to.normal;
+        for (const std::uint32_t v : triangle) {
+            normals[v] = normals[v] + area * turnedWith(from, to, object.normals[v]);
+        }
     }
-    if (mesh.deforms) {
-        object.warnings.push_back(name + " has skins or morph targets; they are ignored, and the rest pose is read");
+    for (std::size_t v = 0; v < normals.size(); ++v) {
+        const double size = length(normals[v]);
+        object.normals[v] = size > 0.0 ? (1.0 / size) * normals[v] : object.normals[v];
     }
-    if (mesh.lacks_uv) {
-        object.warnings.push_back(name + " has triangles without uv; pictures have their first pixel there");
-    }
-    object.vertices = std::move(mesh.vertices);
-    object.normals = std::move(mesh.normals);
-    object.uvs = std::move(mesh.uvs);
-    object.weights = std::move(mesh.weights);
-    object.triangles = std::move(mesh.triangles);
-    object.materials = std::move(mesh.materials);
-    object.material_names = std::move(mesh.material_names);
-    for (const std::string& fault : mesh.look_faults) {
-        object.warnings.push_back(fmt::format("{} is shown without all of its materials: {}", name, fault));
-    }
-    for (std::size_t m = 0; m < mesh.looks.size(); ++m) {
-        takeLook(mesh.looks[m], plates[m], name, object);
-    }
-    if (mesh.motion) {
-        object.motion = motionOf(*mesh.motion);
-    }
+    object.vertices = vertices;
     return object;
 }
 

@@ -71,14 +71,27 @@ std::optional<ViewBox> framedOver(const FlowObject& object, const ObjectMotion& 
     return boxOf(corners);
 }
 
+std::optional<ViewBox> framedOver(const FlowShapes& shapes)
+{
+    if (shapes.count() == 1) {
+        return {};
+    }
+    std::vector<Vec3> corners;
+    for (std::size_t shape = 0; shape < shapes.count(); ++shape) {
+        const ViewBox box = boxOf(shapes.vertices(shape));
+        corners.insert(corners.end(), {box.low, box.high});
+    }
+    return boxOf(corners);
+}
+
 struct FlowPainter::Content {
     Content(const FlowObject& object, const FlowTerrain& of, const FlowPainterOptions& given)
-        : terrain(of), options(given), faces(of.surface()), box(boxOf(object.vertices))
+        : terrain(&of), options(given), faces(of.surface()), box(boxOf(object.vertices))
     {
         RenderOptions& render = options.render;
         render.extent = {1.0, 1.0};
         render.shows_whole_stand = true;
-        FlowObject own = onFaces(object, terrain.surface());
+        FlowObject own = onFaces(object, terrain->surface());
         stand.vertices = std::move(own.vertices);
         stand.normals = std::move(own.normals);
         stand.triangles = std::move(own.triangles);
@@ -158,12 +171,12 @@ struct FlowPainter::Content {
         return shown;
     }
 
-    const FlowTerrain& terrain;
+    const FlowTerrain* terrain;  // of the shape that is shown
     FlowPainterOptions options;
     FacesAround faces;
     ViewBox box;         // around the object
     TexturedMesh stand;  // the object
-    WetSpots spots;
+    WetSpots spots;      // on the first shape
     StandWater water;
     std::optional<WetPlaces> wet;
 };
@@ -186,10 +199,21 @@ void FlowPainter::add(std::span<const FlowTrack> tracks)
     wetTracks(content_->spots, tracks, content_->faces, *content_->wet);
 }
 
+void FlowPainter::reshape(const FlowObject& object, const FlowTerrain& terrain)
+{
+    Content& c = *content_;
+    c.terrain = &terrain;
+    c.box = boxOf(object.vertices);
+    FlowObject own = onFaces(object, terrain.surface());
+    c.stand.vertices = std::move(own.vertices);
+    c.stand.normals = std::move(own.normals);
+    c.options.render.stand_openness = opennessOf(c.stand, c.clearFaces());
+}
+
 Picture FlowPainter::picture(const FlowMoment& moment, std::span<const FlowSample> samples, const Surface& droplets)
 {
     Content& c = *content_;
-    SettledDroplets water = settled(c.terrain, samples, droplets, c.shownOf(samples));
+    SettledDroplets water = settled(*c.terrain, samples, droplets, c.shownOf(samples));
     RenderOptions render = c.options.render;
     render.azimuth += moment.azimuth;
     render.stand = c.stand;

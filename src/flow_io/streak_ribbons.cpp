@@ -9,6 +9,8 @@
 #include <numeric>
 #include <span>
 
+#include "droplet/flow/flow_terrain.h"
+#include "flow/following.h"
 #include "flow_io/trail_section.h"
 
 namespace droplet {
@@ -45,6 +47,7 @@ struct Station {
     Vec3 left;
     Passage passage;
     double along = 0.0;  ///< distance from the begin [m]
+    Vec3 rest;           ///< the place that the film's unevenness belongs to
     TrailSection film = {};
 };
 
@@ -57,7 +60,9 @@ Station between(const Station& a, const Station& b, double along)
             unit(mixed(a.left, b.left)),
             {mixed(a.passage.time, b.passage.time), mixed(a.passage.width, b.passage.width),
              mixed(a.passage.speed, b.passage.speed)},
-            along};
+            along,
+            mixed(a.rest, b.rest),
+            {}};
 }
 
 /// Lifetime in an animation with frames of a duration: what becomes beads stays up to √2 times as long, so that few
@@ -151,17 +156,18 @@ void StreakRibbons::extend(Ribbon& ribbon, const FlowTrack& track, Vec3 normal)
     const bool is_straight = last.face == track.face && size >= length(off) && size <= kLongest * track.width &&
                              across <= kStraight * track.width;
     if (is_straight || std::max(size, length(off)) <= kShort * track.width) {
-        last = {track.to, last.normal, track.width, track.time, track.speed, track.face};
+        last = {track.to, last.normal, track.width, track.time, track.speed, track.face, track.to};
         return;
     }
     if (last.face != track.face) {
         last.normal = unit(last.normal + normal);
     }
-    ribbon.push_back({track.to, normal, track.width, track.time, track.speed, track.face});
+    ribbon.push_back({track.to, normal, track.width, track.time, track.speed, track.face, track.to});
 }
 
 void StreakRibbons::add(std::span<const FlowTrack> tracks, const FlowSurface& surface)
 {
+    surface_ = &surface;
     for (const FlowTrack& track : tracks) {
         const Vec3 normal = surface.faces[track.face].normal;
         std::vector<Ribbon>& all = ribbons_[track.id];
@@ -176,8 +182,8 @@ void StreakRibbons::add(std::span<const FlowTrack> tracks, const FlowSurface& su
             continue;
         }
         const double begin = track.speed > 0.0 ? track.time - length(track.to - track.from) / track.speed : track.time;
-        all.push_back({{track.from, normal, track.width, begin, track.speed, track.face},
-                       {track.to, normal, track.width, track.time, track.speed, track.face}});
+        all.push_back({{track.from, normal, track.width, begin, track.speed, track.face, track.from},
+                       {track.to, normal, track.width, track.time, track.speed, track.face, track.to}});
     }
 }
 
@@ -192,23 +198,40 @@ void StreakRibbons::forgetDry(double time)
     }
 }
 
-StreakMesh StreakRibbons::mesh(double time) const
+StreakRibbons::Ribbon StreakRibbons::onShape(Ribbon ribbon, const FlowSurface& shape) const
 {
-    return meshOf(time, {});
+    for (Point& point : ribbon) {
+        const FlowSurface::Face& from = surface_->faces[point.face];
+        const FlowSurface::Face& to = shape.faces[point.face];
+        if (from.corners != to.corners) {
+            const double stretch = std::sqrt(areaOf(to) / areaOf(from));
+            point.place = followed(from, to, point.place);
+            point.normal = turnedWith(from, to, point.normal);
+            point.width *= stretch;
+            point.speed *= stretch;
+        }
+    }
+    return ribbon;
+}
+
+StreakMesh StreakRibbons::mesh(double time, const FlowSurface* shape) const
+{
+    return meshOf(time, {}, shape);
 }
 
 StreakMesh StreakRibbons::growing(double step) const
 {
-    return meshOf({}, step);
+    return meshOf({}, step, nullptr);
 }
 
-StreakMesh StreakRibbons::meshOf(std::optional<double> time, std::optional<double> step) const
+StreakMesh StreakRibbons::meshOf(std::optional<double> time, std::optional<double> step, const FlowSurface* shape) const
 {
     StreakMesh mesh;
     Surface& surface = mesh.surface;
     surface.mean_height = film_.thickness;
     for (const auto& [id, ribbons] : ribbons_) {
-        for (const Ribbon& ribbon : ribbons) {
+        for (const Ribbon& tracked : ribbons) {
+            const Ribbon ribbon = shape != nullptr ? onShape(tracked, *shape) : tracked;
             std::vector<Station> knots;
             for (std::size_t i = 0; i < ribbon.size(); ++i) {
                 const Point& point = ribbon[i];
@@ -220,7 +243,8 @@ StreakMesh StreakRibbons::meshOf(std::optional<double> time, std::optional<doubl
                     continue;
                 }
                 const double along = knots.empty() ? 0.0 : knots.back().along + way;
-                knots.push_back({point.place, point.normal, left, {point.time, point.width, point.speed}, along});
+                knots.push_back(
+                    {point.place, point.normal, left, {point.time, point.width, point.speed}, along, point.rest, {}});
             }
             if (knots.size() < 2 || knots.back().along < kShortest * knots.back().passage.width) {
                 continue;
@@ -241,7 +265,7 @@ StreakMesh StreakRibbons::meshOf(std::optional<double> time, std::optional<doubl
                 }
                 Station s = between(knots[knot], knots[knot + 1], along);
                 const double age = time ? std::max(*time - s.passage.time, 0.0) : settledAge(film_, s.passage);
-                s.film = trailSection(film_, s.passage, s.place, age);
+                s.film = trailSection(film_, s.passage, s.rest, age);
                 const double near = std::min(1.0, 2.0 * std::min(along, whole - along) / s.passage.width);
                 const double round = std::sqrt(near * (2.0 - near));
                 s.film.half_width *= round;

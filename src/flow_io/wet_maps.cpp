@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "flow/following.h"
 #include "flow_io/object_faces.h"
 #include "flow_io/wet_spots.h"
 #include "require.h"
@@ -109,10 +110,11 @@ void WetMapOptions::validate() const
 struct WetMapper::Content {
     Content(const FlowObject& of, const FlowTerrain& terrain_of, const WetMapOptions& given)
         : object(onFaces(of, terrain_of.surface())),
-          terrain(terrain_of),
+          first(terrain_of.surface()),
+          terrain(&terrain_of),
           options(given),
-          faces(terrain.surface()),
-          tangents(tangentsOn(terrain.surface(), of))
+          faces(first),
+          tangents(tangentsOn(first, of))
     {
         spots.middle = of.vertices.front();
         const auto count = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
@@ -126,7 +128,7 @@ struct WetMapper::Content {
             throw Error(ErrorCode::InvalidInput,
                         "the object's texture coordinates have no area: unwrap it before wet maps are made");
         }
-        spots.spacing = std::sqrt(terrain.area() / static_cast<double>(spots.places.size()));
+        spots.spacing = std::sqrt(terrain->area() / static_cast<double>(spots.places.size()));
         wet.emplace(spots.places.size(), options.film);
         fillGutter(owner);
     }
@@ -205,7 +207,7 @@ struct WetMapper::Content {
         const Triangle& triangle = object.triangles[at.face];
         const Vec3 across = cross(object.vertices[triangle[1]] - object.vertices[triangle[0]],
                                   object.vertices[triangle[2]] - object.vertices[triangle[0]]);
-        const std::array<double, 3> weights = weightsAt(object, triangle, spots.place(at.spot));
+        const std::array<double, 3> weights = weightsAt(object, triangle, shown().place(at.spot));
         const Vec3 up = unit(mixed(object.normals, triangle, weights));
         const Vec3 tangent = mixed(tangents, triangle, weights);
         const Vec3 x = unit(tangent - dot(tangent, up) * up);
@@ -228,7 +230,7 @@ struct WetMapper::Content {
             };
             return 0.5 * (film(x + dx, y + dy) - film(x - dx, y - dy));
         };
-        const std::vector<FlowSurface::Face>& all = terrain.surface().faces;
+        const std::vector<FlowSurface::Face>& all = terrain->surface().faces;
         for (std::uint32_t face = 0; face < all.size(); ++face) {
             const Triangle& triangle = object.triangles[face];
             const TexelTriangle t = inTexels(object, triangle, options);
@@ -264,7 +266,7 @@ struct WetMapper::Content {
     template <typename Take>
     void draw(double time, std::span<const FlowSample> samples, const Surface& droplets, const Take& take)
     {
-        const auto water = waterOf(spots, terrain.surface(), area, samples, droplets);
+        const auto water = waterOf(shown(), terrain->surface(), area, samples, droplets);
         std::vector<Texel> drawn(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height));
         std::vector<double> film(texels.size());
         tbb::parallel_for(std::size_t{0}, texels.size(),
@@ -299,12 +301,37 @@ struct WetMapper::Content {
         }
     }
 
-    FlowObject object;  // whose triangles are the faces
-    const FlowTerrain& terrain;
+    /// Places on the shape that is mapped.
+    [[nodiscard]] const WetSpots& shown() const { return reshaped ? *reshaped : spots; }
+
+    void reshape(const FlowObject& of, const FlowTerrain& shape)
+    {
+        const std::vector<FlowSurface::Face>& from = terrain->surface().faces;
+        const std::vector<FlowSurface::Face>& to = shape.surface().faces;
+        for (std::size_t face = 0; face < area.size(); ++face) {
+            area[face] *= areaOf(to[face]) / areaOf(from[face]);
+        }
+        reshaped = spots;
+        reshaped->middle = of.vertices.front();
+        reshaped->places.clear();
+        for (std::size_t face = 0; face < to.size(); ++face) {
+            for (std::uint32_t spot = spots.first[face]; spot < spots.first[face + 1]; ++spot) {
+                reshaped->add(followed(first.faces[face], to[face], spots.place(spot)));
+            }
+        }
+        object = onFaces(of, shape.surface());
+        tangents = tangentsOn(shape.surface(), of);
+        terrain = &shape;
+    }
+
+    FlowObject object;         // whose triangles are the faces
+    const FlowSurface& first;  // its first shape
+    const FlowTerrain* terrain;
     WetMapOptions options;
     FacesAround faces;
     std::vector<Vec3> tangents;
-    WetSpots spots;
+    WetSpots spots;                                               // on the first shape
+    std::optional<WetSpots> reshaped;                             // on another one
     std::vector<std::uint32_t> texels;                            // of the spots
     std::vector<double> area;                                     // of every face's texels [m²]
     std::vector<std::pair<std::uint32_t, std::uint32_t>> gutter;  // texel and the one that it repeats
@@ -329,6 +356,11 @@ WetMapper& WetMapper::operator=(WetMapper&&) noexcept = default;
 void WetMapper::add(std::span<const FlowTrack> tracks)
 {
     wetTracks(content_->spots, tracks, content_->faces, *content_->wet);
+}
+
+void WetMapper::reshape(const FlowObject& object, const FlowTerrain& terrain)
+{
+    content_->reshape(object, terrain);
 }
 
 WetMaps WetMapper::maps(double time, std::span<const FlowSample> samples, const Surface& droplets)

@@ -121,13 +121,17 @@ void addTriangle(FileMesh& mesh, std::uint64_t a, std::uint64_t b, std::uint64_t
 
 /// Adds a fan of triangles about the first corner about which all of them face as the polygon does. Convex and
 /// four-sided polygons have such a corner; for others it is the first one.
-void addPolygon(FileMesh& mesh, const std::vector<std::uint64_t>& corners)
+/// @param fans  FileMeshOptions::fans
+void addPolygon(FileMesh& mesh, const std::vector<std::uint64_t>& corners, const std::vector<std::uint32_t>& fans)
 {
     constexpr std::size_t kMaxSearched = 64;  // the search takes the square of the corners
     const std::size_t n = corners.size();
     std::size_t apex = 0;
-    if (n > 3 && n <= kMaxSearched &&
-        std::all_of(corners.begin(), corners.end(), [&](std::uint64_t v) { return v < mesh.vertices.size(); })) {
+    const std::size_t number = mesh.fans.size();
+    if (n > 3 && number < fans.size() && fans[number] < n) {
+        apex = fans[number];
+    } else if (n > 3 && n <= kMaxSearched &&
+               std::all_of(corners.begin(), corners.end(), [&](std::uint64_t v) { return v < mesh.vertices.size(); })) {
         const auto facet = [&](std::size_t from, std::size_t i) {
             const Vec3 at = mesh.vertices[corners[from]];
             return cross(mesh.vertices[corners[(from + i) % n]] - at, mesh.vertices[corners[(from + i + 1) % n]] - at);
@@ -146,6 +150,9 @@ void addPolygon(FileMesh& mesh, const std::vector<std::uint64_t>& corners)
         while (apex < n && !is_fan(apex)) {
             ++apex;
         }
+    }
+    if (n > 3) {
+        mesh.fans.push_back(static_cast<std::uint32_t>(apex % n));
     }
     for (std::size_t i = 1; i + 1 < n; ++i) {
         addTriangle(mesh, corners[apex % n], corners[(apex + i) % n], corners[(apex + i + 1) % n]);
@@ -236,7 +243,7 @@ private:
         if (!material_) {
             useMaterial({});
         }
-        addPolygon(mesh_, corners);
+        addPolygon(mesh_, corners, options_.fans);
         mesh_.materials.resize(mesh_.triangles.size(), *material_);
     }
 
@@ -484,7 +491,7 @@ void readPlyFaces(const PlyElement& element, PlyNumbers& numbers, const FileMesh
                 for (std::uint64_t k = 0; k < corners; ++k) {
                     polygon.push_back(numbers.nextWhole(property.scalar));
                 }
-                addPolygon(mesh, polygon);
+                addPolygon(mesh, polygon, options.fans);
                 continue;
             }
             for (std::uint64_t k = 0; k < corners; ++k) {

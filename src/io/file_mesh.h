@@ -40,6 +40,7 @@ struct FileMesh {
     std::vector<std::string> material_names;  ///< "": no name
     std::vector<FileMaterial> looks;          ///< of every material name, if asked for and any is known; or empty
     std::vector<std::string> look_faults;     ///< why looks are not as the file wants them, one line each
+    std::vector<std::uint32_t> fans;          ///< corner that each polygon of more than three is a fan about
     std::optional<FileMotion> motion;
     bool deforms = false;            ///< the file has skins or morph targets, which are ignored
     bool ignores_animation = false;  ///< the file has an animation that `motion` does not hold
@@ -47,16 +48,18 @@ struct FileMesh {
 };
 
 struct FileMeshOptions {
-    bool uvs = false;               ///< read the texture coordinates of OBJ and PLY
-    bool polygons = false;          ///< divide faces with more than three corners; otherwise they are damage
-    bool weights = false;           ///< read the vertices' weights: attribute _WEIGHT of glTF, or red of COLOR_0;
-                                    ///< property weight of PLY, or red
-    bool creases = false;           ///< divide vertices without a normal, and all of STL, at creases; see
-                                    ///< divideAtCreases. Otherwise those at one place share a normal, and STL has
-                                    ///< its facets'
-    bool looks = false;             ///< read materials and their images
-    bool motion = false;            ///< read the animation of the node of a glTF scene that carries all meshes
-    std::optional<bool> y_up = {};  ///< the file's y axis points up; empty: in OBJ; ignored for glTF
+    bool uvs = false;       ///< read the texture coordinates of OBJ and PLY
+    bool polygons = false;  ///< divide faces with more than three corners; otherwise they are damage
+    bool weights = false;   ///< read the vertices' weights: attribute _WEIGHT of glTF, or red of COLOR_0;
+                            ///< property weight of PLY, or red
+    bool creases = false;   ///< divide vertices without a normal, and all of STL, at creases; see
+                            ///< divideAtCreases. Otherwise those at one place share a normal, and STL has
+                            ///< its facets'
+    bool looks = false;     ///< read materials and their images
+    bool motion = false;    ///< read the animation of the node of a glTF scene that carries all meshes
+    std::vector<std::uint32_t> fans = {};  ///< FileMesh::fans of another shape of the mesh, which polygons are divided
+                                           ///< as; of other polygons than the mesh has, it has no effect
+    std::optional<bool> y_up = {};         ///< the file's y axis points up; empty: in OBJ; ignored for glTF
 };
 
 /// Fills in the normals that vertices lack (0), and makes all of unit length.

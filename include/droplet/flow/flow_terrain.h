@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "droplet/flow/flow_surface.h"
+#include "droplet/flow/ground_motion.h"
 #include "droplet/vector.h"
 
 namespace droplet {
@@ -27,12 +28,19 @@ public:
 
     /// Prepares a surface.
     explicit FlowTerrain(FlowSurface surface);
+    /// Prepares a shape of a surface that deforms.
+    /// @param surface  in this shape
+    /// @param motion   of its faces
+    /// @param rest     the surface in the shape that what varies over it belongs to
+    FlowTerrain(FlowSurface surface, GroundMotion motion, std::shared_ptr<const FlowSurface> rest);
     ~FlowTerrain();
     FlowTerrain(FlowTerrain&& other) noexcept;             ///< Moves the data.
     FlowTerrain& operator=(FlowTerrain&& other) noexcept;  ///< Moves the data.
 
     /// The surface.
     [[nodiscard]] const FlowSurface& surface() const;
+    /// How the surface moves.
+    [[nodiscard]] const GroundMotion& motion() const;
     /// Area of all faces [m²].
     [[nodiscard]] double area() const;
     /// Diagonal of the box around the surface [m].

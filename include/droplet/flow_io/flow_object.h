@@ -41,6 +41,12 @@ struct FlowObject {
     std::vector<std::string> warnings;        ///< one line each
 };
 
+/// Object that deforms.
+struct DeformingObject {
+    FlowObject object;                        ///< in the first shape
+    std::vector<std::vector<Vec3>> vertices;  ///< its vertices in every shape [m]
+};
+
 /// Turns triangles and normals of an object to the side to which the faces of its surface look.
 /// @param surface  of the object
 /// @param object   the surface's mesh
@@ -65,5 +71,17 @@ struct FlowObjectOptions {
 ///               damaged, has no triangle with an area, numbers that are not finite, or is too small or too large to
 ///               compute with
 FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOptions& options = {});
+
+/// Reads the shapes of an object, a file for each. Their triangles are the same; only the first file's normals,
+/// texture coordinates and materials count, and its size for FlowObjectOptions::size.
+/// @param paths   at least one
+/// @param options  of all
+/// @throws Error  as readFlowObject(); InvalidInput, naming the file, if its triangles are not those of the first
+DeformingObject readDeformingObject(const std::vector<std::string>& paths, const FlowObjectOptions& options = {});
+
+/// An object in another shape. Its normals turn as the triangles around them do.
+/// @param object    the object
+/// @param vertices  as many as it has
+FlowObject inShape(FlowObject object, const std::vector<Vec3>& vertices);
 
 }  // namespace droplet

@@ -9,6 +9,7 @@
 
 #include "droplet/drawing/picture.h"
 #include "droplet/flow/flow.h"
+#include "droplet/flow/flow_shapes.h"
 #include "droplet/flow/flow_terrain.h"
 #include "droplet/flow/object_motion.h"
 #include "droplet/flow_io/flow_object.h"
@@ -44,6 +45,10 @@ struct FlowMoment {
 /// @param duration  [s], ≥ 0
 std::optional<ViewBox> framedOver(const FlowObject& object, const ObjectMotion& motion, double duration);
 
+/// Box around an object in all of its shapes; empty if it has one.
+/// @param shapes  of its surface
+std::optional<ViewBox> framedOver(const FlowShapes& shapes);
+
 /// Renders droplets on an object, frame by frame: droplets refract, gather light below them and cast shadows; where
 /// they ran, the object is darker and glossier until it dries. For every frame: advanceFlow(), add(), then picture().
 /// All frames have one camera.
@@ -64,6 +69,11 @@ public:
     /// Leaves films on the paths of one advanceFlow().
     /// @param tracks  FlowState::tracks
     void add(std::span<const FlowTrack> tracks);
+
+    /// Shows another shape of the object from now on. What is wet stays so; tracks are still those on the first shape.
+    /// @param object   as inShape() makes it
+    /// @param terrain  of this shape; must outlive the pictures of it
+    void reshape(const FlowObject& object, const FlowTerrain& terrain);
 
     /// Renders a picture. Droplets are bent to follow the object. Those in the air, farther from the object than its
     /// size, are left out.

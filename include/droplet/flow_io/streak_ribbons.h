@@ -32,7 +32,7 @@ public:
 
     /// Adds the paths of one advanceFlow(). Straight paths over a face need few points.
     /// @param tracks   FlowState::tracks, of ascending times for each droplet
-    /// @param surface  that the droplets run over; the same in all calls
+    /// @param surface  that the droplets run over; the same in all calls, and longer there than the ribbons
     void add(std::span<const FlowTrack> tracks, const FlowSurface& surface);
 
     /// Forgets ribbons that are dry at a time, which mesh() would leave out from then on.
@@ -43,7 +43,8 @@ public:
     /// which the outer ones lie a tenth of the height over the surface. Where the film has broken up there are gaps.
     /// uv: u from 0 to 1 across it, v the distance along it over its mean width. It is open below.
     /// @param time  [s]; not before the last track
-    [[nodiscard]] StreakMesh mesh(double time) const;
+    /// @param shape  another shape of the surface that the ribbons are on; null: that of their tracks
+    [[nodiscard]] StreakMesh mesh(double time, const FlowSurface* shape = nullptr) const;
 
     /// Ribbons of an animation in which each triangle is there from `wetted` on until `gone`: the film after it has
     /// drawn together.
@@ -58,13 +59,17 @@ private:
         double time = 0.0;       // [s]
         double speed = 0.0;      // [m/s]
         std::uint32_t face = 0;  // of the piece that ends here
+        Vec3 rest;               // the place where the track was [m]
     };
     using Ribbon = std::vector<Point>;  // at least two points
 
     static void extend(Ribbon& ribbon, const FlowTrack& track, Vec3 normal);
-    [[nodiscard]] StreakMesh meshOf(std::optional<double> time, std::optional<double> step) const;
+    [[nodiscard]] Ribbon onShape(Ribbon ribbon, const FlowSurface& shape) const;
+    [[nodiscard]] StreakMesh meshOf(std::optional<double> time, std::optional<double> step,
+                                    const FlowSurface* shape) const;
 
     TrailFilm film_;
+    const FlowSurface* surface_ = nullptr;                  // of the tracks
     std::map<std::uint64_t, std::vector<Ribbon>> ribbons_;  // by the droplet's id
 };
 

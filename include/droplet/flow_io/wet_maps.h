@@ -77,6 +77,11 @@ public:
     /// @param tracks  FlowState::tracks
     void add(std::span<const FlowTrack> tracks);
 
+    /// Maps another shape of the object from now on. What is wet stays so; tracks are still those on the first shape.
+    /// @param object   as inShape() makes it
+    /// @param terrain  of this shape; must outlive the maps of it
+    void reshape(const FlowObject& object, const FlowTerrain& terrain);
+
     /// Draws maps.
     /// @param time      [s]; not before the last track
     /// @param samples   droplets at that time
