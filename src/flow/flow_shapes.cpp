@@ -58,7 +58,7 @@ FlowShapes::FlowShapes(FlowSurface surface, std::vector<Triangle> triangles, std
             "finite and more than 0");
     for (std::size_t shape = 0; shape < vertices_.size(); ++shape) {
         require(vertices_[shape].size() == vertices_.front().size(), "number of vertices of a shape",
-                static_cast<double>(vertices_[shape].size()), "that of the first");
+                vertices_[shape].size(), "that of the first");
         for (const FlowSurface::Face& face : surface.faces) {
             const auto& [a, b, c] = triangles_[face.source];
             if (!hasArea({vertices_[shape][a], vertices_[shape][b], vertices_[shape][c]})) {
