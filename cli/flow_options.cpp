@@ -161,7 +161,7 @@ void declare(CommandLine& line, FlowOptions& options)
              into(parameters.drying, kTime));
     declareForces(line, parameters.forces);
     constexpr const char* kTimes = "Time";
-    line.add(kTimes, "--time", "DURATION", "Time to show [5s, of a mesh for every frame all]",
+    line.add(kTimes, "--time", "DURATION", "Time to show [5s, or all meshes of an object that deforms]",
              into(options.duration, kTime));
     line.add(kTimes, "--fps", "RATE", "Frames per second; they do not change the paths",
              into(options.frames_per_second, kFrameRate));

@@ -1145,7 +1145,7 @@ def flow(
       gravity [m/s²]: Gravity, downwards (default: 9.81m/s2)
 
     Time:
-      time [s]: Time to show (default: 5s)
+      time [s]: Time to show (default: 5s, or all meshes of an object that deforms)
       fps: Frames per second; they do not change the paths (default: 30)
       seed: Random seed (default: 1)
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `droplet-shape flow`: the contract of its files, errors, resuming an interrupted run.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -523,6 +524,59 @@ TEST_F(FlowCommand, StreaksOfEveryFrameGrow)
     EXPECT_GT(area_of("streaks-05.obj"), area_of("streaks-03.obj")) << "although they narrow";
     EXPECT_NE(readFile(path("wet.glb")).find("streaks of frames "), std::string::npos);
     EXPECT_EQ(flow("wet.glb", {"--drops", "1", "--streaks", path("a%d%d.obj")}).exit_code, 2);
+}
+
+TEST_F(FlowCommand, AnObjectDeformsByAMeshForEveryFrame)
+{
+    // A slope that moves to +x by 2 cm from frame to frame.
+    for (int k = 0; k < 6; ++k) {
+        testing::writeFile(path(fmt::format("s{}.obj", k + 7)),
+                           fmt::format("v {0} 0 0\nv {1} 0 0\nv {1} 80 -100\nv {0} 80 -100\nf 1 2 3\nf 1 3 4\n", 20 * k,
+                                       20 * k + 100));
+    }
+    const std::vector<std::string> scene{"--drops", "12",         "--fps",     "20", "--film",
+                                         "10um",    "--no-merge", "--pinning", "0",  "--droplets"};
+    const auto with = [&](std::vector<std::string> more) {
+        std::vector<std::string> all = scene;
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    ASSERT_EQ(flow("moved/%d.obj", with({path("moved.csv")}), "s%d.obj").exit_code, 0);
+    ASSERT_EQ(flow("rests/%d.obj", with({path("rests.csv"), "--time", "0.3s"}), "s7.obj").exit_code, 0);
+    const auto moved = rows("moved.csv");
+    const auto rests = rows("rests.csv");
+    ASSERT_EQ(moved.size(), rests.size());
+    ASSERT_GT(moved.size(), 40U);
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        EXPECT_NEAR(moved[i][3] - 0.02 * (moved[i][0] - 1.0), rests[i][3], 1e-9);
+        EXPECT_NEAR(moved[i][5], rests[i][5], 1e-9);
+        EXPECT_EQ(moved[i][10], rests[i][10]);
+    }
+    const Surface last = readSurface(path("moved/6.obj")).surface;
+    const Surface expected = readSurface(path("rests/6.obj")).surface;
+    ASSERT_EQ(last.vertices.size(), expected.vertices.size());
+    EXPECT_LT(length(last.vertices.front() - Vec3{0.1, 0.0, 0.0} - expected.vertices.front()), 1e-6);
+
+    std::filesystem::create_directories(path("again/5.png/x"));
+    const std::vector<std::string> pictures{"--drops", "12", "--fps", "2", "--preview-size", "64x48"};
+    ASSERT_EQ(flow("whole/%d.png", pictures, "s%d.obj").exit_code, 0);
+    ASSERT_EQ(flow("again/%d.png", pictures, "s%d.obj").exit_code, 4);
+    std::filesystem::remove_all(path("again/5.png"));
+    std::vector<std::string> resumed = pictures;
+    resumed.emplace_back("--resume");
+    ASSERT_EQ(flow("again/%d.png", resumed, "s%d.obj").exit_code, 0);
+    for (int k = 1; k <= 6; ++k) {
+        EXPECT_EQ(readFile(path(fmt::format("again/{}.png", k))), readFile(path(fmt::format("whole/{}.png", k)))) << k;
+    }
+
+    expectRefused({"--drops", "3"}, 2, "give meshes such as out/%04d.glb", "s%d.obj");
+    expectRefused({"--drops", "3", "--spin", "30deg/s"}, 2, "--spin needs one mesh as OBJECT", "s%d.obj");
+    expectRefused({"--drops", "3", "--floor", "dish"}, 2, "--floor needs one mesh as OBJECT", "s%d.obj");
+    testing::expectOneLine(testing::runInProcess(argumentsOf("s%d.obj", "x.png", {"--drops", "3", "--time", "5s"})), 2,
+                           {"--time: 150 frames need as many meshes", "has 6; give at most 0.2 s"});
+    std::filesystem::remove(path("s9.obj"));
+    testing::expectOneLine(testing::runInProcess(argumentsOf("s%d.obj", "x.png", {"--drops", "3"})), 3,
+                           {"s9.obj is missing"});
 }
 
 }  // namespace

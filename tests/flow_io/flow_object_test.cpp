@@ -673,5 +673,59 @@ TEST_F(FlowObjectFile, GltfMotionOfAPartIsIgnoredWithAWarning)
                   "accessors[99]");
 }
 
+TEST(FlowObject, DeformsByFilesWithTheSameTriangles)
+{
+    const testing::ScratchDirectory scratch;
+    const auto file = [&](const std::string& name, const std::string& text) {
+        const std::string path = (scratch.path() / name).string();
+        writeFile(path, text);
+        return path;
+    };
+    const std::string faces = "f 1//1 2//1 3//1 4//1\nf 3//1 2//1 5//1\n";
+    const std::string first = file("1.obj", "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 20 5 0\nvn 0 0 1\n" + faces);
+    // The quad has a corner that points inward, by which alone it would be divided otherwise; normals are others.
+    const std::string second = file("2.obj",
+                                    "v 0 0 0\nv 2 9 0\nv 10 10 0\nv 0 10 0\nv 20 5 4\nvn 0 0 1\nvn 1 0 0\n"
+                                    "f 1//1 2//2 3//1 4//1\nf 3//2 2//1 5//1\n");
+    const DeformingObject read = readDeformingObject({first, second}, {.size = 0.2});
+    ASSERT_EQ(read.vertices.size(), 2U);
+    EXPECT_EQ(read.vertices[0], read.object.vertices);
+    ASSERT_EQ(read.vertices[1].size(), read.object.vertices.size());
+    for (std::size_t v = 0; v < read.object.vertices.size(); ++v) {
+        const Vec3 was = read.vertices[0][v];
+        const Vec3 is = was.x > 0.15                   ? Vec3{0.2, -0.04, 0.05}
+                        : was.x > 0.05 && was.z < 0.05 ? Vec3{0.02, 0.0, 0.09}
+                                                       : was;
+        expectNear(read.vertices[1][v], is, 1e-12);
+    }
+    const auto message_of = [&](const std::string& other) {
+        try {
+            readDeformingObject({first, file("3.obj", other)});
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(message_of("v 0 0 0\nv 10 0 0\nv 10 10 0\nf 1 2 3\n"),
+                AllOf(HasSubstr("3.obj has 1 triangles, but"), HasSubstr("1.obj has 3;")));
+    EXPECT_THAT(message_of("v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 20 5 0\nf 1 2 3 4\nf 2 3 5\n"),
+                AllOf(HasSubstr("3.obj has other triangles than"), HasSubstr("of 3")));
+}
+
+TEST(FlowObject, NormalsTurnWithTheTriangles)
+{
+    FlowObject object;
+    object.vertices = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+    object.triangles = {{0, 1, 2}};
+    const double half = std::sqrt(0.5);
+    object.normals = {{0.0, 0.0, 1.0}, {half, 0.0, half}, {0.0, 0.0, 1.0}};
+    const FlowObject same = inShape(object, object.vertices);
+    EXPECT_EQ(same.normals, object.normals);
+    // A quarter turn about x, and twice the size.
+    const FlowObject turned = inShape(object, {{1.0, 0.0, 0.0}, {3.0, 0.0, 0.0}, {1.0, 0.0, 2.0}});
+    expectNear(turned.normals[0], {0.0, -1.0, 0.0}, 1e-12);
+    expectNear(turned.normals[1], {half, -half, 0.0}, 1e-12);
+}
+
 }  // namespace
 }  // namespace droplet

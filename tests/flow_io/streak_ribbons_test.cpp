@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/flow/flow_shapes.h"
 
 namespace droplet {
 namespace {
@@ -217,6 +218,28 @@ TEST(StreakRibbons, RejectOptionsOutOfRange)
     EXPECT_THROW(StreakRibbons({.drying = 0.0}), Error);
     EXPECT_THROW(StreakRibbons({.thickness = -1.0}), Error);
     EXPECT_THROW(StreakRibbons({.kinematic_viscosity = 0.0}), Error);
+}
+
+TEST(StreakRibbons, GoWithTheSurface)
+{
+    const std::vector<Vec3> vertices{{0.0, -0.1, 0.0}, {0.1, -0.1, 0.0}, {0.1, 0.1, 0.0}, {0.0, 0.1, 0.0}};
+    const std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 3}};
+    const auto upright = [](Vec3 p) { return Vec3{p.x + 0.1, -p.z, p.y + 0.3}; };
+    std::vector<Vec3> moved;
+    for (const Vec3 p : vertices) {
+        moved.push_back(upright(p));
+    }
+    FlowShapes shapes(flowSurface(vertices, triangles), triangles, {vertices, moved}, 24.0);
+    const FlowSurface& surface = shapes.first().surface();
+    StreakRibbons ribbons;
+    ribbons.add(levelRun(surface, 20), surface);
+    const Surface flat = ribbons.mesh(1.2).surface;
+    const Surface made = ribbons.mesh(1.2, &shapes.at(1)->surface()).surface;
+    ASSERT_EQ(made.triangles, flat.triangles) << "it breaks up at the same places";
+    ASSERT_GT(flat.triangles.size(), 100U);
+    for (std::size_t v = 0; v < flat.vertices.size(); ++v) {
+        EXPECT_LT(length(made.vertices[v] - upright(flat.vertices[v])), 1e-12);
+    }
 }
 
 }  // namespace

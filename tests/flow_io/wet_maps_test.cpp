@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/flow/flow_shapes.h"
 #include "droplet/flow_io/droplet_surfaces.h"
 #include "droplet/units.h"
 
@@ -231,6 +232,52 @@ TEST(WetMaps, AnObjectWithoutUvIsRefused)
     object = sheet();
     EXPECT_THROW(WetMapper(object, scene, {.width = 8}), Error);
     EXPECT_THROW(WetMapper(object, scene, {.film = {.drying = 0.0}}), Error);
+}
+
+TEST(WetMaps, FollowTheObjectToAnotherShape)
+{
+    const FlowObject object = sheet();
+    // Set upright and moved; then twice as wide.
+    const auto upright = [](Vec3 p) { return Vec3{p.x + 0.1, -p.z, p.y + 0.3}; };
+    std::vector<std::vector<Vec3>> vertices(3, object.vertices);
+    for (std::size_t v = 0; v < object.vertices.size(); ++v) {
+        vertices[1][v] = upright(object.vertices[v]);
+        vertices[2][v].x *= 2.0;
+    }
+    FlowShapes shapes(flowSurface(object.vertices, object.triangles), object.triangles, vertices, 24.0);
+    const FlowTerrain& scene = shapes.first();
+    const FlowTrack track{
+        1, scene.nearest({-9e-3, 5e-3, 0.0}).face, {-15e-3, 5e-3, 0.0}, {-4e-3, 5e-3, 0.0}, 4e-3, 0.5, 0.1};
+    const std::vector<FlowSample> flat{restingAt(scene, {8e-3, 1e-3, 0.0})};
+    WetMapper mapper(object, scene, {.width = kSize, .height = kSize});
+    mapper.add(std::vector{track});
+    const WetFloatMaps expected = mapsOf(mapper, 0.51, flat);
+    ASSERT_GT(at(expected.wet, -9e-3, 5e-3), 0.0);
+
+    std::vector<FlowSample> moved = flat;
+    moved.front().place = upright(flat.front().place);
+    moved.front().normal = {0.0, -1.0, 0.0};
+    const Vec3 gravity{0.0, kStandardGravity, 0.0};
+    mapper.reshape(inShape(object, vertices[1]), *shapes.at(1));
+    const WetFloatMaps maps = mapper.floatMaps(0.51, moved, dropletSurfaces(moved, {bodies(), gravity}));
+    // A round droplet has another direction; its grid may differ by a cell.
+    EXPECT_NEAR(volumeIn(maps.thickness), volumeIn(expected.thickness), 1e-14);
+    EXPECT_EQ(maps.age.values, expected.age.values);
+    for (const double x : {-14e-3, -9e-3, 8e-3}) {
+        const double y = x > 0.0 ? 1e-3 : 5e-3;
+        EXPECT_NEAR(at(maps.thickness, x, y), at(expected.thickness, x, y), 0.02 * at(expected.thickness, x, y));
+        EXPECT_EQ(at(maps.wet, x, y), at(expected.wet, x, y));
+    }
+    EXPECT_GT(at(maps.normal, 9e-3, 1e-3, 0), 0.1) << "leans outward as before";
+    EXPECT_GT(at(maps.normal, 8e-3, 2e-3, 1), 0.1);
+
+    std::vector<FlowSample> wide = flat;
+    wide.front().place.x *= 2.0;
+    mapper.reshape(inShape(object, vertices[2]), *shapes.at(2));
+    // Texels stand for twice the area, so that half the thickness is the droplet's volume; the film keeps its
+    // thickness.
+    EXPECT_NEAR(volumeIn(expected.thickness) - volumeIn(mapsOf(mapper, 0.51, wide).thickness), 10e-9, 1e-10);
+    the film stays ";
 }
 
 }  // namespace
