@@ -159,7 +159,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l friction -x -
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l roughness -x -d 'Height of the surface\'s bumps; those of a droplet\'s height hold it'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l roughness-map -r -F -d 'Picture over the object\'s texture coordinates: black is smooth, white has bumps of --roughness'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l friction-map -r -F -d 'Picture over the object\'s texture coordinates: black is without viscous friction, white has all of it'
-complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l ground -x -d 'Properties of a material of the object: roughness, contact-angle, and factors on friction and hysteresis, such as Glass:contact-angle=30deg,roughness=0.1mm,hysteresis=0.5'
+complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l ground -x -d 'Properties of a material of the object: roughness, contact-angle, and factors on friction and hysteresis, such as Glass:contact-angle=30deg,hysteresis=0.5'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l adhesion -x -d 'Pressure in Pa that holds droplets to the surface'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l wind-velocity -x -d 'Wind, which pushes droplets along the surface'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l no-merge -d 'Droplets that touch stay apart'

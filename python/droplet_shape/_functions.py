@@ -1115,7 +1115,7 @@ def flow(
       friction_map: Picture over the object's texture coordinates: black is without viscous friction, white has all of
         it
       ground: Properties of a material of the object: roughness, contact-angle, and factors on friction and
-        hysteresis, such as Glass:contact-angle=30deg,roughness=0.1mm,hysteresis=0.5
+        hysteresis, such as Glass:contact-angle=30deg,hysteresis=0.5
       adhesion: Pressure in Pa that holds droplets to the surface (default: by surface tension)
       gravity_direction [m or m/s]: Direction of gravity (default: 0,-1,0)
       wind_velocity [m or m/s]: Wind, which pushes droplets along the surface (default: 0,0,0)

@@ -16,6 +16,7 @@
 #include "droplet/error.h"
 #include "droplet/flow_io/droplet_surfaces.h"
 #include "droplet/version.h"
+#include "flow/following.h"
 #include "flow_io/unit_bodies.h"
 #include "require.h"
 #include "scene/write_scene.h"
@@ -129,7 +130,12 @@ std::vector<FlowPoint> flowPoints(std::span<const FlowSample> samples, const Flo
             const Vec2 half = halfSizes(bodies, conditionsOf(sample, gravity));
             point.radius = half.y;
             point.elongation = half.x / half.y;
-            point.face = terrain.surface().faces[*sample.face].source;
+            const FlowSurface::Face& face = terrain.surface().faces[*sample.face];
+            point.face = face.source;
+            if (const GroundMotion& ground = terrain.motion(); !ground.rests()) {
+                point.velocity =
+                    point.velocity + mixed(ground.velocity[*sample.face], weightsOn(face.corners, sample.place));
+            }
         }
         points.push_back(point);
     }

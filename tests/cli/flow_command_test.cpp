@@ -550,6 +550,8 @@ TEST_F(FlowCommand, AnObjectDeformsByAMeshForEveryFrame)
     for (std::size_t i = 0; i < moved.size(); ++i) {
         EXPECT_NEAR(moved[i][3] - 0.02 * (moved[i][0] - 1.0), rests[i][3], 1e-9);
         EXPECT_NEAR(moved[i][5], rests[i][5], 1e-9);
+        EXPECT_NEAR(moved[i][6] - 0.4, rests[i][6], 1e-6) << "the place changes by the velocity";
+        EXPECT_NEAR(moved[i][11], rests[i][11], 1e-9);
         EXPECT_EQ(moved[i][10], rests[i][10]);
     }
     const Surface last = readSurface(path("moved/6.obj")).surface;

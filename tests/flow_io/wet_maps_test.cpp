@@ -277,7 +277,6 @@ TEST(WetMaps, FollowTheObjectToAnotherShape)
     // Texels stand for twice the area, so that half the thickness is the droplet's volume; the film keeps its
     // thickness.
     EXPECT_NEAR(volumeIn(expected.thickness) - volumeIn(mapsOf(mapper, 0.51, wide).thickness), 10e-9, 1e-10);
-    the film stays ";
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ namespace droplet {
 struct FlowPoint {
     std::uint64_t id = 0;               ///< of the droplet
     Vec3 place;                         ///< on the surface, or the centre in the air [m]
-    Vec3 velocity;                      ///< [m/s]
+    Vec3 velocity;                      ///< with that of ground that deforms [m/s]
     double volume = 0.0;                ///< [m³]
     double radius = 0.0;                ///< half the width, from above, or of the ball in the air [m]
     double elongation = 1.0;            ///< length over width, ≥ 1 for most
