@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "droplet/body/droplet_body.h"
 #include "droplet/error.h"
 #include "droplet/flow_io/face_properties.h"
 #include "droplet/flow_io/flow_table.h"
@@ -62,14 +61,13 @@ RunFiles filesOf(const DewCommandOptions& options)
     return files;
 }
 
-droplet::DewReport makeDew(const DewCommandOptions& options)
+Dew placeDew(const DewCommandOptions& options)
 {
-    const StageClock clock;
     droplet::FlowObject object = droplet::readFlowObject(options.object, options.reading);
     droplet::FlowSurface faces =
         forOption(options.object, [&] { return droplet::flowSurface(object.vertices, object.triangles); });
     faceAs(faces, object);
-    const droplet::FlowTerrain terrain(std::move(faces));
+    droplet::FlowTerrain terrain(std::move(faces));
     droplet::DewOptions dew = options.dew;
     std::optional<droplet::Mask> mask;
     if (options.mask) {
@@ -80,8 +78,8 @@ droplet::DewReport makeDew(const DewCommandOptions& options)
         dew.weight = forOption("--vertex-weights", [&] { return droplet::weightsOver(object, terrain.surface()); });
     }
     const droplet::DewDroplets droplets = placed(terrain, dew, options.object);
-    const droplet::DropletBodies bodies(droplet::BodyShape::Capillary, dew.forces);
-    const droplet::DewModel model(terrain, droplets.samples, bodies, dew.gravity, options.detail);
+    droplet::DropletBodies bodies(droplet::BodyShape::Capillary, dew.forces);
+    droplet::DewModel model(terrain, droplets.samples, bodies, dew.gravity, options.detail);
 
     std::vector<droplet::FlowSample> shown;
     for (const std::size_t i : model.shown()) {
@@ -120,19 +118,40 @@ droplet::DewReport makeDew(const DewCommandOptions& options)
             "smaller ones, or more --hysteresis",
             report.covered / report.area, dew.coverage, report.run_off));
     }
+    return {std::move(object), std::move(terrain), std::move(bodies),
+            std::move(model),  std::move(shown),   std::move(report)};
+}
+
+droplet::Surface surfaceFor(droplet::Format format, const Dew& dew, const droplet::FlowObjectOptions& reading)
+{
+    droplet::Surface surface = dew.model.surface();
+    turnToFile(surface, format, reading);
+    return surface;
+}
+
+void writeTable(std::ostream& out, droplet::TableFormat format, const Dew& dew)
+{
+    droplet::FlowTable table(out, format);
+    table.add(1, 0.0, droplet::flowPoints(dew.shown, dew.terrain, dew.bodies, dew.report.options.gravity));
+    table.finish();
+}
+
+droplet::DewReport makeDew(const DewCommandOptions& options)
+{
+    const StageClock clock;
+    Dew dew = placeDew(options);
     const auto finish = [&] {
-        report.time_total = clock.total();
-        report.peak_memory = peakMemory();
+        dew.report.time_total = clock.total();
+        dew.report.peak_memory = peakMemory();
     };
     std::vector<OutputFile> files;
     droplet::Surface surface;
     std::uint64_t bytes = 0;
     const droplet::Format format = options.file.file.format;
     if (droplet::isAnimated(format)) {
-        files.push_back({options.output, [&](std::ostream& out) { model.write(object, out, options.file); }});
+        files.push_back({options.output, [&](std::ostream& out) { dew.model.write(dew.object, out, options.file); }});
     } else {
-        surface = model.surface();
-        turnToFile(surface, format, options.reading);
+        surface = surfaceFor(format, dew, options.reading);
         SurfaceTarget target{options.output, format, {}};
         target.options.material = options.file.material;
         files = surfaceFiles(surface, target, bytes);
@@ -140,21 +159,18 @@ droplet::DewReport makeDew(const DewCommandOptions& options)
     if (options.droplets) {
         files.push_back({*options.droplets, [&](std::ostream& out) {
                              const bool is_json = lowerExtension(*options.droplets) == ".json";
-                             droplet::FlowTable table(out,
-                                                      is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv);
-                             table.add(1, 0.0, droplet::flowPoints(shown, terrain, bodies, dew.gravity));
-                             table.finish();
+                             writeTable(out, is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv, dew);
                          }});
     }
     if (options.json) {
         files.push_back({*options.json, [&](std::ostream& out) {
                              finish();
-                             writeDewReport(out, report);
+                             writeDewReport(out, dew.report);
                          }});
     }
     writeTogether(files, options.run.files);
     finish();
-    return report;
+    return std::move(dew.report);
 }
 
 }  // namespace cli

@@ -64,9 +64,9 @@ FlowTerrain::Content::Content(FlowSurface of, GroundMotion moving, std::shared_p
     : surface(std::move(of)),
       motion(std::move(moving)),
       rest(std::move(at_rest)),
-      landing(surface),
-      area_until(areasUntil(surface)),
-      tree(scaledTriangles(surface))
+      tree(scaledTriangles(surface)),
+      landing(surface, tree.triangles()),
+      area_until(areasUntil(surface))
 {
     std::tie(low, high) = boxOf(surface);
 }

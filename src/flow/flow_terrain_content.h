@@ -17,11 +17,11 @@ struct FlowTerrain::Content {
     FlowSurface surface;
     GroundMotion motion;
     std::shared_ptr<const FlowSurface> rest;  // shape that what varies over the surface belongs to; null: this one
+    NearestTriangles tree;                    // scaled to [−1, 1]
     Landing landing;
     std::vector<double> area_until;  // area of all faces up to and with each [m²]
     Vec3 low;                        // bounding box [m]
     Vec3 high;
-    NearestTriangles tree;  // scaled to [−1, 1]
 
     [[nodiscard]] Vec3 middle() const { return 0.5 * (low + high); }
     /// What a droplet feels of the ground's motion: that it accelerates, and for one that moves over the ground, that

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <vector>
 
-#include "rays/embree_device.h"
 #include "rays/nearest.h"
+#include "rays/ray_tree.h"
 
 namespace droplet {
 namespace {
@@ -34,8 +35,7 @@ std::array<double, 2> zerosOf(const std::array<double, 3>& coefficients)
 }  // namespace
 
 struct Landing::Scene {
-    EmbreeDevice device;
-    EmbreeDevice::Scene scene = device.newScene();
+    RayTree tree;
     const std::vector<FlowSurface::Face>* faces = nullptr;
     Vec3 middle;
     double size = 0.0;  // half the longest side of the bounding box [m]
@@ -101,41 +101,6 @@ struct Landing::Scene {
         std::sort(times.begin(), times.end());
         return times;
     }
-
-    struct Context : RayContext {
-        const Scene* scene = nullptr;
-        const Flight* flight = nullptr;
-    };
-
-    /// First face on a ray, in units of the scene; of a flight, first face that it meets.
-    [[nodiscard]] std::optional<std::uint32_t> firstOn(Vec3 origin, Vec3 direction, float end,
-                                                       const Flight* flight) const
-    {
-        RTCRayHit ray{};
-        ray.ray.org_x = static_cast<float>(origin.x);
-        ray.ray.org_y = static_cast<float>(origin.y);
-        ray.ray.org_z = static_cast<float>(origin.z);
-        ray.ray.dir_x = static_cast<float>(direction.x);
-        ray.ray.dir_y = static_cast<float>(direction.y);
-        ray.ray.dir_z = static_cast<float>(direction.z);
-        ray.ray.tfar = end;
-        ray.ray.mask = 0xFFFFFFFFU;
-        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        Context context;
-        context.scene = this;
-        context.flight = flight;
-        intersect(scene.get(), context, ray);
-        return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID ? std::optional(ray.hit.primID) : std::nullopt;
-    }
-
-    static void keepMet(const RTCFilterFunctionNArguments* arguments)
-    {
-        const auto& context = *static_cast<const Context*>(arguments->context);
-        const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);  // of one ray at a time
-        if (context.flight != nullptr && !context.scene->meets(*context.flight, hit->primID)) {
-            arguments->valid[0] = 0;
-        }
-    }
 };
 
 std::pair<Vec3, Vec3> boxOf(const FlowSurface& surface)
@@ -152,36 +117,11 @@ std::pair<Vec3, Vec3> boxOf(const FlowSurface& surface)
     return {low, high};
 }
 
-Landing::Landing(const FlowSurface& surface) : scene_(std::make_unique<Scene>())
+Landing::Landing(const FlowSurface& surface, const std::vector<Corners3>& scaled)
 {
     const auto [low, high] = boxOf(surface);
-    Scene& s = *scene_;
-    s.faces = &surface.faces;
-    s.middle = 0.5 * (low + high);
-    s.size = 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-    RTCGeometry geometry = rtcNewGeometry(s.device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                 3 * sizeof(float), 3 * surface.faces.size()));
-    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), surface.faces.size()));
-    s.device.check();
-    std::uint32_t number = 0;
-    for (const FlowSurface::Face& face : surface.faces) {
-        for (const Vec3 p : face.corners) {
-            const Vec3 q = (1.0 / s.size) * (p - s.middle);
-            *vertices++ = static_cast<float>(q.x);
-            *vertices++ = static_cast<float>(q.y);
-            *vertices++ = static_cast<float>(q.z);
-            *indices++ = number++;
-        }
-    }
-    rtcSetGeometryIntersectFilterFunction(geometry, &Scene::keepMet);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(s.scene.get(), geometry);
-    rtcReleaseGeometry(geometry);
-    rtcSetSceneFlags(s.scene.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcCommitScene(s.scene.get());
-    s.device.check();
+    const double size = 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    scene_.reset(new Scene{RayTree(scaled), &surface.faces, 0.5 * (low + high), size});
 }
 
 Landing::~Landing() = default;
@@ -191,6 +131,7 @@ std::optional<Landing::Hit> Landing::next(const Leg& flight, std::uint32_t left,
 {
     const Scene& s = *scene_;
     const Scene::Flight whole{flight, left};
+    const auto meets = [&](std::uint32_t number) { return s.meets(whole, number).has_value(); };
     const double pull = length(flight.push);
     const double chord = pull > 0.0 ? std::sqrt(8.0 * kSagitta * s.size / pull) : to - from;
     const std::vector<double> passages = s.passages(flight, from, to);
@@ -206,7 +147,7 @@ std::optional<Landing::Hit> Landing::next(const Leg& flight, std::uint32_t left,
                 p = p + (2.0 * kSagitta) * (*s.faces)[left].normal;  // above a part that continues the face
             }
             const Vec3 way = (1.0 / s.size) * (flight.placeAt(end) - s.middle) - p;
-            if (const auto number = s.firstOn(p, way, 1.0F, &whole)) {
+            if (const auto number = s.tree.first(p, way, 1.0, std::ref(meets))) {
                 const FlowSurface::Face& face = (*s.faces)[*number];
                 Hit hit{*s.meets(whole, *number), *number, {}};
                 hit.place = nearestPoint(flight.placeAt(hit.time), face.corners);
@@ -223,7 +164,7 @@ std::optional<Landing::Hit> Landing::firstAlong(Vec3 origin, Vec3 direction) con
     const Scene& s = *scene_;
     const Vec3 unit = (1.0 / length(direction)) * direction;
     const Vec3 from = (1.0 / s.size) * (origin - s.middle);
-    const auto number = s.firstOn(from, unit, std::numeric_limits<float>::infinity(), nullptr);
+    const auto number = s.tree.first(from, unit, std::numeric_limits<double>::infinity());
     if (!number) {
         return std::nullopt;
     }

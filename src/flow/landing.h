@@ -5,9 +5,11 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "droplet/flow/flow_surface.h"
 #include "droplet/flow/leg.h"
+#include "rays/triangle_tree.h"
 
 namespace droplet {
 
@@ -23,7 +25,9 @@ public:
         Vec3 place;  ///< on the face [m]
     };
 
-    explicit Landing(const FlowSurface& surface);
+    /// @param surface  must outlive this
+    /// @param scaled   the surface's triangles, with the box around them in [−1, 1]³
+    Landing(const FlowSurface& surface, const std::vector<Corners3>& scaled);
     ~Landing();
     Landing(Landing&& other) noexcept;
 
