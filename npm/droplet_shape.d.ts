@@ -82,6 +82,82 @@ export interface Options {
     solver?: 'auto' | 'llt' | 'multigrid';
 }
 
+/**
+ * Object that droplets rest on: the bytes of a .glb; or a file, whose name ends in .glb, .gltf, .obj, .ply or .stl, its bytes, and
+ * the files that it names, by their names: buffers, materials, textures.
+ */
+export type DewObject =
+    | Uint8Array
+    | { name: string; data: Uint8Array; beside?: Record<string, Uint8Array> };
+
+/** Options of the command dew. Texts have units, such as '12cm'; numbers are SI. A mask is a picture's bytes, or RGBA. */
+export interface DewOptions {
+    /** Factor on the lengths of the file [1] */
+    scale?: number;
+    /** Longest side of the object; scales it; a number is in m */
+    objectSize?: string | number;
+    /** Axis that points up in an .obj, .ply or .stl [y, of .ply z] */
+    up?: 'y' | 'z';
+    /** Kind of wetness: dew in the morning, fresh rain, a cold bottle, after a shower, fine mist; the other options of this group change it [dew] */
+    preset?: 'dew' | 'rain' | 'bottle' | 'shower' | 'mist';
+    /** Share of the surface below droplets, 0.001 to 0.7 [by preset] */
+    coverage?: number;
+    /** Radius of the smallest droplets seen from above; a number is in m [by preset] */
+    smallest?: string | number;
+    /** Radius of the largest droplets seen from above, before some join; a number is in m [by preset] */
+    largest?: string | number;
+    /** Numbers of droplets by radius r: condensation is r to the power of -8/3, lognormal has a median and a spread [by preset] */
+    sizes?: 'condensation' | 'lognormal';
+    /** Median of the radii, lognormal; a number is in m [by preset] */
+    median?: string | number;
+    /** Standard deviation of their logarithm, lognormal, 0 to 3 [by preset] */
+    spread?: number;
+    /** Direction that rain comes from; droplets are then only where it meets the object [of rain 0,1,0] */
+    from?: string | [number, number, number];
+    /** Mask over the object's texture coordinates: droplets are where it is covered */
+    mask?: Uint8Array | { width: number; height: number; data: Uint8Array | Uint8ClampedArray };
+    /** Droplets are where the vertices have weights: _WEIGHT or the red of COLOR_0 of glTF, weight or red of PLY */
+    vertexWeights?: boolean;
+    /** Random seed [1] */
+    seed?: string | number;
+    /** Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle; it holds droplets [0.2] */
+    hysteresis?: number;
+    /** Direction of gravity [0,-1,0] */
+    gravityDirection?: string | [number, number, number];
+    /** Contact angle of droplets at rest, from 1deg to 179deg; a number is in rad [by preset] */
+    contactAngle?: string | number;
+    /** Viscous drag per radius and speed: artistic is 0.5Pa.s, wedge is that of water by wedge theory; a number is in Pa.s [by preset] */
+    viscosityFactor?: string | number;
+    /** Friction of a moving droplet, as a fraction of that at rest [1] */
+    kineticFraction?: number;
+    /** Drag coefficient of droplets in the wind [1] */
+    dragCoefficient?: number;
+    /** Thickness of the layer in which the wind is slower; a number is in m [by preset] */
+    boundaryLayer?: string | number;
+    /** Exponent of the wind's growth with height in that layer; 0.143 for a turbulent one [0.5] */
+    profileExponent?: number;
+    /** Density of the air; a number is in kg/m³ [1.204kg/m3] */
+    airDensity?: string | number;
+    /** Liquid, at 20 C [water] */
+    liquid?: 'water' | 'ethanol' | 'glycerol' | 'mercury' | 'honey';
+    /** Surface tension, instead of the liquid's own; a number is in N/m */
+    surfaceTension?: string | number;
+    /** Density, instead of the liquid's own; a number is in kg/m³ */
+    density?: string | number;
+    /** Gravity, downwards; a number is in m/s² [9.81m/s2] */
+    gravity?: string | number;
+    /** Triangles of droplets: medium has 64 of small ones to 352 of large ones [medium] */
+    detail?: 'low' | 'medium' | 'high';
+    /** Look of the droplets: water, ink, mercury, honey or plain [by liquid] */
+    material?: string;
+    /** auto is one mesh up to 20000 droplets; none one mesh; nodes a node for each droplet, with shared meshes; gpu EXT_mesh_gpu_instancing, for glTF [auto] */
+    instancing?: 'auto' | 'none' | 'nodes' | 'gpu';
+    /** Leave the object out of a .glb, .gltf, .usda or .usdz */
+    dropletsOnly?: boolean;
+    /** Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size [none] */
+    compress?: 'none' | 'quantize' | 'meshopt';
+}
+
 /** Triangles in space: metres, z up. Arrays of vertices have one length. */
 export interface Surface {
     /** x, y, z of every vertex [m]; a vertex that needs two normals, as on the rim, is there twice */
@@ -102,6 +178,18 @@ export interface Droplet {
     readonly report: Record<string, any>;
     /** Bytes of a file. */
     file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl' | 'usda' | 'usdz' | '3mf'): Uint8Array;
+    /** Gives the solver's memory back before the garbage collector does. */
+    free(): void;
+}
+
+/** An object and the droplets on it. */
+export interface Dew {
+    /** All droplets, in the object's frame: metres, z up. */
+    readonly surface: Pick<Surface, 'positions' | 'normals' | 'triangles'>;
+    /** The command's report, droplet-shape.dew/1. */
+    readonly report: Record<string, any>;
+    /** Bytes of a file: object and droplets; in obj, ply and stl the droplets alone; in csv a table of them. */
+    file(format?: 'glb' | 'gltf' | 'usda' | 'usdz' | 'obj' | 'ply' | 'stl' | 'csv'): Uint8Array;
     /** Gives the solver's memory back before the garbage collector does. */
     free(): void;
 }
@@ -127,6 +215,8 @@ export interface Option {
 export interface Solver {
     readonly options: Option[];
     makeDroplet(mask: Mask, options?: Options): Droplet;
+    readonly dewOptions: Option[];
+    dew(object: DewObject, options?: DewOptions): Dew;
 }
 
 /** Why there is no droplet. */
@@ -145,3 +235,9 @@ export function makeDroplet(mask: Mask, options?: Options): Uint8Array;
 
 /** Makes the droplet of a mask: its surface, its report, and its files. */
 export function shapeDroplet(mask: Mask, options?: Options): Droplet;
+
+/** Options of dew, likewise. */
+export const dewOptions: Option[];
+
+/** Covers an object with droplets that rest on it: their surface, the report, and files. */
+export function dew(object: DewObject, options?: DewOptions): Dew;

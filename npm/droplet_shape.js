@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads the solver, and calls it.
+import { pageSystem } from './page_system.js';
 import { pngOf } from './png.js';
 
 // As in src/module.cpp.
@@ -25,13 +26,17 @@ const inScript = (text) => text.replace(/--([a-z][a-z-]*)/g, (_, name) => camelC
 const withDegrees = (message) => message.replace(/'(-?[\d.e+-]+)rad' must be .*/,
     (refusal, number) => `${refusal}; a number is in radians: write '${Number(number)}deg'`);
 
-/** Options of files, of the terminal, of the threads, and of colours, which are not a mask's. */
-const kNotHere = new Set(['format', 'config', 'help', 'version', 'quiet', 'verbose', 'progress', 'threads', 'no-clobber', 'onto',
-    'surface-depth', 'by-colour', 'colours', 'gap', 'colour-map', 'nodes', 'materials', 'compress', 'sink']);
+/** Options of files, of the terminal and of the threads. */
+const kNotHere = ['format', 'config', 'help', 'version', 'quiet', 'verbose', 'progress', 'threads', 'no-clobber'];
+/** Those of a droplet, and those of colours, which are not a mask's. */
+const kNotOfDroplets = new Set([...kNotHere, 'onto', 'surface-depth', 'by-colour', 'colours', 'gap', 'colour-map', 'nodes', 'materials',
+    'compress', 'sink']);
+const kNotOfDew = new Set([...kNotHere, 'droplets', 'json']);
+const kDewFormats = ['glb', 'gltf', 'usda', 'usdz', 'obj', 'ply', 'stl', 'csv'];
 
 /** Options of the command's --help=json that the solver has, with their names in JavaScript. */
-function optionsOf(help) {
-    return JSON.parse(help).options.filter(({ name }) => !kNotHere.has(name.slice(2)))
+function optionsOf(help, without) {
+    return JSON.parse(help).options.filter(({ name }) => !without.has(name.slice(2)))
         .map(({ name, group, value, kind, unit, words, min, max, text, default: usual }) =>
             ({ name: camelCase(name.slice(2)), group, value, kind, unit, words, min, max, text: inScript(text), default: usual }));
 }
@@ -46,6 +51,10 @@ function textOf(option, value) {
     }
     if (option.kind === 'range' && Array.isArray(value)) {
         return value.join('..');
+    }
+    if (option.kind === 'vector') {
+        const is_vector = Array.isArray(value) && value.length === 3 && value.every(Number.isFinite);
+        return is_vector ? value.join(',') : refuse('three numbers');
     }
     if (typeof value !== 'number') {
         return refuse(option.unit !== '' ? 'a number or a text' : 'a text');
@@ -73,6 +82,30 @@ function argumentsOf(options, known) {
         }
     }
     return list;
+}
+
+/** Files of an object and of the mask that lies over it, by their names: the object is the first. */
+function filesOf(object, mask) {
+    const refuse = (what) => {
+        throw new DropletError('InvalidArgument', what);
+    };
+    const { name, data, beside = {} } = object instanceof Uint8Array ? { name: 'object.glb', data: object } : object ?? {};
+    if (typeof name !== 'string' || /^$|[\0/\\]/.test(name) || !(data instanceof Uint8Array)) {
+        refuse('object: must be the bytes of a .glb, or have the name of a file, without its folder, and its bytes in data');
+    }
+    const files = new Map([[name, data], ...Object.entries(beside)]);
+    for (const [path, bytes] of files) {
+        if (!(bytes instanceof Uint8Array)) {
+            refuse(`beside: '${path}' must have the bytes of a file`);
+        }
+    }
+    if (mask instanceof Uint8Array && !(mask instanceof Uint8ClampedArray)) {
+        files.set('mask', mask);
+    } else if (mask) {
+        const { kind, bytes } = describe(mask);
+        files.set('mask', kind === kMask.png ? bytes : refuse('mask: must be the bytes of a picture, or pixels of RGBA'));
+    }
+    return files;
 }
 
 /** Bytes of a mask and their kind. */
@@ -104,47 +137,6 @@ function describe(mask) {
     return refuse(`data has ${data.length} items, must have ${pixels} (coverage) or ${4 * pixels} (RGBA)`);
 }
 
-/** Where emscripten puts the upper half of a result of 64 bits. */
-export function highWords() {
-    let high = 0;
-    return {
-        setTempRet0: (value) => {
-            high = value;
-        },
-        getTempRet0: () => high,
-    };
-}
-
-/** What the module needs of a system in a page: a clock, and nothing else. */
-function pageSystem(memory) {
-    const success = 0;
-    return {
-        wasi_snapshot_preview1: {
-            clock_time_get: (clock, precision, place) => {
-                new DataView(memory().buffer).setBigUint64(place, BigInt(Math.round(performance.now() * 1e6)), true);
-                return success;
-            },
-            proc_exit: (code) => {
-                throw new Error(`the solver ended with ${code}`);
-            },
-            environ_sizes_get: (count, size) => {
-                const view = new DataView(memory().buffer);
-                view.setUint32(count, 0, true);
-                view.setUint32(size, 0, true);
-                return success;
-            },
-            environ_get: () => success,
-        },
-        env: { emscripten_notify_memory_growth: () => {}, ...highWords() },
-        droplet: {
-            open_svg: (text, size, seconds, page) => {
-                const problem = new TextEncoder().encode('must be drawn first; give its pixels as RGBA');
-                new Uint8Array(memory().buffer, page + 28, problem.length).set(problem);
-            },
-        },
-    };
-}
-
 const kBadDescriptor = 8;
 const kNoSuchCall = -52;
 /** What the module gets for a call that its system does not have. */
@@ -174,7 +166,8 @@ export async function instantiate(wasm, systemOf) {
  * @param {BufferSource | WebAssembly.Module} wasm  bytes of droplet_shape.wasm, or the compiled module
  */
 export async function loadSolver(wasm) {
-    const solver = await instantiate(wasm, pageSystem);
+    const files = new Map();
+    const solver = await instantiate(wasm, (memory) => pageSystem(memory, files));
 
     const decoder = new TextDecoder();
     const put = (bytes) => {
@@ -197,12 +190,29 @@ export async function loadSolver(wasm) {
             throw new DropletError(code, withDegrees(inScript(text(result, kArray.message))));
         }
     };
-    const helpText = () => {
-        const bytes = new Uint8Array(solver.memory.buffer, solver.droplet_help());
+    const textAt = (place) => {
+        const bytes = new Uint8Array(solver.memory.buffer, place);
         return decoder.decode(bytes.slice(0, bytes.indexOf(0)));
     };
-    const options = optionsOf(helpText());
-    const known = new Map(options.map((option) => [option.name, option]));
+    const byName = (list) => new Map(list.map((option) => [option.name, option]));
+    const options = optionsOf(textAt(solver.droplet_help()), kNotOfDroplets);
+    const known = byName(options);
+    const dewOptions = optionsOf(textAt(solver.droplet_dew_help()), kNotOfDew);
+    const knownOfDew = byName(dewOptions);
+    /** Gives the module arguments, and keeps what it makes of them unless it fails. */
+    const made = (words, make, Made) => {
+        const bytes = new TextEncoder().encode(words.map((word) => `${word}\0`).join(''));
+        const at = put(bytes);
+        const result = make(at, bytes.length);
+        solver.free(at);
+        try {
+            check(result);
+        } catch (error) {
+            solver.droplet_delete(result);
+            throw error;
+        }
+        return new Made(result);
+    };
     // The solver's own memory of droplets whose objects are gone.
     const forgotten = new FinalizationRegistry((result) => solver.droplet_delete(result));
 
@@ -262,24 +272,43 @@ export async function loadSolver(wasm) {
         }
     }
 
+    class Dew extends Droplet {
+        get surface() {
+            const { positions, normals, triangles } = super.surface;
+            return { positions, normals, triangles };
+        }
+
+        file(format = 'glb') {
+            if (!kDewFormats.includes(format)) {
+                throw new DropletError('InvalidArgument', `format: '${format}' must be one of ${kDewFormats.join(', ')}`);
+            }
+            return super.file(format);
+        }
+    }
+
     return {
         options,
         makeDroplet(mask, given = {}) {
             const words = argumentsOf(given, known);
-            const argumentBytes = new TextEncoder().encode(words.map((word) => `${word}\0`).join(''));
             const { kind, bytes, width, height } = describe(mask);
-            const at = put(argumentBytes);
             const pixels = put(bytes);
-            const result = solver.droplet_make(at, argumentBytes.length, pixels, bytes.length, width, height, kind);
-            solver.free(pixels);
-            solver.free(at);
             try {
-                check(result);
-            } catch (error) {
-                solver.droplet_delete(result);
-                throw error;
+                return made(words, (at, length) => solver.droplet_make(at, length, pixels, bytes.length, width, height, kind), Droplet);
+            } finally {
+                solver.free(pixels);
             }
-            return new Droplet(result);
+        },
+        dewOptions,
+        dew(object, { mask, ...given } = {}) {
+            const words = argumentsOf(given, knownOfDew);
+            const inputs = filesOf(object, mask);
+            const [name] = inputs.keys();
+            inputs.forEach((bytes, path) => void files.set(path, bytes));
+            try {
+                return made([...words, ...mask ? ['--mask=mask'] : [], '--', name, 'droplets.glb'], solver.droplet_dew, Dew);
+            } finally {
+                files.clear();
+            }
         },
     };
 }

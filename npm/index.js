@@ -35,4 +35,10 @@ export function makeDroplet(mask, given) {
     }
 }
 
+/** Options of dew: those of `droplet-shape dew`. */
+export const dewOptions = solver.dewOptions;
+
+/** Covers an object with droplets that rest on it: their surface, the report, and files. */
+export const dew = (object, given) => solver.dew(object, given);
+
 export { loadSolver, DropletError } from './droplet_shape.js';

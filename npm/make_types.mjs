@@ -3,9 +3,11 @@
 import { readFileSync } from 'node:fs';
 import { loadSolver } from './droplet_shape.js';
 
-const { options } = await loadSolver(readFileSync(process.argv[2]));
+const { options, dewOptions } = await loadSolver(readFileSync(process.argv[2]));
 
-const kTypes = { flag: 'boolean', count: 'string | number', number: 'number', range: 'string | [number, number]' };
+const kPicture = 'Uint8Array | { width: number; height: number; data: Uint8Array | Uint8ClampedArray }';
+const kTypes = { flag: 'boolean', count: 'string | number', number: 'number', range: 'string | [number, number]', path: kPicture,
+    vector: 'string | [number, number, number]' };
 
 function typeOf({ kind, unit, words }) {
     if (kind === 'words') {
@@ -13,12 +15,12 @@ function typeOf({ kind, unit, words }) {
     }
     return kTypes[kind] ?? (unit === '' ? 'string' : 'string | number');
 }
-const lines = options.map((option) => {
+const linesOf = (list) => list.map((option) => {
     // With superscripts, as in texts.
-    const unit = option.unit === '' ? '' : `; a number is in ${option.unit.replace('2', '²').replace('3', '³')}`;
+    const unit = option.unit === '' || option.kind === 'vector' ? '' : `; a number is in ${option.unit.replace('2', '²').replace('3', '³')}`;
     const usual = option.default === '' ? '' : ` [${option.default}]`;
     return `    /** ${option.text}${unit}${usual} */\n    ${option.name}?: ${typeOf(option)};`;
-});
+}).join('\n');
 
 process.stdout.write(`// Made by make_types.mjs.
 
@@ -32,7 +34,20 @@ export type Mask =
 
 /** The command's options. Texts have units, such as '30uL'; numbers are SI. */
 export interface Options {
-${lines.join('\n')}
+${linesOf(options)}
+}
+
+/**
+ * Object that droplets rest on: the bytes of a .glb; or a file, whose name ends in .glb, .gltf, .obj, .ply or .stl, its bytes, and
+ * the files that it names, by their names: buffers, materials, textures.
+ */
+export type DewObject =
+    | Uint8Array
+    | { name: string; data: Uint8Array; beside?: Record<string, Uint8Array> };
+
+/** Options of the command dew. Texts have units, such as '12cm'; numbers are SI. A mask is a picture's bytes, or RGBA. */
+export interface DewOptions {
+${linesOf(dewOptions)}
 }
 
 /** Triangles in space: metres, z up. Arrays of vertices have one length. */
@@ -59,6 +74,18 @@ export interface Droplet {
     free(): void;
 }
 
+/** An object and the droplets on it. */
+export interface Dew {
+    /** All droplets, in the object's frame: metres, z up. */
+    readonly surface: Pick<Surface, 'positions' | 'normals' | 'triangles'>;
+    /** The command's report, droplet-shape.dew/1. */
+    readonly report: Record<string, any>;
+    /** Bytes of a file: object and droplets; in obj, ply and stl the droplets alone; in csv a table of them. */
+    file(format?: 'glb' | 'gltf' | 'usda' | 'usdz' | 'obj' | 'ply' | 'stl' | 'csv'): Uint8Array;
+    /** Gives the solver's memory back before the garbage collector does. */
+    free(): void;
+}
+
 export interface Option {
     name: string;
     group: string;
@@ -80,6 +107,8 @@ export interface Option {
 export interface Solver {
     readonly options: Option[];
     makeDroplet(mask: Mask, options?: Options): Droplet;
+    readonly dewOptions: Option[];
+    dew(object: DewObject, options?: DewOptions): Dew;
 }
 
 /** Why there is no droplet. */
@@ -98,4 +127,10 @@ export function makeDroplet(mask: Mask, options?: Options): Uint8Array;
 
 /** Makes the droplet of a mask: its surface, its report, and its files. */
 export function shapeDroplet(mask: Mask, options?: Options): Droplet;
+
+/** Options of dew, likewise. */
+export const dewOptions: Option[];
+
+/** Covers an object with droplets that rest on it: their surface, the report, and files. */
+export function dew(object: DewObject, options?: DewOptions): Dew;
 `);

@@ -3,7 +3,7 @@
 // system. Error numbers and layouts are those of WASI preview 1 and of emscripten's musl for 32 bits.
 import fs from 'node:fs';
 import { isatty } from 'node:tty';
-import { highWords } from './droplet_shape.js';
+import { highWords } from './page_system.js';
 
 const kError = {
     EACCES: 2, EAGAIN: 6, EBADF: 8, EBUSY: 10, EEXIST: 20, EFBIG: 22, EINVAL: 28, EIO: 29, EISDIR: 31, ELOOP: 32, EMFILE: 33,

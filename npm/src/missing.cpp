@@ -4,6 +4,7 @@
 
 #include "browser.h"
 #include "contact_sheet.h"
+#include "dew_command.h"
 #include "droplet/error.h"
 #include "droplet/render/contact_sheet.h"
 #include "droplet/render/render.h"
@@ -63,8 +64,11 @@ int runGlyphs(int, const char* const*)
     refuse(std::string("glyphs needs fonts") + kElsewhere);
 }
 
-int runMotion(int, const char* const* argv)
+int runMotion(int argc, const char* const* argv)
 {
+    if (argv[1] == std::string("dew")) {
+        return runDew(argc - 1, argv + 1);
+    }
     refuse(std::string(argv[1]) + " is a command of what moves" + kElsewhere);
 }
 

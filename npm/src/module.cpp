@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The functions that solver.js calls: makes a droplet from a mask by the command's options, and hands out its arrays.
+// The functions that droplet_shape.js calls: makes a droplet from a mask by the command's options, or covers an object
+// with droplets, and hands out arrays of the result.
 #include <emscripten/emscripten.h>
 
 #include <algorithm>
@@ -9,13 +10,17 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "command_line.h"
+#include "dew_options.h"
+#include "dew_run.h"
 #include "droplet/droplet.h"
 #include "droplet/error.h"
 #include "droplet/io/output.h"
@@ -39,9 +44,16 @@ enum class MaskKind : int { Png = 0, Bytes = 1, Words = 2 };
 /// Arrays of a result; known to solver.js.
 enum class Array : int { Positions, Normals, Uvs, ContactAngles, Triangles, Report, File, Message, Code };
 
-/// A droplet, or the error that prevented it.
+/// Covered object and how its files are wanted.
+struct MadeDew {
+    cli::DewCommandOptions options;
+    cli::Dew dew;
+};
+
+/// A droplet or a covered object, or the error that prevented it.
 struct Result {
-    droplet::Surface surface;
+    std::optional<MadeDew> dew;
+    droplet::Surface surface;  ///< of all droplets
     droplet::Report report;
     droplet::Material material = droplet::Material::Water;
     droplet::LengthUnit unit = droplet::LengthUnit::Millimetre;
@@ -90,6 +102,16 @@ cli::ShapeOptions parse(const std::vector<std::string>& arguments)
     return options;
 }
 
+/// @return  the options, or the text of the help
+std::variant<cli::DewCommandOptions, std::string> parseDew(const std::vector<std::string>& arguments)
+{
+    std::vector<const char*> words{"droplet-shape dew"};
+    for (const std::string& argument : arguments) {
+        words.push_back(argument.c_str());
+    }
+    return cli::parseDew(static_cast<int>(words.size()), words.data());
+}
+
 droplet::Mask maskOf(const Given& given, const droplet::MaskOptions& options)
 {
     if (given.kind == MaskKind::Png) {
@@ -118,6 +140,11 @@ droplet::Mask maskOf(const Given& given, const droplet::MaskOptions& options)
     return mask;
 }
 
+std::uint64_t memory()
+{
+    return static_cast<std::uint64_t>(__builtin_wasm_memory_size(0)) * 65536U;
+}
+
 void make(Result& result, const std::vector<std::string>& arguments, const Given& given)
 {
     cli::StageClock clock;
@@ -140,7 +167,37 @@ void make(Result& result, const std::vector<std::string>& arguments, const Given
     result.unit = settings.unit;
     result.report.time = clock.times();
     result.report.time_total = clock.total();
-    result.report.peak_memory = static_cast<std::uint64_t>(__builtin_wasm_memory_size(0)) * 65536U;
+    result.report.peak_memory = memory();
+}
+
+void makeDew(Result& result, const std::vector<std::string>& arguments)
+{
+    const cli::StageClock clock;
+    const auto parsed = parseDew(arguments);
+    const auto* const options = std::get_if<cli::DewCommandOptions>(&parsed);
+    result.dew.emplace(MadeDew{*options, cli::placeDew(*options)});
+    result.dew->dew.report.time_total = clock.total();
+    result.dew->dew.report.peak_memory = memory();
+}
+
+/// Writes a file of a covered object; the options are those of a .glb.
+void writeDew(const MadeDew& made, const std::string& name, std::ostream& out)
+{
+    if (name == "csv") {
+        writeTable(out, droplet::TableFormat::Csv, made.dew);
+        return;
+    }
+    droplet::DewFile file = made.options.file;
+    file.file.format = droplet::formatNamed(name);
+    if (droplet::isAnimated(file.file.format)) {
+        file.file.compression =
+            file.file.format == droplet::Format::Glb ? file.file.compression : droplet::Compression::None;
+        made.dew.model.write(made.dew.object, out, file);
+        return;
+    }
+    droplet::WriteOptions options;
+    options.material = file.material;
+    writeSurface(surfaceFor(file.file.format, made.dew, made.options.reading), out, file.file.format, options);
 }
 
 template <typename Vector>
@@ -183,6 +240,9 @@ std::span<const std::byte> arrayOf(Result& result, Array array)
         place = std::move(numbers);
         return std::as_bytes(std::span(place));
     };
+    if (result.dew && result.surface.vertices.empty()) {
+        result.surface = result.dew->dew.model.surface();
+    }
     switch (array) {
         case Array::Positions:
             return kept(result.positions, floats(result.surface.vertices));
@@ -197,7 +257,11 @@ std::span<const std::byte> arrayOf(Result& result, Array array)
         case Array::Report:
             guarded(result, [&] {
                 std::ostringstream out;
-                droplet::writeReport(out, result.report);
+                if (result.dew) {
+                    writeDewReport(out, result.dew->dew.report);
+                } else {
+                    writeReport(out, result.report);
+                }
                 result.json = std::move(out).str();
             });
             return std::as_bytes(std::span(result.json));
@@ -209,6 +273,16 @@ std::span<const std::byte> arrayOf(Result& result, Array array)
             break;
     }
     return std::as_bytes(std::span(result.code));
+}
+
+/// Arguments that are each ended by a zero byte.
+std::vector<std::string> wordsOf(const char* arguments, std::size_t bytes)
+{
+    std::vector<std::string> words;
+    for (const char* word = arguments; word < arguments + bytes; word += words.back().size() + 1) {
+        words.emplace_back(word);
+    }
+    return words;
 }
 
 }  // namespace
@@ -223,27 +297,37 @@ EMSCRIPTEN_KEEPALIVE Result* droplet_make(const char* arguments, std::size_t arg
 {
     auto result = std::make_unique<Result>();
     guarded(*result, [&] {
-        std::vector<std::string> words;
-        for (const char* word = arguments; word < arguments + argument_bytes; word += words.back().size() + 1) {
-            words.emplace_back(word);
-        }
-        make(*result, words, {{mask, mask_bytes}, width, height, static_cast<MaskKind>(kind)});
+        make(*result, wordsOf(arguments, argument_bytes),
+             {{mask, mask_bytes}, width, height, static_cast<MaskKind>(kind)});
     });
     return result.release();
 }
 
-/// Writes the droplet's file in a format, for Array::File.
+/// Covers an object with droplets.
+/// @param arguments  of `droplet-shape dew`, each ended by a zero byte
+EMSCRIPTEN_KEEPALIVE Result* droplet_dew(const char* arguments, std::size_t argument_bytes)
+{
+    auto result = std::make_unique<Result>();
+    guarded(*result, [&] { makeDew(*result, wordsOf(arguments, argument_bytes)); });
+    return result.release();
+}
+
+/// Writes a file in a format, for Array::File.
 EMSCRIPTEN_KEEPALIVE void droplet_write(Result* result, const char* format)
 {
     result->code.clear();
     result->message.clear();
     guarded(*result, [&] {
         std::ostringstream out;
-        droplet::WriteOptions options;
-        options.material = result->material;
-        options.unit = result->unit;
-        options.closed = result->report.output.topology.closed;
-        droplet::writeSurface(result->surface, out, droplet::formatNamed(format), options);
+        if (result->dew) {
+            writeDew(*result->dew, format, out);
+        } else {
+            droplet::WriteOptions options;
+            options.material = result->material;
+            options.unit = result->unit;
+            options.closed = result->report.output.topology.closed;
+            droplet::writeSurface(result->surface, out, droplet::formatNamed(format), options);
+        }
         result->file = std::move(out).str();
     });
 }
@@ -275,6 +359,13 @@ EMSCRIPTEN_KEEPALIVE const char* droplet_help()
         declare(line, options);
         return line.helpJson();
     }();
+    return text.c_str();
+}
+
+/// The options of `droplet-shape dew`, likewise.
+EMSCRIPTEN_KEEPALIVE const char* droplet_dew_help()
+{
+    static const std::string text = std::get<std::string>(parseDew({"--help=json"}));
     return text.c_str();
 }
 

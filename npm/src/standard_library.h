@@ -74,10 +74,54 @@ inline to_chars_result endedBy(char* first, char* last, const string& text)
     return {first + text.size(), errc{}};
 }
 
+/// The shortest text that reads back as the same number: fmt has its digits, and the rule for the exponent is its own.
+/// @param may_shift  whether a text with an exponent may be taken, which is shorter
+template <typename Number>
+string shortestText(Number value, bool may_shift)
+{
+    const string text = fmt::format("{}", value);
+    if (!isfinite(value) || value == 0) {
+        return text;
+    }
+    const size_t e = text.find('e');
+    string digits;
+    ptrdiff_t before_point = 0;  // digits before the point, if they begin with the first one that is not 0
+    bool is_past_point = false;
+    for (const char c : text.substr(0, e)) {
+        is_past_point = is_past_point || c == '.';
+        if (isdigit(static_cast<unsigned char>(c)) != 0) {
+            if (!digits.empty() || c != '0') {
+                digits += c;
+                before_point += is_past_point ? 0 : 1;
+            } else if (is_past_point) {
+                --before_point;
+            }
+        }
+    }
+    before_point += e != string::npos ? strtol(text.c_str() + e + 1, nullptr, 10) : 0;
+    digits.erase(digits.find_last_not_of('0') + 1);
+    const string sign = value < 0 ? "-" : "";
+    const auto count = static_cast<ptrdiff_t>(digits.size());
+    const string whole = before_point <= 0       ? "0." + string(static_cast<size_t>(-before_point), '0') + digits
+                         : before_point >= count ? fmt::format("{:.0f}", fabs(value))  // all digits of a large number
+                                                 : digits.substr(0, static_cast<size_t>(before_point)) + '.' +
+                                                       digits.substr(static_cast<size_t>(before_point));
+    const string shifted =
+        fmt::format("{}{}{}e{:+03d}", digits[0], count > 1 ? "." : "", digits.substr(1), before_point - 1);
+    return sign + (may_shift && shifted.size() < whole.size() ? shifted : whole);
+}
+
 template <typename Number, enable_if_t<is_floating_point_v<Number>, int> = 0>
 to_chars_result to_chars(char* first, char* last, Number value)
 {
-    return endedBy(first, last, fmt::format("{}", value));
+    return endedBy(first, last, shortestText(value, true));
+}
+
+/// With chars_format::fixed alone.
+template <typename Number, enable_if_t<is_floating_point_v<Number>, int> = 0>
+to_chars_result to_chars(char* first, char* last, Number value, chars_format)
+{
+    return endedBy(first, last, shortestText(value, false));
 }
 
 /// With chars_format::general alone.

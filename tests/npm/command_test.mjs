@@ -45,6 +45,11 @@ const json = (name) => JSON.parse(bytes(name));
 const volume = (report) => report.droplets.reduce((sum, droplet) => sum + droplet.volume_m3, 0);
 const near = (a, b, tolerance) => Math.abs(a - b) <= tolerance * Math.max(Math.abs(a), Math.abs(b));
 
+/** Whether values of JSON are the same, but for the last digits of numbers. */
+const close = (a, b) => (typeof a === 'number' ? assert.ok(near(a, b, 1e-9) || Math.abs(a - b) < 1e-12, `${a}, not ${b}`)
+    : a && typeof a === 'object' ? assert.deepEqual(Object.keys(a), Object.keys(b)) ?? Object.keys(a).forEach((key) => close(a[key], b[key]))
+        : assert.equal(a, b));
+
 test('a logo becomes the GLB that the module makes', async () => {
     made([data('ampersand.png'), 'out.glb', '--width', '3cm', '--quiet']);
     const { makeDroplet } = await import(join(user, 'node_modules/droplet-shape/index.js'));
@@ -138,7 +143,12 @@ test('refusals are those of the native command, in words and codes', () => {
     for (const words of [[], ['--help'], ['--version'], ['batch', '--help'], ['--help=json'], [data('ampersand.png')], [data('ampersand.png'), 'out.dwg'],
         [data('ampersand.png'), 'out.glb', '--contact-angle', '200deg'], ['cut.png', 'out.glb'], ['no.txt', 'out.glb'], ['missing.png', 'out.glb'],
         [data('ampersand.png'), 'no folder/out.glb'], ['anmate', 'x'], [data('ampersand.png'), data('ampersand.png')], ['.', 'out.glb'],
-        ['batch', 'no folder', '-o', 'a.glb'], ['compare', 'a.stl', 'b.stl']]) {
+        ['batch', 'no folder', '-o', 'a.glb'], ['compare', 'a.stl', 'b.stl'], ['dew'], ['dew', '--help'], ['dew', '--help=json'], ['dew', 'missing.glb', 'out.glb'],
+        ['dew', data('can.glb'), 'out.3mf'], ['dew', data('can.glb'), 'out.glb', '--coverage', '0.8'], ['dew', 'no.txt', 'out.glb'],
+        ['dew', data('can.glb'), 'out.obj', '--instancing', 'gpu'], ['dew', data('can.glb'), data('can.glb')],
+        ['dew', data('can.glb'), 'no folder/out.glb', '--object-size', '3cm', '-q'],
+        ['dew', data('can.glb'), 'out.glb', '--object-size', '3cm', '--vertex-weights'],
+        ['dew', data('can.glb'), 'out.glb', '--object-size', '3cm', '--smallest', '15mm']]) {
         const [here, there] = [run(words), native(words)];
         assert.equal(here.status, there.status, words.join(' '));
         assert.equal(`${here.stdout}`, `${there.stdout}`, words.join(' '));
@@ -195,10 +205,60 @@ test('surfaces are compared as natively', () => {
     native(words);
     const there = json('difference.json');
     run(words);
-    const close = (a, b) => (typeof a === 'number' ? assert.ok(near(a, b, 1e-9) || Math.abs(a - b) < 1e-12, `${a}, not ${b}`)
-        : a && typeof a === 'object' ? Object.keys(a).forEach((key) => close(a[key], b[key])) : assert.equal(a, b));
     close(json('difference.json'), there);
 });
+
+// Objects in every format that dew reads, with what it takes from them.
+function objects() {
+    writeFileSync(join(cwd, 'plate.obj'), 'mtllib plate.mtl\nv 0 0 0\nv 40 0 0\nv 40 10 -40\nv 0 10 -40\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n' +
+        'usemtl red\nf 1/1 2/2 3/3 4/4\n');
+    writeFileSync(join(cwd, 'plate.mtl'), 'newmtl red\nKd 1 0 0\nmap_Kd label.png\n');
+    copyFileSync(data('label.png'), join(cwd, 'label.png'));
+    writeFileSync(join(cwd, 'weights.ply'), 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n' +
+        'property float weight\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n' +
+        '0 0 0 0\n.04 0 0 1\n.04 .04 .01 1\n0 .04 .01 0\n4 0 1 2 3\n');
+}
+
+for (const words of [
+    ['{data}/can.glb', 'out.glb', '--preset', 'bottle', '--object-size', '6cm', '--droplets', 'drops.csv'],
+    ['{data}/can.glb', 'out.glb', '--preset', 'rain', '--from', '1,2,0', '--object-size', '8cm', '--droplets', 'drops.json', '--instancing', 'gpu'],
+    ['{data}/can.glb', 'out.usdz', '--preset', 'mist', '--object-size', '3cm', '--instancing', 'nodes', '--detail', 'low', '--droplets-only'],
+    ['{data}/can.glb', 'out.glb', '--preset', 'shower', '--object-size', '9cm', '--contact-angle', '35deg', '--compress', 'meshopt'],
+    ['plate.obj', 'out.gltf', '--mask', '{data}/ampersand.png', '--smallest', '0.3mm', '--droplets', 'drops.csv'],
+    ['plate.obj', 'out.obj', '--preset', 'rain', '--liquid', 'honey', '--seed', '5'],
+    ['weights.ply', 'out.ply', '--vertex-weights', '--smallest', '0.4mm', '--detail', 'high', '--droplets', 'drops.csv'],
+    ['dry.stl', 'out.stl', '--preset', 'dew', '--object-size', '20mm', '--gravity-direction', '0,0,-1'],
+]) {
+    test(`dew ${words.join(' ')} has the droplets of the native command`, () => {
+        objects();
+        assert.equal(native([data('flourish.png'), 'dry.stl', '--model', 'linear', '--triangles', '500', '-q']).status, 0);
+        const given = ['dew', ...words.map((word) => word.replace('{data}', data(''))), '--json', 'report.json'];
+        const [here, there] = [run, native].map((program) => {
+            const { status, stderr } = program(given);
+            assert.equal(status, 0, `${stderr}`);
+            const { time_s, peak_memory_bytes, ...report } = json('report.json');
+            const files = readdirSync(cwd).filter((name) => /^(out|drops)/.test(name)).sort();
+            return { said: `${stderr}`, report, files: new Map(files.map((name) => [name, bytes(name)])) };
+        });
+        assert.equal(here.said, there.said);
+        close(here.report, there.report);
+        assert.deepEqual([...here.files.keys()], [...there.files.keys()]);
+        for (const [name, content] of there.files) {
+            if (name.startsWith('drops')) {
+                const numbers = (text) => `${text}`.split(/[\s,[\]]+/).map((word) => (Number.isFinite(Number(word)) ? Number(word) : word));
+                close(numbers(here.files.get(name)), numbers(content));
+            } else {
+                assert.ok(near(here.files.get(name).length, content.length, 2e-3), `${name}: ${here.files.get(name).length}, not ${content.length}`);
+            }
+        }
+        const [surface] = [...there.files.keys()].filter((name) => /\.(obj|ply|stl)$/.test(name));
+        if (surface) {
+            writeFileSync(join(cwd, `here.${surface}`), here.files.get(surface));
+            writeFileSync(join(cwd, surface), there.files.get(surface));
+            assert.equal(native(['compare', `here.${surface}`, surface, '--tolerance', '0.1mm', '-q']).status, 0);
+        }
+    });
+}
 
 test('frames become an animation', () => {
     made(['animate', data('closing/*.png').replace('*', '0001'), data('closing/0002.png'), 'out.glb', '--triangles', '2000', '--quiet']);

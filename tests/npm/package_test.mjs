@@ -16,7 +16,7 @@ after(() => rmSync(folder, { recursive: true }));
 
 const { pngOf } = await import(join(process.env.PACKAGE, 'png.js'));
 const { dashed } = await import(join(process.env.PACKAGE, 'droplet_shape.js'));
-const { DropletError, makeDroplet, options, shapeDroplet } = await import(join(process.env.PACKAGE, 'index.js'));
+const { DropletError, dew, dewOptions, makeDroplet, options, shapeDroplet } = await import(join(process.env.PACKAGE, 'index.js'));
 
 /** Report and bytes of the command for the same options. */
 function command(name, given) {
@@ -224,11 +224,98 @@ test('freed droplets leave no memory behind', () => {
 });
 
 test('options are those of the command', () => {
-    const help = execFileSync(process.env.PROGRAM, ['--help']).toString();
-    assert.ok(options.length > 25);
-    for (const { name } of options) {
-        assert.ok(help.includes(`--${dashed(name)}`), name);
+    for (const [words, known] of [[['--help'], options], [['dew', '--help'], dewOptions]]) {
+        const help = execFileSync(process.env.PROGRAM, words).toString();
+        assert.ok(known.length > 25);
+        for (const { name } of known) {
+            assert.ok(help.includes(`--${dashed(name)}`), name);
+        }
     }
+});
+
+// A square of 4 cm with uv, in millimetres; the left half of the picture is dark, which is liquid.
+const plate = `mtllib plate.mtl
+v 0 0 0\nv 40 0 0\nv 40 0 -40\nv 0 0 -40\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl blue\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n`;
+const text = (string) => new TextEncoder().encode(string);
+const plateFile = { name: 'plate.obj', data: text(plate), beside: { 'plate.mtl': text('newmtl blue\nKd 0 0 1\n') } };
+const half = { width: 16, height: 16, data: Uint8ClampedArray.from({ length: 4 * 256 }, (_, k) => (k % 4 === 3 || (k >> 2) % 16 > 7 ? 255 : 0)) };
+
+test('dew has the droplets of the command', () => {
+    const given = { preset: 'rain', objectSize: '6cm', seed: 7 };
+    const output = join(folder, 'dew.glb');
+    const expected = JSON.parse(execFileSync(process.env.PROGRAM, ['dew', data('can.glb'), output, '--preset', 'rain', '--object-size', '6cm', '--seed',
+        '7', '--quiet', '--json', '-']));
+    const made = dew(png('can.glb'), given);
+    for (const [key, value] of Object.entries(expected.droplets)) {
+        assert.ok(near(made.report.droplets[key], value, 1e-9), `${key}: ${made.report.droplets[key]}, not ${value}`);
+    }
+    assert.ok(near(made.file().length, readFileSync(output).length, 1e-3));
+    assert.equal(made.file('csv').filter((byte) => byte === 10).length, 1 + expected.droplets.count);
+});
+
+test('the surface of dew is the closed droplets of the report', () => {
+    const made = dew(plateFile, { coverage: 0.1, largest: 0.002, smallest: '1mm', gravityDirection: [0, -1, 0] });
+    const { positions, normals, triangles } = made.surface;
+    assert.equal(positions.length, normals.length);
+    let volume = 0;
+    for (let t = 0; t < triangles.length; t += 3) {
+        const [a, b, c] = [0, 1, 2].map((k) => positions.slice(3 * triangles[t + k], 3 * triangles[t + k] + 3));
+        volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+    }
+    assert.ok(near(volume, made.report.droplets.volume_m3, 1e-2), `${volume}`);
+    for (let v = 0; v < positions.length; v += 3) {
+        assert.ok(positions[v] > -0.002 && positions[v] < 0.042 && positions[v + 2] > -1e-6, 'on the plate, z up');
+    }
+    made.free();
+    assert.throws(() => made.report, { code: 'InvalidArgument' });
+});
+
+test('dew reads the files beside an object, and a mask as bytes or pixels', () => {
+    const by = (object, mask) => dew(object, { mask, smallest: '0.5mm' });
+    const made = by(plateFile, half);
+    assert.deepEqual(made.report.warnings, []);
+    assert.ok(near(made.report.droplets.area_m2, 0.5 * 0.04 ** 2, 2e-2));
+    const { positions } = made.surface;
+    for (let v = 0; v < positions.length; v += 3) {
+        assert.ok(positions[v] < 0.022);
+    }
+    assert.deepEqual(by(plateFile, pngOf(half)).file('stl'), made.file('stl'));
+    assert.match(by({ ...plateFile, beside: {} }).report.warnings.join(), /plate.mtl/);
+});
+
+test('every format of dew is written, and others are refused', () => {
+    const made = dew(plateFile, { coverage: 0.05, smallest: '1mm', compress: 'meshopt' });
+    const begins = { glb: 'glTF', gltf: '{', usda: '#usda', usdz: 'PK', obj: '#', ply: 'ply', stl: '', csv: 'frame,time_s,id' };
+    for (const [format, start] of Object.entries(begins)) {
+        const bytes = Buffer.from(made.file(format));
+        assert.ok(bytes.length > 1000 && bytes.toString('latin1').startsWith(start), format);
+    }
+    assert.throws(() => made.file('3mf'), { code: 'InvalidArgument' });
+});
+
+test('errors of dew name what was given', () => {
+    for (const [object, given, code, message] of [
+        [plateFile, { coverage: 0.9 }, 'InvalidArgument', /^coverage: /],
+        [plateFile, { smallest: '2mm', largest: '1mm' }, 'InvalidArgument', /^largest must not be less than smallest/],
+        [plateFile, { droplets: 'a.csv' }, 'InvalidArgument', /^droplets: unknown option/],
+        [plateFile, { from: [0, 1] }, 'InvalidArgument', /^from: .*three numbers/],
+        [plateFile, { from: [0, -1, 0] }, 'InvalidInput', /^plate.obj: the object has no place/],
+        [plateFile, { vertexWeights: true }, 'InvalidArgument', /^vertexWeights: /],
+        [plateFile, { mask: text('no picture') }, 'InvalidInput', /^cannot .*mask/],
+        [{ ...plateFile, name: '../plate.obj' }, {}, 'InvalidArgument', /^object: .*without its folder/],
+        [{ ...plateFile, name: 'plate.dwg' }, {}, 'InvalidArgument', /plate.dwg/],
+        [{ ...plateFile, name: '--help' }, {}, 'InvalidArgument', /help/],
+        ['can.glb', {}, 'InvalidArgument', /^object: /],
+        [png('can.glb').slice(0, 5000), {}, 'InvalidInput', /^cannot use object.glb: /],
+    ]) {
+        assert.throws(() => dew(object, given), (error) => {
+            assert.ok(error instanceof DropletError, `${error.stack}`);
+            assert.equal(error.code, code, error.message);
+            assert.match(error.message, message);
+            return true;
+        });
+    }
+    assert.ok(dew(plateFile, { smallest: '1mm' }).report.droplets.count > 0);
 });
 
 test('the types are current', () => {
