@@ -233,7 +233,7 @@ test('options are those of the command', () => {
     }
 });
 
-// A square of 4 cm with uv, in millimetres; the left half of the picture is dark, which is liquid.
+// A square of 4 cm with uv, in millimetres; the right half of the picture is white, which is liquid.
 const plate = `mtllib plate.mtl
 v 0 0 0\nv 40 0 0\nv 40 0 -40\nv 0 0 -40\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl blue\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n`;
 const text = (string) => new TextEncoder().encode(string);
@@ -267,7 +267,7 @@ test('the surface of dew is the closed droplets of the report', () => {
         assert.ok(positions[v] > -0.002 && positions[v] < 0.042 && positions[v + 2] > -1e-6, 'on the plate, z up');
     }
     made.free();
-    assert.throws(() => made.report, { code: 'InvalidArgument' });
+    assert.throws(() => made.file(), { code: 'InvalidArgument' });
 });
 
 test('dew reads the files beside an object, and a mask as bytes or pixels', () => {
@@ -277,7 +277,7 @@ test('dew reads the files beside an object, and a mask as bytes or pixels', () =
     assert.ok(near(made.report.droplets.area_m2, 0.5 * 0.04 ** 2, 2e-2));
     const { positions } = made.surface;
     for (let v = 0; v < positions.length; v += 3) {
-        assert.ok(positions[v] < 0.022);
+        assert.ok(positions[v] > 0.018);
     }
     assert.deepEqual(by(plateFile, pngOf(half)).file('stl'), made.file('stl'));
     assert.match(by({ ...plateFile, beside: {} }).report.warnings.join(), /plate.mtl/);
@@ -301,10 +301,10 @@ test('errors of dew name what was given', () => {
         [plateFile, { from: [0, 1] }, 'InvalidArgument', /^from: .*three numbers/],
         [plateFile, { from: [0, -1, 0] }, 'InvalidInput', /^plate.obj: the object has no place/],
         [plateFile, { vertexWeights: true }, 'InvalidArgument', /^vertexWeights: /],
-        [plateFile, { mask: text('no picture') }, 'InvalidInput', /^cannot .*mask/],
+        [plateFile, { mask: text('no picture') }, 'InvalidInput', /^mask: not an image/],
         [{ ...plateFile, name: '../plate.obj' }, {}, 'InvalidArgument', /^object: .*without its folder/],
-        [{ ...plateFile, name: 'plate.dwg' }, {}, 'InvalidArgument', /plate.dwg/],
-        [{ ...plateFile, name: '--help' }, {}, 'InvalidArgument', /help/],
+        [{ ...plateFile, name: 'plate.dwg' }, {}, 'InvalidArgument', /^format is 'dwg'/],
+        [{ ...plateFile, name: '--help' }, {}, 'InvalidArgument', /^format is ''/],
         ['can.glb', {}, 'InvalidArgument', /^object: /],
         [png('can.glb').slice(0, 5000), {}, 'InvalidInput', /^cannot use object.glb: /],
     ]) {
