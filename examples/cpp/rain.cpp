@@ -19,7 +19,7 @@ int main(int argc, char** argv)
         parameters.wipers = droplet::tandemWipers(parameters.glass, 1.2);
         droplet::WindshieldState state = droplet::startWindshield(parameters);
         droplet::WindshieldMaps maps(parameters.glass, {.width = 1024});
-        // RGBA, half floats: normal x, normal y, thickness in mm, wetness.
+        // RGBA, half floats: normal x and y times wetness, thickness in mm, wetness.
         std::vector<std::uint16_t> pixels(std::size_t{4} * maps.width() * maps.height());
         const int frames = argc > 1 ? std::atoi(argv[1]) : 60;
         for (int frame = 0; frame < frames; ++frame) {

@@ -136,21 +136,22 @@ struct WindshieldMaps::Content {
         return a.position == b.position && a.velocity == b.velocity && a.volume == b.volume;
     }
 
+    static std::uint16_t put(float value) { return Eigen::half(value).x; }
+
     void write(std::span<std::uint16_t> pixels)
     {
         const auto width = static_cast<std::size_t>(raster.width());
-        const auto put = [](float value) { return Eigen::half(value).x; };
         for (const std::uint32_t pixel : changed) {
             is_changed[pixel] = 0;
             const WaterPixel& water = sums[pixel];
-            const Vec3f normal = water.normal();
             const std::size_t at = 4 * std::size_t{pixel};
-            pixels[at] = put(normal.x);
-            pixels[at + 1] = put(normal.y);
+            const auto share = [](std::int32_t sum) { return put(static_cast<float>(sum * WaterPixel::kShare)); };
+            pixels[at] = share(water.slope[0]);
+            pixels[at + 1] = share(water.slope[1]);
             constexpr double kMillimetre = 1e-3;
             pixels[at + 2] =
                 put(static_cast<float>(static_cast<double>(water.thickness) * (WaterPixel::kThickness / kMillimetre)));
-            pixels[at + 3] = put(static_cast<float>(water.cover * WaterPixel::kShare));
+            pixels[at + 3] = share(water.cover);
             is_stale[pixel / width / kTile * columns() + pixel % width / kTile] = 1;
         }
         changed.clear();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "flow/flow_terrain_content.h"
 #include "flow/walk.h"
 
 #include <gtest/gtest.h>
@@ -88,7 +89,7 @@ WalkForces forces(double decay = 0.0)
 
 class Ground {
 public:
-    explicit Ground(const Mesh& mesh) : surface(flowSurface(mesh.vertices, mesh.triangles)), landing(surface) {}
+    explicit Ground(const Mesh& mesh) : terrain(flowSurface(mesh.vertices, mesh.triangles)) {}
 
     /// A droplet on the face above or below (x, y).
     FlowDroplet dropletAt(const WalkForces& f, Vec2 at, Vec3 velocity = {}, bool on_top = true) const
@@ -126,8 +127,9 @@ public:
         return worst;
     }
 
-    FlowSurface surface;
-    Landing landing;
+    FlowTerrain terrain;
+    const FlowSurface& surface = terrain.surface();
+    const Landing& landing = terrain.content().landing;
 };
 
 TEST(Walk, IsTheFormulaOnASlopeHoweverFineItIsCut)

@@ -36,9 +36,10 @@ struct MapTile {
 /// last one is drawn. As GlassMaps it has the left edge left and the upper edge up, as the driver sees the glass from
 /// inside.
 ///
-/// A pixel has four half floats (IEEE 754 binary16, GL_RGBA16F): x and y of the water's mean outward unit normal, to
-/// the driver's right and up the glass; the mean thickness of the water [mm]; and its wetness, the share that water
-/// covers, which exceeds 1 where droplets overlap. Bare glass is 0.
+/// A pixel has four half floats (IEEE 754 binary16, GL_RGBA16F): x and y of the water's outward unit normal, to the
+/// driver's right and up the glass, both times the wetness; the mean thickness of the water [mm]; and the wetness, the
+/// share that water covers, which exceeds 1 where droplets overlap. Bare glass is 0. All four are means over the pixel,
+/// so that they may be interpolated; over the wetness the first two are the normal of the water alone.
 class WindshieldMaps {
 public:
     /// Side of a tile [px].
