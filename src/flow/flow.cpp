@@ -690,7 +690,7 @@ private:
     }
 
     /// Where liquid runs over, for droplets that have come to rest or grown in the step.
-    [[nodiscard]] std::vector<std::pair<std::size_t, Brim>> brims() const
+    [[nodiscard]] std::vector<std::pair<std::size_t, Brim>> brims()
     {
         const double gravity = length(field_.gravity);
         if (!(gravity > 0.0)) {
@@ -703,7 +703,7 @@ private:
             [&](std::size_t first, std::size_t last) {
                 Brims found;
                 for (std::size_t i = first; i < last; ++i) {
-                    const FlowDroplet& d = s_.droplets[i];
+                    FlowDroplet& d = s_.droplets[i];
                     const bool rests = d.contact == FlowContact::Still;
                     const bool is_new = d.has_grown || (rests && (d.leg.begin >= begin_ || moves()));
                     if (d.contact == FlowContact::Air || !is_new || !(d.volume > 0.0)) {
@@ -712,8 +712,14 @@ private:
                     const double radius = 0.5 * forces_[i].contact_width;
                     const RestingLiquid liquid{d.face, d.leg.placeAt(end()),      d.volume,
                                                radius, p_.contactAngleOn(d.face), puddleOn(d.face)};
-                    if (const auto brim = overflow(c_.surface, up, liquid)) {
-                        found.emplace_back(i, *brim);
+                    if (d.volume <= d.held && length(liquid.place - d.held_at) <= radius && !moves()) {
+                        continue;
+                    }
+                    const Hollow hollow = hollowAround(c_.surface, up, liquid);
+                    d.held = hollow.held;
+                    d.held_at = liquid.place;
+                    if (hollow.brim) {
+                        found.emplace_back(i, *hollow.brim);
                     }
                 }
                 return found;

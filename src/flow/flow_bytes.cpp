@@ -7,7 +7,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kHead = "droplet-shape flow 4\n";
+constexpr std::string_view kHead = "droplet-shape flow 5\n";
 
 template <class Archive, class State>
 void scalars(Archive& archive, State& s)
@@ -28,7 +28,7 @@ std::string bytesOf(const FlowState& state)
     for (const FlowDroplet& d : state.droplets) {
         out.all(d.id, d.volume, d.drying, d.born, std::uint64_t{d.has_grown}, static_cast<std::uint64_t>(d.contact),
                 std::uint64_t{d.face}, std::uint64_t{d.side}, d.leg.begin, d.leg.place, d.leg.velocity, d.leg.push,
-                d.leg.decay, d.heading);
+                d.leg.decay, d.heading, d.held, d.held_at);
     }
     out.put(std::uint64_t{state.wetness.size()});
     for (const FlowState::Wetness& w : state.wetness) {
@@ -57,7 +57,7 @@ FlowState flowStateFromBytes(std::string_view bytes, std::size_t faces, const st
     FlowState state;
     scalars(in, state);
     in.require(state.time >= 0.0);
-    state.droplets.resize(in.count(22 * sizeof(double)));
+    state.droplets.resize(in.count(26 * sizeof(double)));
     std::uint64_t previous_id = 0;
     for (FlowDroplet& d : state.droplets) {
         std::uint64_t has_grown = 0;
@@ -65,7 +65,7 @@ FlowState flowStateFromBytes(std::string_view bytes, std::size_t faces, const st
         std::uint64_t side = 0;
         in.all(d.id, d.volume, d.drying, d.born, has_grown, contact);
         face(d.face);
-        in.all(side, d.leg.begin, d.leg.place, d.leg.velocity, d.leg.push, d.leg.decay, d.heading);
+        in.all(side, d.leg.begin, d.leg.place, d.leg.velocity, d.leg.push, d.leg.decay, d.heading, d.held, d.held_at);
         in.require(d.volume > 0.0 && d.drying >= 0.0 && d.leg.decay >= 0.0 && d.id > previous_id &&
                    d.id < state.next_id && has_grown < 2 && contact <= 3 && side < 3);
         d.has_grown = has_grown != 0;

@@ -11,8 +11,8 @@
 #include <cstddef>
 #include <numbers>
 #include <queue>
-#include <set>
 #include <tuple>
+#include <unordered_set>
 #include <vector>
 
 #include "droplet/wind/forces.h"
@@ -73,10 +73,11 @@ public:
     {
     }
 
-    std::optional<Brim> run()
+    Hollow run()
     {
+        const Hollow known{std::nullopt, liquid_.volume};
         if (!begin(liquid_.face, dot(up_, liquid_.place))) {
-            return std::nullopt;
+            return known;
         }
         std::size_t check = kFirstCheck;
         while (!passes_.empty()) {
@@ -88,23 +89,26 @@ public:
             }
             level_ = std::max(level_, pass.height);
             if (flooded_.size() >= check) {
-                if (holds() || flooded_.size() > kMostFaces) {
-                    return std::nullopt;
+                if (const double held = heldVolume(); held >= liquid_.volume) {
+                    return {std::nullopt, held};
+                }
+                if (flooded_.size() > kMostFaces) {
+                    return known;
                 }
                 check *= 2;
             }
             if (next == FlowSurface::kNone) {
-                return level_ - bottom_ > slack_ ? brim(pass, pass.face, true) : std::nullopt;
+                return level_ - bottom_ > slack_ ? over(pass, pass.face, true) : known;
             }
             if (heightsOf(next)[lowestOf(next)] >= level_ - slack_) {
                 flood(next);
             } else if (level_ - bottom_ > slack_) {
-                return brim(pass, next, false);
+                return over(pass, next, false);
             } else if (!begin(next, level_)) {
-                return std::nullopt;
+                return known;
             }
         }
-        return std::nullopt;
+        return known;
     }
 
 private:
@@ -154,18 +158,18 @@ private:
         return {std::max(sum.area, 0.0), std::max(sum.volume, 0.0)};
     }
 
-    /// Whether the liquid stays below the level, but for what surface tension holds above it.
-    [[nodiscard]] bool holds() const
+    /// Volume up to the level, and what surface tension holds above it.
+    [[nodiscard]] double heldVolume() const
     {
         const Flooded sum = filled();
         const double cap = capVolume(std::sqrt(sum.area / std::numbers::pi), liquid_.contact_angle);
-        return liquid_.volume <= sum.volume + std::min(sum.area * liquid_.puddle, cap);
+        return sum.volume + std::min(sum.area * liquid_.puddle, cap);
     }
 
-    [[nodiscard]] std::optional<Brim> brim(const Pass& pass, std::uint32_t beyond, bool is_open) const
+    [[nodiscard]] Hollow over(const Pass& pass, std::uint32_t beyond, bool is_open) const
     {
-        if (holds()) {
-            return std::nullopt;
+        if (const double held = heldVolume(); held >= liquid_.volume) {
+            return {std::nullopt, held};
         }
         const FlowSurface::Face& from = faces_[pass.face];
         const Vec3 a = from.corners[pass.side];
@@ -174,7 +178,7 @@ private:
         const Vec3 way =
             is_open ? -1.0 * from.inward[pass.side] : faces_[beyond].corners[lowestOf(beyond)] - result.place;
         result.ahead = (1.0 / length(way)) * way;
-        return result;
+        return {result, 0.0};
     }
 
     const std::vector<FlowSurface::Face>& faces_;
@@ -183,13 +187,13 @@ private:
     double slack_;  ///< [m]
     double bottom_ = 0.0;
     double level_ = 0.0;
-    std::set<std::uint32_t> flooded_;
+    std::unordered_set<std::uint32_t> flooded_;
     std::priority_queue<Pass, std::vector<Pass>, std::greater<>> passes_;
 };
 
 }  // namespace
 
-std::optional<Brim> overflow(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid)
+Hollow hollowAround(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid)
 {
     return Flood(surface, up, liquid).run();
 }

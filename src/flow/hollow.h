@@ -29,11 +29,17 @@ struct Brim {
     double capacity = 0.0;   ///< of the hollow up to the brim [m³]
 };
 
+/// What is known of the ground around liquid.
+struct Hollow {
+    std::optional<Brim> brim;  ///< where the liquid runs over
+    double held = 0.0;         ///< if it does not: so much would not either, at least what there is [m³]
+};
+
 /// Where liquid runs over: if it lies in a hollow and is more than what fills it and stands over its brim by surface
 /// tension, as a cap or a puddle over the hollow's area.
 /// @param surface  of the ground
 /// @param up       unit, against gravity
 /// @param liquid   at rest
-std::optional<Brim> overflow(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid);
+Hollow hollowAround(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid);
 
 }  // namespace droplet

@@ -296,7 +296,7 @@ struct DriversView::Content {
         return moments;
     }
 
-    /// Calls work(pixel of the tile, its ray's direction, place on the glass) for all pixels that see the glass.
+    /// Calls work(pixel of the tile, its ray's direction if it is asked for, place on the glass) for all pixels that see the glass.
     template <typename Work>
     void forTile(std::size_t tile, const Work& work) const
     {
@@ -307,7 +307,8 @@ struct DriversView::Content {
             for (int x = left; x < std::min(left + kTile, scene.eye.width()); ++x) {
                 const Vec2f place = scene.eye.place(x, y);
                 if (!std::isnan(place.x)) {
-                    work(pixelInTile(x, y), scene.eye.ray(x, y), place);
+                    work(
+                        pixelInTile(x, y), [&] { return scene.eye.ray(x, y); }, place);
                 }
             }
         }
@@ -368,11 +369,11 @@ struct DriversView::Content {
     void drawWaterLeft(std::size_t number, TileLight& light) const
     {
         const ViewTile& tile = scene.tiles[number];
-        forTile(number, [&](std::size_t pixel, Vec3f ray, Vec2f place) {
-            const WaterMet water = wipers.waterLeft(place, tile.pixel);
+        forTile(number, [&](std::size_t pixel, const auto& ray, Vec2f place) {
+            const WaterMet water = wipers.waterLeft({number, pixel}, place, tile.pixel);
             if (water.cover > 0.0F) {
                 light[pixel] += float4(1.0F - light[pixel][3]) *
-                                (water.is_bead ? throughBead(water, tile, ray) : throughFilm(water, tile, ray));
+                                (water.is_bead ? throughBead(water, tile, ray()) : throughFilm(water, tile, ray()));
             }
         });
     }
@@ -382,7 +383,7 @@ struct DriversView::Content {
     void drawWipers(std::size_t number, int moment, TileLight& light, const Touch& touch) const
     {
         const ViewTile& tile = scene.tiles[number];
-        forTile(number, [&](std::size_t pixel, Vec3f ray, Vec2f place) {
+        forTile(number, [&](std::size_t pixel, const auto& ray, Vec2f place) {
             const WiperMet met = wipers.at(place, tile.pixel, moment);
             if (met.cover > 0.0F) {
                 Float4 rubber = float4(met.cover * met.shine) * (pane * cabin);
@@ -390,7 +391,7 @@ struct DriversView::Content {
                 light[pixel] = rubber + float4(1.0F - met.cover) * light[pixel];
             }
             if (met.pushed.cover > 0.0F) {
-                light[pixel] = throughBead(met.pushed, tile, ray) + float4(1.0F - met.pushed.cover) * light[pixel];
+                light[pixel] = throughBead(met.pushed, tile, ray()) + float4(1.0F - met.pushed.cover) * light[pixel];
             }
             if (met.cover > 0.0F || met.pushed.cover > 0.0F) {
                 touch(pixel);

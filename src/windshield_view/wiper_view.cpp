@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "windshield_view/wiper_view.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -160,6 +162,9 @@ void WiperView::update(double time)
     if (options.wipers.empty()) {
         return;
     }
+    if (film_places_.empty()) {
+        placeFilms();
+    }
     const std::vector<WiperState> before = std::exchange(states_, {});
     moments_ = 1;
     const Vec2 middle{0.5 * scene_.glass.width(), 0.5 * scene_.glass.height()};
@@ -210,21 +215,31 @@ bool WiperView::isInOtherField(const WiperState& own, Vec2f place) const
     });
 }
 
-WaterMet WiperView::film(const WiperState& one, Vec2f from, float pixel) const
+WiperView::FilmPlace WiperView::filmPlaceOf(const Wiper& wiper, Vec2f from)
 {
-    const Wiper& wiper = one.wiper;
     const float radius = size(from);
-    if (one.since < 0.0 || radius < static_cast<float>(wiper.inner) || radius > static_cast<float>(wiper.outer)) {
-        return {};
+    if (!(radius >= static_cast<float>(wiper.inner) && radius <= static_cast<float>(wiper.outer))) {
+        return {};  // NaN, too: beside the glass
     }
     const float angle = std::atan2(from.y, from.x);
     const float share = shareOfWay(wiper, angle);
     if (share <= 0.0F || share >= 1.0F) {
         return {};
     }
+    return {static_cast<float>(wiper.stroke) / (2.0F * std::numbers::pi_v<float>)*std::acos(1.0F - 2.0F * share),
+            angle * static_cast<float>(wiper.outer)};
+}
+
+WaterMet WiperView::film(const WiperState& one, const FilmPlace& place, Vec2f from, float pixel)
+{
+    if (one.since < 0.0 || place.there < 0.0F) {
+        return {};
+    }
+    const Wiper& wiper = one.wiper;
+    const float radius = size(from);
     // Times at which the blade passed: forward, and on its way back.
     const auto stroke = static_cast<float>(wiper.stroke);
-    const float there = stroke / (2.0F * std::numbers::pi_v<float>)*std::acos(1.0F - 2.0F * share);
+    const float there = place.there;
     const auto since = static_cast<float>(one.since);
     std::uint32_t seed = 2 * one.stroke;
     float age = since - there;
@@ -243,18 +258,24 @@ WaterMet WiperView::film(const WiperState& one, Vec2f from, float pixel) const
     }
     const auto streaks =
         std::find_if(one.streaks.begin(), one.streaks.end(), [&](const FilmStreaks& of) { return of.seed == seed; });
-    const float along = angle * static_cast<float>(wiper.outer);
+    const float along = place.along;
     const auto field = [&](float u, float v, const Lattice& lattice) {
         return fieldFrom(u, v, [&](std::int32_t i, std::int32_t j) { return lattice.at(i, j); });
     };
+    constexpr float kThickShare = 0.62F;
+    constexpr float kThinShare = 0.38F;
+    const float broken = 0.12F + 0.88F * std::sqrt(age / kFilmLasts);  // level below which the glass is bare
     const Field thick = field(along / kLong, radius / kWide, streaks->thick);
+    if (kThickShare * thick.value + kThinShare <= broken) {
+        return {};
+    }
     const Field thin = field(kThinLong * along / kLong, kThinWide * radius / kWide, streaks->thin);
-    const float level = 0.62F * thick.value + 0.38F * thin.value - (0.12F + 0.88F * std::sqrt(age / kFilmLasts));
+    const float level = kThickShare * thick.value + kThinShare * thin.value - broken;
     if (level <= 0.0F) {
         return {};
     }
-    const float along_slope = (0.62F * thick.by_u + 0.38F * kThinLong * thin.by_u) / kLong;
-    const float across_slope = (0.62F * thick.by_v + 0.38F * kThinWide * thin.by_v) / kWide;
+    const float along_slope = (kThickShare * thick.by_u + kThinShare * kThinLong * thin.by_u) / kLong;
+    const float across_slope = (kThickShare * thick.by_v + kThinShare * kThinWide * thin.by_v) / kWide;
     // The rims are steeper, as they recede.
     constexpr float kThick = 4.5e-5F;  // [m]
     const float scale = kThick * (0.35F + 0.65F * std::exp(-age / 0.3F)) * (1.0F + 1.2F * std::exp(-level / 0.05F));
@@ -310,22 +331,39 @@ WaterMet WiperView::wedge(const WiperState& one, Vec2f from, float pixel)
     return beadAt(beyond, width, wedge.ahead, pixel);
 }
 
-WaterMet WiperView::waterLeft(Vec2f place, float pixel) const
+WaterMet WiperView::waterLeft(TilePixel at, Vec2f place, float pixel) const
 {
     WaterMet met;
-    for (const WiperState& one : states_) {
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+        const WiperState& one = states_[k];
         const Vec2f pivot = toFloats2(one.wiper.pivot);
         const Vec2f from{place.x - pivot.x, place.y - pivot.y};
         const WaterMet bead = wedge(one, from, pixel);
         if (bead.cover > 0.0F && !isInOtherField(one, place)) {
             return bead;
         }
-        const WaterMet thin = film(one, from, pixel);
+        const WaterMet thin = film(one, film_places_[k][at.tile * kTilePixels + at.pixel], from, pixel);
         if (thin.cover > met.cover) {
             met = thin;
         }
     }
     return met;
+}
+
+void WiperView::placeFilms()
+{
+    const Tiles& tiles = scene_.tiles;
+    for (const Wiper& wiper : scene_.options.wipers) {
+        std::vector<FilmPlace>& places = film_places_.emplace_back(tiles.count() * kTilePixels);
+        tbb::parallel_for(0, scene_.eye.height(), [&](int y) {
+            for (int x = 0; x < scene_.eye.width(); ++x) {
+                const Vec2f place = scene_.eye.place(x, y);
+                const Vec2f pivot = toFloats2(wiper.pivot);
+                places[tiles.number(x / kTile, y / kTile) * kTilePixels + pixelInTile(x, y)] =
+                    filmPlaceOf(wiper, {place.x - pivot.x, place.y - pivot.y});
+            }
+        });
+    }
 }
 
 WiperMet WiperView::at(Vec2f place, float pixel, int moment) const

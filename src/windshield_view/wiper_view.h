@@ -42,9 +42,15 @@ public:
     /// Number of moments at which blades are drawn while the shutter is open.
     [[nodiscard]] int moments() const { return moments_; }
 
+    /// Pixel of a tile.
+    struct TilePixel {
+        std::size_t tile = 0;
+        std::size_t pixel = 0;
+    };
     /// Water that a wiper has left: films and wedges.
+    /// @param place  where the pixel's middle is on the glass [m]
     /// @param pixel  size of a pixel's image on the glass [m]
-    [[nodiscard]] WaterMet waterLeft(Vec2f place, float pixel) const;
+    [[nodiscard]] WaterMet waterLeft(TilePixel at, Vec2f place, float pixel) const;
     /// Wiper at a place and moment.
     /// @param moment  0 … moments() − 1
     [[nodiscard]] WiperMet at(Vec2f place, float pixel, int moment) const;
@@ -99,7 +105,14 @@ private:
     [[nodiscard]] static std::vector<FilmStreaks> streaksOf(const WiperState& one,
                                                             const std::vector<FilmStreaks>& before);
     [[nodiscard]] static Blade bladeAt(const Wiper& wiper, double time);
-    [[nodiscard]] WaterMet film(const WiperState& one, Vec2f from, float pixel) const;
+    /// What a pixel's place says of the film there, once for the view.
+    struct FilmPlace {
+        float there = -1.0F;  ///< when the blade passes on its way there [s after its start]; below 0: never
+        float along = 0.0F;   ///< along the way of the blade's outer end [m]
+    };
+    void placeFilms();
+    [[nodiscard]] static FilmPlace filmPlaceOf(const Wiper& wiper, Vec2f from);
+    [[nodiscard]] static WaterMet film(const WiperState& one, const FilmPlace& place, Vec2f from, float pixel);
     [[nodiscard]] static Wedge wedgeOf(const WiperState& one);
     [[nodiscard]] static WaterMet wedge(const WiperState& one, Vec2f from, float pixel);
     /// Whether a place is in the field of another wiper.
@@ -107,6 +120,7 @@ private:
 
     const ViewContext& scene_;
     std::vector<WiperState> states_;
+    std::vector<std::vector<FilmPlace>> film_places_;  ///< for each wiper: of every pixel, tile by tile
     std::vector<std::uint8_t> tiles_;
     int moments_ = 1;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "droplet/flow/flow.h"
@@ -61,10 +62,17 @@ RestingLiquid liquidAt(const FlowTerrain& terrain, Vec3 place, double volume)
     return {faceAt(terrain, place), place, volume, 4e-3, 90.0 * kDegree, 0.0};
 }
 
+std::optional<Brim> brimOf(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid)
+{
+    const Hollow hollow = hollowAround(surface, up, liquid);
+    EXPECT_TRUE(hollow.brim || hollow.held >= liquid.volume);
+    return hollow.brim;
+}
+
 TEST(Hollow, HoldsAConesVolume)
 {
     const FlowTerrain terrain(cone(0.0));
-    const auto over = overflow(terrain.surface(), kUp, liquidAt(terrain, kTip, 1.001 * coneVolume()));
+    const auto over = brimOf(terrain.surface(), kUp, liquidAt(terrain, kTip, 1.001 * coneVolume()));
     ASSERT_TRUE(over);
     EXPECT_NEAR(over->capacity / coneVolume(), 1.0, 1e-9);
     EXPECT_NEAR(std::hypot(over->place.x, over->place.y), kRadius, 1e-9);
@@ -72,13 +80,23 @@ TEST(Hollow, HoldsAConesVolume)
     EXPECT_FALSE(over->is_open);
     EXPECT_LT(over->ahead.z, 0.0) << "downward";
     EXPECT_GT(dot(over->ahead, over->place), 0.0) << "away from the tip";
-    EXPECT_FALSE(overflow(terrain.surface(), kUp, liquidAt(terrain, kTip, 0.999 * coneVolume())));
+    EXPECT_FALSE(brimOf(terrain.surface(), kUp, liquidAt(terrain, kTip, 0.999 * coneVolume())));
+}
+
+// So that it is not asked for at every step of rain.
+TEST(Hollow, TellsWhatItHolds)
+{
+    const FlowTerrain terrain(cone(0.0));
+    const double held = hollowAround(terrain.surface(), kUp, liquidAt(terrain, kTip, 0.9 * coneVolume())).held;
+    EXPECT_NEAR(held / coneVolume(), 1.0, 1e-9);
+    EXPECT_FALSE(brimOf(terrain.surface(), kUp, liquidAt(terrain, kTip, 0.999 * held)));
+    EXPECT_TRUE(brimOf(terrain.surface(), kUp, liquidAt(terrain, kTip, 1.001 * held)));
 }
 
 TEST(Hollow, RunsOverAtTheLowestPlaceOfItsBrim)
 {
     const FlowTerrain terrain(cone(0.004));
-    const auto over = overflow(terrain.surface(), kUp, liquidAt(terrain, kTip, coneVolume()));
+    const auto over = brimOf(terrain.surface(), kUp, liquidAt(terrain, kTip, coneVolume()));
     ASSERT_TRUE(over);
     EXPECT_NEAR(over->place.x, kRadius, 1e-9);
     EXPECT_NEAR(over->place.z, -0.004, 1e-9);
@@ -93,30 +111,30 @@ TEST(Hollow, SurfaceTensionHoldsMoreThanItsVolume)
     liquid.puddle = 1e-3;
     const double area = 3.0 * coneVolume() / kDepth;
     liquid.volume = coneVolume() + 0.999 * area * liquid.puddle;
-    EXPECT_FALSE(overflow(terrain.surface(), kUp, liquid));
+    EXPECT_FALSE(brimOf(terrain.surface(), kUp, liquid));
     liquid.volume = coneVolume() + 1.001 * area * liquid.puddle;
-    EXPECT_TRUE(overflow(terrain.surface(), kUp, liquid));
+    EXPECT_TRUE(brimOf(terrain.surface(), kUp, liquid));
     liquid.puddle = 1.0;  // then it is a cap, here half a ball
     liquid.volume = coneVolume() + 0.9 * 2.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3);
-    EXPECT_FALSE(overflow(terrain.surface(), kUp, liquid));
+    EXPECT_FALSE(brimOf(terrain.surface(), kUp, liquid));
     liquid.volume = coneVolume() + 1.1 * 2.0 / 3.0 * std::numbers::pi * std::pow(kRadius, 3);
-    EXPECT_TRUE(overflow(terrain.surface(), kUp, liquid));
+    EXPECT_TRUE(brimOf(terrain.surface(), kUp, liquid));
 }
 
 TEST(Hollow, SlopesAndPlatesHoldWhatLiesOnThem)
 {
     const FlowTerrain terrain(cone(0.0));
-    EXPECT_FALSE(overflow(terrain.surface(), kUp, liquidAt(terrain, {2.0 * kRadius, 0.0, -0.3 * kRadius}, 1.0)))
+    EXPECT_FALSE(brimOf(terrain.surface(), kUp, liquidAt(terrain, {2.0 * kRadius, 0.0, -0.3 * kRadius}, 1.0)))
         << "on the plate's slope";
     const FlowTerrain flat(cone(-kDepth, 0.0));
-    EXPECT_FALSE(overflow(flat.surface(), kUp, liquidAt(flat, {2.0 * kRadius, 0.0, 0.0}, 1.0))) << "on a flat plate";
+    EXPECT_FALSE(brimOf(flat.surface(), kUp, liquidAt(flat, {2.0 * kRadius, 0.0, 0.0}, 1.0))) << "on a flat plate";
 }
 
 TEST(Hollow, OpenEdgesAreBrims)
 {
     FlowSurface surface = cone(0.0, -0.3);  // a bowl with a wide rim that ends high
     const FlowTerrain terrain(std::move(surface));
-    const auto over = overflow(terrain.surface(), kUp, liquidAt(terrain, kTip, 1.0));
+    const auto over = brimOf(terrain.surface(), kUp, liquidAt(terrain, kTip, 1.0));
     ASSERT_TRUE(over);
     EXPECT_TRUE(over->is_open);
     EXPECT_NEAR(std::hypot(over->place.x, over->place.y), 3.0 * kRadius, 1e-9);

@@ -28,7 +28,9 @@ struct FlowDroplet {
     std::uint32_t face = 0;                  ///< number in FlowSurface::faces; in the air, the last one
     std::uint32_t side = 0;                  ///< of the face, for contact Edge
     Leg leg;                                 ///< the path since the last event
-    Vec3 heading;  ///< unit; friction of contact angle hysteresis acts against it; 0 if there is none
+    Vec3 heading;       ///< unit; friction of contact angle hysteresis acts against it; 0 if there is none
+    double held = 0.0;  ///< volume that a hollow around `held_at` is known to hold [m³]
+    Vec3 held_at;       ///< place [m]
 };
 
 }  // namespace droplet
