@@ -375,7 +375,10 @@ private:
             const RandomStream random(p_.seed, RandomPurpose::Nucleus, s_.next_nucleus++);
             s_.until_nucleus += random.exponential(0);
             const FlowTerrain::Point point = terrain_.pointAt(random.uniform(1), random.uniform(2));
-            start({point.place, capVolume(kNucleusShare * spacing, p_.contactAngleOn(point.face)), {}});
+            // As wide as that from above, beyond 90° at its equator.
+            const double angle = p_.contactAngleOn(point.face);
+            const double contact = kNucleusShare * spacing * std::sin(std::max(angle, 0.5 * std::numbers::pi));
+            start({point.place, capVolume(contact, angle), {}});
         }
     }
 
@@ -732,8 +735,8 @@ private:
         return all;
     }
 
-    /// What is too much for a hollow leaves it, a droplet as wide as twice the height of a puddle at a time; a hollow
-    /// that holds next to nothing lets all of it go.
+    /// What is too much for a hollow leaves it, a droplet as wide as twice the height of a puddle at a time or, in a
+    /// flood, all that it does not hold; a hollow that holds next to nothing lets all of it go.
     void runOver()
     {
         const WalkField field = walkField();
@@ -741,7 +744,7 @@ private:
             FlowDroplet over = s_.droplets[i];
             over.has_grown = true;
             const double most = capVolume(puddleOn(over.face), p_.contactAngleOn(over.face));
-            const double volume = std::min(over.volume - brim.capacity, most);
+            const double volume = std::max(std::min(over.volume - brim.capacity, most), over.volume - brim.held);
             double gap = 0.0;  // to what stays
             if (over.volume - volume >= p_.small_volume) {
                 FlowDroplet& stays = s_.droplets[i];

@@ -57,12 +57,13 @@ Flooded floodedPart(Heights h, double area, double level)
 
 /// An edge that the level may pass.
 struct Pass {
-    double height = 0.0;
+    double height = 0.0;     ///< of its lower end
+    double top = 0.0;        ///< of its upper end: of edges that meet in a corner, level ones come first
     std::uint32_t face = 0;  ///< before it
     std::uint32_t side = 0;
     friend bool operator>(const Pass& a, const Pass& b)
     {
-        return std::tie(a.height, a.face, a.side) > std::tie(b.height, b.face, b.side);
+        return std::tie(a.height, a.top, a.face, a.side) > std::tie(b.height, b.top, b.face, b.side);
     }
 };
 
@@ -79,9 +80,13 @@ public:
         if (!begin(liquid_.face, dot(up_, liquid_.place))) {
             return known;
         }
+        is_flat_ = dot(up_, liquid_.place) - bottom_ <= slack_;
         std::size_t check = kFirstCheck;
         while (!passes_.empty()) {
             const Pass pass = passes_.top();
+            if (!exits_.empty() && pass.height > bottom_ + slack_) {
+                break;
+            }
             passes_.pop();
             const std::uint32_t next = faces_[pass.face].neighbour[pass.side];
             if (next != FlowSurface::kNone && flooded_.contains(next)) {
@@ -97,18 +102,17 @@ public:
                 }
                 check *= 2;
             }
-            if (next == FlowSurface::kNone) {
-                return level_ - bottom_ > slack_ ? over(pass, pass.face, true) : known;
-            }
-            if (heightsOf(next)[lowestOf(next)] >= level_ - slack_) {
+            if (next != FlowSurface::kNone && heightsOf(next)[lowestOf(next)] >= level_ - slack_) {
                 flood(next);
             } else if (level_ - bottom_ > slack_) {
-                return over(pass, next, false);
-            } else if (!begin(next, level_)) {
+                return over(pass);
+            } else if (is_flat_) {
+                exits_.push_back(pass);  // the whole flat counts, as a puddle on a plate does
+            } else if (next == FlowSurface::kNone || !begin(next, level_)) {
                 return known;
             }
         }
-        return known;
+        return exits_.empty() ? known : over(*nearestExit());
     }
 
 private:
@@ -142,7 +146,8 @@ private:
         flooded_.insert(face);
         const Heights heights = heightsOf(face);
         for (std::uint32_t side = 0; side < 3; ++side) {
-            passes_.push({std::min(heights[side], heights[(side + 1) % 3]), face, side});
+            const auto [low, high] = std::minmax(heights[side], heights[(side + 1) % 3]);
+            passes_.push({low, high, face, side});
         }
     }
 
@@ -166,17 +171,32 @@ private:
         return sum.volume + std::min(sum.area * liquid_.puddle, cap);
     }
 
-    [[nodiscard]] Hollow over(const Pass& pass, std::uint32_t beyond, bool is_open) const
+    /// Middle of a level edge, or the lower end of one.
+    [[nodiscard]] Vec3 placeOf(const Pass& pass) const
+    {
+        const FlowSurface::Face& face = faces_[pass.face];
+        const Vec3 a = face.corners[pass.side];
+        const Vec3 b = face.corners[(pass.side + 1) % 3];
+        return pass.top - pass.height <= slack_ ? 0.5 * (a + b) : dot(up_, a) <= dot(up_, b) ? a : b;
+    }
+
+    [[nodiscard]] std::vector<Pass>::const_iterator nearestExit() const
+    {
+        return std::min_element(exits_.begin(), exits_.end(), [&](const Pass& a, const Pass& b) {
+            return length(placeOf(a) - liquid_.place) < length(placeOf(b) - liquid_.place);
+        });
+    }
+
+    [[nodiscard]] Hollow over(const Pass& pass) const
     {
         if (const double held = heldVolume(); held >= liquid_.volume) {
             return {std::nullopt, held};
         }
         const FlowSurface::Face& from = faces_[pass.face];
-        const Vec3 a = from.corners[pass.side];
-        const Vec3 b = from.corners[(pass.side + 1) % 3];
-        Brim result{beyond, dot(up_, a) <= dot(up_, b) ? a : b, {}, is_open, filled().volume};
-        const Vec3 way =
-            is_open ? -1.0 * from.inward[pass.side] : faces_[beyond].corners[lowestOf(beyond)] - result.place;
+        const std::uint32_t next = from.neighbour[pass.side];
+        const bool is_open = next == FlowSurface::kNone;
+        Brim result{is_open ? pass.face : next, placeOf(pass), {}, is_open, filled().volume, heldVolume()};
+        const Vec3 way = is_open ? -1.0 * from.inward[pass.side] : faces_[next].corners[lowestOf(next)] - result.place;
         result.ahead = (1.0 / length(way)) * way;
         return {result, 0.0};
     }
@@ -184,10 +204,12 @@ private:
     const std::vector<FlowSurface::Face>& faces_;
     Vec3 up_;
     const RestingLiquid& liquid_;
-    double slack_;  ///< [m]
+    double slack_;          ///< [m]
+    bool is_flat_ = false;  ///< the droplet lies on level ground
     double bottom_ = 0.0;
     double level_ = 0.0;
     std::unordered_set<std::uint32_t> flooded_;
+    std::vector<Pass> exits_;  ///< downward from level ground
     std::priority_queue<Pass, std::vector<Pass>, std::greater<>> passes_;
 };
 

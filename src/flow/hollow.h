@@ -27,6 +27,7 @@ struct Brim {
     Vec3 ahead;              ///< unit; down the face, or away from the surface
     bool is_open = false;    ///< beyond it is nothing
     double capacity = 0.0;   ///< of the hollow up to the brim [m³]
+    double held = 0.0;       ///< with what surface tension holds above it [m³]
 };
 
 /// What is known of the ground around liquid.

@@ -360,6 +360,23 @@ TEST(Flow, CountsRainOnTheBackOfASheet)
     EXPECT_EQ(flowStateFromBytes(bytesOf(state), scene.surface().faces.size(), "").counts, state.counts);
 }
 
+// A droplet of 179° stands on a point; its first volume follows from what it covers, not from that point.
+TEST(Flow, DewHasTheWaterThatCondensesAtEveryContactAngle)
+{
+    const FlowTerrain scene = slope(0.0, 20, 0.05);
+    for (const double angle : {30.0, 120.0, 179.0}) {
+        FlowParameters parameters;
+        parameters.forces.wetting.contact_angle = angle * kDegree;
+        parameters.condensation = FlowCondensation{1e-5, 3e-3};
+        FlowState state = startFlow(scene, parameters, {});
+        state = advanceFlow(std::move(state), scene, parameters, 2.0);
+        // All of it once the surface is covered, which takes about a second.
+        const double all = 2.0 * 1e-5 * scene.area();
+        EXPECT_GT(balanceOf(state).released, 0.3 * all) << angle;
+        EXPECT_LT(balanceOf(state).released, 1.1 * all) << angle;
+    }
+}
+
 TEST(Flow, DewGrowsAndRunsAndWipes)
 {
     const FlowTerrain scene = slope(80.0 * kDegree, 10, 0.08);

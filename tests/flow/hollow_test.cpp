@@ -75,7 +75,8 @@ TEST(Hollow, HoldsAConesVolume)
     const auto over = brimOf(terrain.surface(), kUp, liquidAt(terrain, kTip, 1.001 * coneVolume()));
     ASSERT_TRUE(over);
     EXPECT_NEAR(over->capacity / coneVolume(), 1.0, 1e-9);
-    EXPECT_NEAR(std::hypot(over->place.x, over->place.y), kRadius, 1e-9);
+    EXPECT_NEAR(std::hypot(over->place.x, over->place.y), kRadius * std::cos(std::numbers::pi / kAround), 1e-9)
+        << "the middle of a level edge";
     EXPECT_NEAR(over->place.z, 0.0, 1e-12);
     EXPECT_FALSE(over->is_open);
     EXPECT_LT(over->ahead.z, 0.0) << "downward";
@@ -126,8 +127,23 @@ TEST(Hollow, SlopesAndPlatesHoldWhatLiesOnThem)
     const FlowTerrain terrain(cone(0.0));
     EXPECT_FALSE(brimOf(terrain.surface(), kUp, liquidAt(terrain, {2.0 * kRadius, 0.0, -0.3 * kRadius}, 1.0)))
         << "on the plate's slope";
-    const FlowTerrain flat(cone(-kDepth, 0.0));
-    EXPECT_FALSE(brimOf(flat.surface(), kUp, liquidAt(flat, {2.0 * kRadius, 0.0, 0.0}, 1.0))) << "on a flat plate";
+    // A puddle on a plate runs over its edge where it is nearest.
+    constexpr double kHalf = 0.03;
+    const FlowTerrain plate(
+        flowSurface({{-kHalf, -kHalf, 0.0}, {kHalf, -kHalf, 0.0}, {kHalf, kHalf, 0.0}, {-kHalf, kHalf, 0.0}},
+                    {{0, 1, 2}, {0, 2, 3}}));
+    RestingLiquid puddle = liquidAt(plate, {0.02, 0.001, 0.0}, 0.0);
+    puddle.puddle = 4e-3;
+    const double held = 4.0 * kHalf * kHalf * puddle.puddle;
+    puddle.volume = 0.999 * held;
+    EXPECT_FALSE(brimOf(plate.surface(), kUp, puddle));
+    puddle.volume = 1.001 * held;
+    const auto over = brimOf(plate.surface(), kUp, puddle);
+    ASSERT_TRUE(over);
+    EXPECT_TRUE(over->is_open);
+    EXPECT_NEAR(over->place.x, kHalf, 1e-12);
+    EXPECT_NEAR(over->ahead.x, 1.0, 1e-9);
+    EXPECT_EQ(over->capacity, 0.0);
 }
 
 TEST(Hollow, OpenEdgesAreBrims)
@@ -137,7 +153,7 @@ TEST(Hollow, OpenEdgesAreBrims)
     const auto over = brimOf(terrain.surface(), kUp, liquidAt(terrain, kTip, 1.0));
     ASSERT_TRUE(over);
     EXPECT_TRUE(over->is_open);
-    EXPECT_NEAR(std::hypot(over->place.x, over->place.y), 3.0 * kRadius, 1e-9);
+    EXPECT_NEAR(std::hypot(over->place.x, over->place.y), 3.0 * kRadius * std::cos(std::numbers::pi / kAround), 1e-9);
     EXPECT_GT(dot(over->ahead, over->place), 0.0) << "outward";
 }
 
