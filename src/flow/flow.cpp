@@ -692,7 +692,7 @@ private:
                std::sin(0.5 * p_.contactAngleOn(face));
     }
 
-    /// Where liquid runs over, for droplets that have come to rest or grown in the step.
+    /// Where liquid runs over, for droplets at rest and those that have grown in the step.
     [[nodiscard]] std::vector<std::pair<std::size_t, Brim>> brims()
     {
         const double gravity = length(field_.gravity);
@@ -707,9 +707,8 @@ private:
                 Brims found;
                 for (std::size_t i = first; i < last; ++i) {
                     FlowDroplet& d = s_.droplets[i];
-                    const bool rests = d.contact == FlowContact::Still;
-                    const bool is_new = d.has_grown || (rests && (d.leg.begin >= begin_ || moves()));
-                    if (d.contact == FlowContact::Air || !is_new || !(d.volume > 0.0)) {
+                    const bool may_lie = d.contact == FlowContact::Still || d.has_grown;
+                    if (d.contact == FlowContact::Air || !may_lie || !(d.volume > 0.0)) {
                         continue;
                     }
                     const double radius = 0.5 * forces_[i].contact_width;

@@ -57,13 +57,16 @@ Flooded floodedPart(Heights h, double area, double level)
 
 /// An edge that the level may pass.
 struct Pass {
-    double height = 0.0;     ///< of its lower end
-    double top = 0.0;        ///< of its upper end: of edges that meet in a corner, level ones come first
+    /// Of its lower and its upper end, in parts of the slack: rounding must not choose between edges of one height. Of
+    /// edges that meet in a corner, level ones come first.
+    std::array<double, 2> rank = {};
     std::uint32_t face = 0;  ///< before it
     std::uint32_t side = 0;
+    double height = 0.0;  ///< of its lower end
+    double top = 0.0;
     friend bool operator>(const Pass& a, const Pass& b)
     {
-        return std::tie(a.height, a.top, a.face, a.side) > std::tie(b.height, b.top, b.face, b.side);
+        return std::tie(a.rank, a.face, a.side) > std::tie(b.rank, b.face, b.side);
     }
 };
 
@@ -80,7 +83,6 @@ public:
         if (!begin(liquid_.face, dot(up_, liquid_.place))) {
             return known;
         }
-        is_flat_ = dot(up_, liquid_.place) - bottom_ <= slack_;
         std::size_t check = kFirstCheck;
         while (!passes_.empty()) {
             const Pass pass = passes_.top();
@@ -106,7 +108,7 @@ public:
                 flood(next);
             } else if (level_ - bottom_ > slack_) {
                 return over(pass);
-            } else if (is_flat_) {
+            } else if (is_flat_ && isEdge(next)) {
                 exits_.push_back(pass);  // the whole flat counts, as a puddle on a plate does
             } else if (next == FlowSurface::kNone || !begin(next, level_)) {
                 return known;
@@ -135,6 +137,9 @@ private:
         const Vec3 corner = faces_[face].corners[lowestOf(face)];
         bottom_ = std::min(height, dot(up_, corner));
         level_ = bottom_;
+        constexpr double kLevel = 0.9994;  // cosine of 2°
+        is_flat_ = height - bottom_ <= slack_ && dot(faces_[face].normal, up_) >= kLevel;
+        exits_.clear();
         flooded_.clear();
         passes_ = {};
         flood(face);
@@ -147,7 +152,8 @@ private:
         const Heights heights = heightsOf(face);
         for (std::uint32_t side = 0; side < 3; ++side) {
             const auto [low, high] = std::minmax(heights[side], heights[(side + 1) % 3]);
-            passes_.push({low, high, face, side});
+            const double ground = dot(up_, liquid_.place);
+            passes_.push({{ranked(low - ground), ranked(high - ground)}, face, side, low, high});
         }
     }
 
@@ -171,6 +177,19 @@ private:
         return sum.volume + std::min(sum.area * liquid_.puddle, cap);
     }
 
+    /// Whether level ground ends where another face, or nothing, follows; ground that slopes a little does not.
+    [[nodiscard]] bool isEdge(std::uint32_t next) const
+    {
+        constexpr double kSteep = 0.87;  // cosine of 30°
+        return next == FlowSurface::kNone || dot(faces_[next].normal, up_) < kSteep;
+    }
+
+    [[nodiscard]] double ranked(double length) const
+    {
+        constexpr double kParts = 100.0;
+        return std::round(length * kParts / slack_);
+    }
+
     /// Middle of a level edge, or the lower end of one.
     [[nodiscard]] Vec3 placeOf(const Pass& pass) const
     {
@@ -183,7 +202,7 @@ private:
     [[nodiscard]] std::vector<Pass>::const_iterator nearestExit() const
     {
         return std::min_element(exits_.begin(), exits_.end(), [&](const Pass& a, const Pass& b) {
-            return length(placeOf(a) - liquid_.place) < length(placeOf(b) - liquid_.place);
+            return ranked(length(placeOf(a) - liquid_.place)) < ranked(length(placeOf(b) - liquid_.place));
         });
     }
 
