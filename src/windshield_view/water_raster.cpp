@@ -185,7 +185,8 @@ void WaterRaster::draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) c
         const int end = std::min(static_cast<int>(std::floor((end_x - x0) / step_x)), columns * across - 1);
         while (i <= end) {
             const int column = i / across;
-            Samples& sum = sums[static_cast<std::size_t>(j / across * columns + column)];
+            Samples& sum = sums[static_cast<std::size_t>(j / across) * static_cast<std::size_t>(columns) +
+                                static_cast<std::size_t>(column)];
             for (const int until = std::min(end, (column + 1) * across - 1); i <= until; ++i) {
                 body.sample(x0 + static_cast<float>(i) * step_x, y, sum);
             }
@@ -201,7 +202,8 @@ void WaterRaster::draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) c
     const double scale = total > 0.0 ? drop.volume / (pixel_ * down_ * total * WaterPixel::kThickness) : 0.0;
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            const Samples& sum = sums[static_cast<std::size_t>(row * columns + column)];
+            const Samples& sum = sums[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                                      static_cast<std::size_t>(column)];
             if (sum.count == 0) {
                 continue;
             }
