@@ -143,9 +143,8 @@ void timeFrames(WindshieldParameters parameters, const WindshieldState& begin_st
                 background == Background::Still      ? "one for all frames"
                 : background == Background::Changing ? "a new one per frame"
                                                      : "the built-in road",
-                wipes ? ", wipers" : "",
-                1e3 * medianOf(look), 1e3 * medianOf(show), 1e3 * medianOf(frame), 1e3 * medianOf(processor),
-                1e3 * medianOf(all), 1.0 / medianOf(all));
+                wipes ? ", wipers" : "", 1e3 * medianOf(look), 1e3 * medianOf(show), 1e3 * medianOf(frame),
+                1e3 * medianOf(processor), 1e3 * medianOf(all), 1.0 / medianOf(all));
     std::fflush(stdout);
 }
 

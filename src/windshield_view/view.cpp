@@ -296,7 +296,8 @@ struct DriversView::Content {
         return moments;
     }
 
-    /// Calls work(pixel of the tile, its ray's direction if it is asked for, place on the glass) for all pixels that see the glass.
+    /// Calls work(pixel of the tile, its ray's direction if it is asked for, place on the glass) for all pixels that
+    /// see the glass.
     template <typename Work>
     void forTile(std::size_t tile, const Work& work) const
     {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "flow/flow_terrain_content.h"
 #include "flow/walk.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 
 #include "droplet/error.h"
 #include "droplet/units.h"
+#include "flow/flow_terrain_content.h"
 
 namespace droplet {
 namespace {
