@@ -929,7 +929,7 @@ FlowState advanceFlow(FlowState state, FlowShapes& shapes, const FlowParameters&
             const FlowSurface::Face& from = terrain->surface().faces[track.face];
             const FlowSurface::Face& to = shapes.first().surface().faces[track.face];
             if (from.corners != to.corners) {
-                const double stretch = std::sqrt(areaOf(to) / areaOf(from));
+                const double stretch = stretchOf(from, to);
                 track.from = followed(from, to, track.from);
                 track.to = followed(from, to, track.to);
                 track.width *= stretch;

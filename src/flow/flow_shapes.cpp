@@ -6,6 +6,7 @@
 #include <string>
 
 #include "droplet/error.h"
+#include "flow/flow_face.h"
 #include "flow/following.h"
 #include "require.h"
 
@@ -22,17 +23,8 @@ FlowSurface shaped(const FlowSurface& surface, const std::vector<Corners>& corne
 {
     FlowSurface result = surface;
     for (std::size_t f = 0; f < corners.size(); ++f) {
-        FlowSurface::Face& face = result.faces[f];
-        if (face.corners == corners[f]) {
-            continue;
-        }
-        face.corners = corners[f];
-        const auto& [a, b, c] = face.corners;
-        const Vec3 facet = cross(b - a, c - a);
-        face.normal = (1.0 / length(facet)) * facet;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 inward = cross(face.normal, face.corners[(k + 1) % 3] - face.corners[k]);
-            face.inward[k] = (1.0 / length(inward)) * inward;
+        if (result.faces[f].corners != corners[f]) {
+            setCorners(result.faces[f], corners[f]);
         }
     }
     return result;

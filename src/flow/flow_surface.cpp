@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "flow/flow_face.h"
 #include "surface/half_edges.h"
 #include "union_find.h"
 
@@ -214,16 +215,8 @@ bool isTurned(const Soup& soup, const Triangle& before, const Triangle& after)
 FlowSurface::Face faceOf(const Soup& soup, std::size_t t)
 {
     FlowSurface::Face face;
-    for (std::size_t k = 0; k < 3; ++k) {
-        face.corners[k] = soup.vertices[soup.triangles[t][k]];
-    }
-    const auto& [a, b, c] = face.corners;
-    const Vec3 facet = cross(b - a, c - a);
-    face.normal = (1.0 / length(facet)) * facet;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 inward = cross(face.normal, face.corners[(k + 1) % 3] - face.corners[k]);
-        face.inward[k] = (1.0 / length(inward)) * inward;
-    }
+    const auto& [a, b, c] = soup.triangles[t];
+    setCorners(face, {soup.vertices[a], soup.vertices[b], soup.vertices[c]});
     face.neighbour.fill(FlowSurface::kNone);
     face.source = soup.source[t];
     return face;

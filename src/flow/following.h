@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "droplet/flow/flow_surface.h"
+#include "droplet/flow/flow_terrain.h"
 #include "droplet/vector.h"
 
 namespace droplet {
@@ -32,6 +33,12 @@ inline Vec3 mixed(const std::array<Vec3, 3>& values, const std::array<double, 3>
 inline Vec3 followed(const FlowSurface::Face& from, const FlowSurface::Face& to, Vec3 place)
 {
     return from.corners == to.corners ? place : mixed(to.corners, weightsOn(from.corners, place));
+}
+
+/// How much longer what lies on a face is in another shape of this face, on average over directions.
+inline double stretchOf(const FlowSurface::Face& from, const FlowSurface::Face& to)
+{
+    return std::sqrt(areaOf(to) / areaOf(from));
 }
 
 /// A direction that turns with a face: its normal stays one, and along the face it turns as the sides do on average.

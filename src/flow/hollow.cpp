@@ -96,7 +96,7 @@ public:
             }
             level_ = std::max(level_, pass.height);
             if (flooded_.size() >= check) {
-                if (const double held = heldVolume(); held >= liquid_.volume) {
+                if (const double held = heldBy(filled()); held >= liquid_.volume) {
                     return {std::nullopt, held};
                 }
                 if (flooded_.size() > kMostFaces) {
@@ -170,9 +170,8 @@ private:
     }
 
     /// Volume up to the level, and what surface tension holds above it.
-    [[nodiscard]] double heldVolume() const
+    [[nodiscard]] double heldBy(const Flooded& sum) const
     {
-        const Flooded sum = filled();
         const double cap = capVolume(std::sqrt(sum.area / std::numbers::pi), liquid_.contact_angle);
         return sum.volume + std::min(sum.area * liquid_.puddle, cap);
     }
@@ -208,13 +207,15 @@ private:
 
     [[nodiscard]] Hollow over(const Pass& pass) const
     {
-        if (const double held = heldVolume(); held >= liquid_.volume) {
+        const Flooded sum = filled();
+        const double held = heldBy(sum);
+        if (held >= liquid_.volume) {
             return {std::nullopt, held};
         }
         const FlowSurface::Face& from = faces_[pass.face];
         const std::uint32_t next = from.neighbour[pass.side];
         const bool is_open = next == FlowSurface::kNone;
-        Brim result{is_open ? pass.face : next, placeOf(pass), {}, is_open, filled().volume, heldVolume()};
+        Brim result{is_open ? pass.face : next, placeOf(pass), {}, is_open, sum.volume, held};
         const Vec3 way = is_open ? -1.0 * from.inward[pass.side] : faces_[next].corners[lowestOf(next)] - result.place;
         result.ahead = (1.0 / length(way)) * way;
         return {result, 0.0};

@@ -508,16 +508,17 @@ std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, Fl
     const Shape shape{flat, rim_points, droplet.triangles, frame.place, volume};
     // Beside a wall a droplet leans, but the liquid of a box does not.
     DropletFrame leant = inward(terrain, frame, rim_points, size);
-    const bool is_upright =
-        !isHollow(Ground(terrain, leant, size), shape) && isHollow(Ground(terrain, frame, size), shape);
-    leant = is_upright ? frame : leant;
+    bool is_in_hollow = isHollow(Ground(terrain, leant, size), shape);
+    if (!is_in_hollow && isHollow(Ground(terrain, frame, size), shape)) {
+        leant = frame;
+        is_in_hollow = true;
+    }
     const auto turned = [&](Vec3 v) {
         return dot(v, frame.ahead) * leant.ahead + dot(v, frame.left) * leant.left +
                dot(v, frame.normal) * leant.normal;
     };
     const Ground ground(terrain, leant, size);
-    const Seating seating =
-        isHollow(ground, shape) ? inHollow(ground, shape) : seatingOf(ground, shape, Rim(ground, rim_points));
+    const Seating seating = is_in_hollow ? inHollow(ground, shape) : seatingOf(ground, shape, Rim(ground, rim_points));
 
     const std::vector<Vec3> before = facing(droplet.vertices, droplet.triangles);
     const double factor = (volume - seating.empty) / seating.gain;

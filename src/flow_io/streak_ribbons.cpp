@@ -204,7 +204,7 @@ StreakRibbons::Ribbon StreakRibbons::onShape(Ribbon ribbon, const FlowSurface& s
         const FlowSurface::Face& from = surface_->faces[point.face];
         const FlowSurface::Face& to = shape.faces[point.face];
         if (from.corners != to.corners) {
-            const double stretch = std::sqrt(areaOf(to) / areaOf(from));
+            const double stretch = stretchOf(from, to);
             point.place = followed(from, to, point.place);
             point.normal = turnedWith(from, to, point.normal);
             point.width *= stretch;

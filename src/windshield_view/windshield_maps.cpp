@@ -77,7 +77,6 @@ struct WindshieldMaps::Content {
     {
         if (still.revisions.size() != now.revisions.size()) {
             still = StillCells();
-            still.columns = now.columns;
             still.slots.resize(now.slots.size());
             still.counts.resize(now.counts.size());
             still.revisions.resize(now.revisions.size());

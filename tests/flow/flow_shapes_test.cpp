@@ -15,11 +15,14 @@
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "flow/following.h"
+#include "support/flow_scenes.h"
 
 namespace droplet {
 namespace {
 
 using Places = std::vector<Vec3>;
+using testing::everything;
+using testing::many;
 
 /// A square plate that slopes down to -y, cut into n x n cells.
 struct Plate {
@@ -62,31 +65,6 @@ FlowShapes shapesOf(const Plate& plate, double duration, double rate, const std:
 Vec3 still(Vec3 p, double /*time*/)
 {
     return p;
-}
-
-std::vector<FlowStart> many(int n, double slope)
-{
-    std::vector<FlowStart> starts;
-    for (int k = 0; k < n; ++k) {
-        const double x = 0.01 + 0.18 * std::fmod(0.618034 * k, 1.0);
-        const double y = 0.05 + 0.14 * std::fmod(0.754878 * k, 1.0);
-        starts.push_back({{x, y, std::tan(slope) * y}, (2.0 + k % 30) * 1e-9, {}});
-    }
-    return starts;
-}
-
-FlowParameters everything()
-{
-    FlowParameters parameters;
-    parameters.forces.wetting.hysteresis = 0.02;
-    parameters.streaks.film = 5e-6;
-    parameters.drying = 2.0;
-    parameters.emitters = {{{0.1, 0.15, 0.2}, 2e-7, {15e-9, 0.4}}};
-    FlowRain rain;
-    rain.rainfall = 50.0 * kMillimetrePerHour;
-    parameters.rain = rain;
-    parameters.condensation = FlowCondensation{1e-7, 8e-3};
-    return parameters;
 }
 
 /// Waves run over the plate.

@@ -16,6 +16,7 @@
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "flow/touching.h"
+#include "support/flow_scenes.h"
 #include "union_find.h"
 
 namespace droplet {
@@ -71,16 +72,9 @@ FlowParameters paper(double friction = 1e-4)
     return parameters;
 }
 
-/// Droplets all over the upper part of the slope.
 std::vector<FlowStart> many(int n, double angle = 30.0 * kDegree)
 {
-    std::vector<FlowStart> starts;
-    for (int k = 0; k < n; ++k) {
-        const double x = 0.01 + 0.18 * std::fmod(0.618034 * k, 1.0);
-        const double y = 0.05 + 0.14 * std::fmod(0.754878 * k, 1.0);
-        starts.push_back({{x, y, std::tan(angle) * y}, (2.0 + k % 30) * 1e-9, {}});
-    }
-    return starts;
+    return testing::many(n, angle);
 }
 
 FlowRain rainOf(double rainfall)
@@ -92,13 +86,7 @@ FlowRain rainOf(double rainfall)
 
 FlowParameters everything()
 {
-    FlowParameters parameters;
-    parameters.forces.wetting.hysteresis = 0.02;
-    parameters.streaks.film = 5e-6;
-    parameters.drying = 2.0;
-    parameters.emitters = {{{0.1, 0.15, 0.2}, 2e-7, {15e-9, 0.4}}};
-    parameters.rain = rainOf(50.0 * kMillimetrePerHour);
-    parameters.condensation = FlowCondensation{1e-7, 8e-3};
+    FlowParameters parameters = testing::everything();
     parameters.wind = {1.0, 0.0, 0.0};
     return parameters;
 }
