@@ -224,59 +224,33 @@ struct Stages {
     }
 };
 
-/// What is known of the picture after the droplets are made.
-struct Source {
-    droplet::InputReport input;
-    std::vector<droplet::CssColour> colours = {};  ///< one per droplet, or none
-    std::optional<OutputFile> mask = {};
-    std::optional<droplet::Picture> colour_map = {};
-};
-
-std::string pngOf(const droplet::Picture& picture)
+/// Writes the files of droplets, and returns the report.
+droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOptions& options, Stages& stages)
 {
-    std::ostringstream png;
-    droplet::writePng(picture, png);
-    return std::move(png).str();
-}
-
-/// Places a droplet on its object, writes its files, and returns the report.
-droplet::Report finish(Droplet droplet, const DropletSettings& settings, const Source& source,
-                       const Surroundings& around, const ShapeOptions& options, Stages& stages)
-{
-    std::optional<droplet::ObjectReport> onto;
-    if (around.object) {
-        droplet.surface = lowered(std::move(droplet.surface), settings.sink);
-        onto = placeOnObject(droplet, *around.object, *options.settings.onto);
-    }
     stages.begin(Stage::Write);
-    droplet::Report report = describe(droplet, settings);
-    report.fill_range = options.settings.droplet.fill_range;
-    report.input = source.input;
-    for (std::size_t k = 0; k < source.colours.size(); ++k) {
-        report.droplets[k].colour = source.colours[k];
-    }
-    Extras extras{
-        fileDroplets(report.droplets, {settings.material, settings.nodes, settings.materials}, report.warnings),
-        {},
-        source.mask,
-        source.colour_map ? pngOf(*source.colour_map) : std::string()};
-    report.output = describeOutput(droplet.surface, options.output, options.format);
+    DescribedShape described = describe(made, options);
+    droplet::Report& report = described.report;
+    Extras extras{std::move(described.droplets), {}, {}, textureOf(made)};
+    report.output = describeOutput(made.droplet.surface, options.output, options.format);
     report.output.compression = options.compression;
     if (options.compression != droplet::Compression::None) {
-        report.output.compression_error = droplet::compressionError(droplet.surface, options.compression);
+        report.output.compression_error = droplet::compressionError(made.droplet.surface, options.compression);
     }
-    report.onto = onto;
+    if (options.footprint.mask_out) {
+        extras.mask = {*options.footprint.mask_out,
+                       [&](std::ostream& out) { writeMask(out, *made.mask, made.settings.droplet.trace); }};
+    }
     if (options.preview) {
         extras.subject.emplace(
-            subjectOf(droplet, settings, droplet::looksOf(extras.droplets), source.colour_map, around));
-        extras.subject->by_colour = !source.colours.empty();
+            subjectOf(made.droplet, made.settings, droplet::looksOf(extras.droplets), made.colour_map, around));
+        extras.subject->by_colour = !made.colours.empty();
     }
-    save(droplet, options, extras, stages.clock, report);
+    save(made.droplet, options, extras, stages.clock, report);
     return report;
 }
 
-droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
-                             Stages& stages)
+MadeShape makeFromMask(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
+                       Stages& stages)
 {
     droplet::MaskOptions mask_options = options.footprint.mask;
     const auto decode = [&] { return droplet::decodeMask(picture, mask_options); };
@@ -304,13 +278,11 @@ droplet::Report makeFromMask(const ShapeOptions& options, const Surroundings& ar
             settings.warnings.insert(settings.warnings.begin(), *warning);
         }
     }
-    std::optional<OutputFile> mask_file;
-    if (options.footprint.mask_out) {
-        mask_file = {*options.footprint.mask_out,
-                     [&](std::ostream& out) { writeMask(out, mask, settings.droplet.trace); }};
-    }
-    return finish(std::move(made.droplet), settings, {made.input, {}, mask_file, std::move(colour_map)}, around,
-                  options, stages);
+    return {.droplet = std::move(made.droplet),
+            .settings = std::move(settings),
+            .input = std::move(made.input),
+            .mask = options.footprint.mask_out ? std::optional(std::move(mask)) : std::nullopt,
+            .colour_map = std::move(colour_map)};
 }
 
 /// Input by colour: a picture, or type.
@@ -322,8 +294,8 @@ struct ColourSource {
 };
 
 /// Makes droplets from the regions of one colour.
-droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& around, const ColourSource& source,
-                             Stages& stages)
+MadeShape makeByColour(const ShapeOptions& options, const Surroundings& around, const ColourSource& source,
+                       Stages& stages)
 {
     droplet::ColourRegions regions = forInput(options, [&] { return source.read(std::nullopt); });
     droplet::Mask mask = maskOf(regions);
@@ -346,12 +318,14 @@ droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& ar
     if (auto warning = drawingWarning(mask)) {
         settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
     }
-    return finish(std::move(made.droplet), settings, {std::move(made.input), std::move(made.colours)}, around, options,
-                  stages);
+    return {.droplet = std::move(made.droplet),
+            .settings = std::move(settings),
+            .input = std::move(made.input),
+            .colours = std::move(made.colours)};
 }
 
-droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& around,
-                             const std::vector<std::byte>& picture, Stages& stages)
+MadeShape makeByColour(const ShapeOptions& options, const Surroundings& around, const std::vector<std::byte>& picture,
+                       Stages& stages)
 {
     droplet::ColourOptions colour_options;
     colour_options.colours = options.footprint.by_colour->colours;
@@ -363,11 +337,11 @@ droplet::Report makeByColour(const ShapeOptions& options, const Surroundings& ar
                         stages);
 }
 
-droplet::Report make(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
-                     Stages& stages)
+MadeShape make(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture, Stages& stages)
 {
-    return options.footprint.by_colour ? makeByColour(options, around, picture, stages)
-                                       : makeFromMask(options, around, std::move(picture), stages);
+    return placed(options.footprint.by_colour ? makeByColour(options, around, picture, stages)
+                                              : makeFromMask(options, around, std::move(picture), stages),
+                  around, options);
 }
 
 /// Calls a function at once and whenever a picture is saved, until a signal ends the program. A picture may be half
@@ -396,6 +370,46 @@ std::optional<std::string> environmentPicture(const ShapeOptions& options)
     return options.preview ? options.preview->environment : std::nullopt;
 }
 
+MadeShape placed(MadeShape made, const Surroundings& around, const ShapeOptions& options)
+{
+    if (around.object) {
+        made.droplet.surface = lowered(std::move(made.droplet.surface), made.settings.sink);
+        made.onto = placeOnObject(made.droplet, *around.object, *options.settings.onto);
+    }
+    return made;
+}
+
+MadeShape makeOfPicture(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture)
+{
+    Stages stages{{}, [](Stage, double) {}};
+    return make(options, around, std::move(picture), stages);
+}
+
+DescribedShape describe(const MadeShape& made, const ShapeOptions& options)
+{
+    DescribedShape described{describe(made.droplet, made.settings), {}};
+    droplet::Report& report = described.report;
+    report.fill_range = options.settings.droplet.fill_range;
+    report.input = made.input;
+    report.onto = made.onto;
+    for (std::size_t k = 0; k < made.colours.size(); ++k) {
+        report.droplets[k].colour = made.colours[k];
+    }
+    const DropletSettings& settings = made.settings;
+    described.droplets =
+        fileDroplets(report.droplets, {settings.material, settings.nodes, settings.materials}, report.warnings);
+    return described;
+}
+
+std::string textureOf(const MadeShape& made)
+{
+    std::ostringstream png;
+    if (made.colour_map) {
+        droplet::writePng(*made.colour_map, png);
+    }
+    return std::move(png).str();
+}
+
 std::vector<std::byte> readPicture(const ShapeOptions& options)
 {
     return isStream(options.input) ? readStandardInput(options.footprint.mask.max_pixels)
@@ -407,14 +421,14 @@ droplet::Report makeShape(const ShapeOptions& options, const droplet::Progress& 
     Stages stages{{}, progress};
     stages.begin(Stage::Read);
     const Surroundings around = readSurroundings(options.settings, groundPicture(options), environmentPicture(options));
-    return make(options, around, readPicture(options), stages);
+    return finish(make(options, around, readPicture(options), stages), around, options, stages);
 }
 
 droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture)
 {
     Stages stages{{}, [](Stage, double) {}};
     stages.begin(Stage::Read);
-    return make(options, around, std::move(picture), stages);
+    return finish(make(options, around, std::move(picture), stages), around, options, stages);
 }
 
 droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, const DrawnColours& drawn,
@@ -424,7 +438,8 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
     const auto draw = [&](std::optional<int> long_side) {
         return long_side ? droplet::drawColours(drawn.drawing, *long_side) : droplet::drawColours(drawn.drawing);
     };
-    return makeByColour(options, around, {draw, drawn.speck_size, drawn.input.type}, stages);
+    MadeShape made = makeByColour(options, around, {draw, drawn.speck_size, drawn.input.type}, stages);
+    return finish(placed(std::move(made), around, options), around, options, stages);
 }
 
 droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, DrawnFootprint footprint,
@@ -438,7 +453,8 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
     footprint.input.specks_dropped = footprint.outline.specks_dropped;
     Droplet droplet = droplet::makeDroplet(std::move(footprint.outline), settings.droplet,
                                            [&](Stage stage, double share) { stages.begin(stage, share); });
-    return finish(std::move(droplet), settings, {footprint.input}, around, options, stages);
+    MadeShape made{.droplet = std::move(droplet), .settings = std::move(settings), .input = std::move(footprint.input)};
+    return finish(placed(std::move(made), around, options), around, options, stages);
 }
 
 void addSettings(RunFiles& files, const DropletSettings& settings, const RunOptions& run)

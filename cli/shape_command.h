@@ -8,7 +8,11 @@
 #include <vector>
 
 #include "droplet/colours/colour_drawing.h"
+#include "droplet/drawing/picture.h"
+#include "droplet/droplet.h"
+#include "droplet/image/css_colour.h"
 #include "droplet/io/report.h"
+#include "droplet/mask/mask.h"
 #include "droplet/outline/outline.h"
 #include "droplet/progress.h"
 #include "run_files.h"
@@ -21,6 +25,37 @@ namespace cli {
 std::optional<std::string> groundPicture(const ShapeOptions& options);
 /// Path of the panorama that lights the scene, if it is given.
 std::optional<std::string> environmentPicture(const ShapeOptions& options);
+
+/// Droplets of one footprint, on their object if there is one, before any file is written.
+struct MadeShape {
+    droplet::Droplet droplet;
+    DropletSettings settings;  ///< with what the picture decides
+    droplet::InputReport input;
+    std::vector<droplet::CssColour> colours = {};  ///< one per droplet, or none
+    std::optional<droplet::Mask> mask = {};        ///< if it is to be written
+    std::optional<droplet::Picture> colour_map = {};
+    std::optional<droplet::ObjectReport> onto = {};
+};
+
+/// Places droplets on their object, if there is one.
+MadeShape placed(MadeShape made, const Surroundings& around, const ShapeOptions& options);
+
+/// Makes droplets from the bytes of a picture.
+/// @param around          result of readSurroundings
+/// @throws droplet::Error InvalidArgument, InvalidInput, NoSuchDroplet
+MadeShape makeOfPicture(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture);
+
+/// What files say of droplets.
+struct DescribedShape {
+    droplet::Report report;  ///< without output, times and memory
+    std::vector<droplet::FileDroplet> droplets;
+};
+
+/// Describes droplets.
+DescribedShape describe(const MadeShape& made, const ShapeOptions& options);
+
+/// Bytes of the PNG with the droplets' colours; none if they have one.
+std::string textureOf(const MadeShape& made);
 
 /// Reads the bytes of the input picture, from its file or standard input.
 /// @throws droplet::Error InvalidInput

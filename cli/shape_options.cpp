@@ -99,22 +99,6 @@ bool inGltf(const ShapeOptions& options)
     return options.html || options.format == droplet::Format::Glb || options.format == droplet::Format::Gltf;
 }
 
-/// Format by the extension of the output.
-/// @param subject  name of the output in messages
-droplet::Format formatOf(const std::string& output, const std::string& subject)
-{
-    const std::string known = "glb, gltf, obj, ply, stl, usda, usdz, 3mf";
-    const std::string extension = std::filesystem::path(output).extension().string();
-    if (output == kStandardStream) {
-        refuse("--format is missing: it is needed if OUTPUT is -; allowed are " + known);
-    }
-    if (extension.empty()) {
-        refuse(subject + " '" + output + "' has no extension that gives the format; allowed are " + known +
-               ", or give --format");
-    }
-    return forOption(subject + " '" + output + "'", [&] { return droplet::formatNamed(extension); });
-}
-
 /// Reads --fill-range. A slider needs a file format that can hold it.
 void readFillRange(const CommandLine& line, ShapeOptions& options)
 {
@@ -199,6 +183,20 @@ void declareShapes(CommandLine& line, ShapeOptions& options)
                  "Lay the picture on the liquid, as a tint in glTF, USDZ, previews and the page",
                  options.settings.colour_map);
     line.exclude({"--by-colour", "--colour-map"});
+}
+
+droplet::Format formatOf(const std::string& output, const std::string& subject)
+{
+    const std::string known = "glb, gltf, obj, ply, stl, usda, usdz, 3mf";
+    const std::string extension = std::filesystem::path(output).extension().string();
+    if (output == kStandardStream) {
+        refuse("--format is missing: it is needed if OUTPUT is -; allowed are " + known);
+    }
+    if (extension.empty()) {
+        refuse(subject + " '" + output + "' has no extension that gives the format; allowed are " + known +
+               ", or give --format");
+    }
+    return forOption(subject + " '" + output + "'", [&] { return droplet::formatNamed(extension); });
 }
 
 void declareHtml(CommandLine& line)

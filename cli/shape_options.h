@@ -31,6 +31,11 @@ struct ShapeOptions {
 /// Names of all commands, and what they do.
 const std::vector<std::pair<std::string, std::string>>& programCommands();
 
+/// Format of a surface by the extension of its file.
+/// @param subject         name of the file in messages
+/// @throws droplet::Error InvalidArgument if there is no such format
+droplet::Format formatOf(const std::string& output, const std::string& subject);
+
 /// Declares --html.
 void declareHtml(CommandLine& line);
 

@@ -3,6 +3,8 @@ from ._core import Animation as Animation
 from ._core import Droplet as Droplet
 from ._core import Mask as Mask
 from ._core import Surface as Surface
+from ._core import Windshield as Windshield
+from ._core import WindshieldFigures as WindshieldFigures
 from ._errors import Error as Error
 from ._errors import InputNotFound as InputNotFound
 from ._errors import InvalidArgument as InvalidArgument
@@ -43,6 +45,8 @@ __all__ = [
     "SequenceReport",
     "Surface",
     "WindTunnelReport",
+    "Windshield",
+    "WindshieldFigures",
     "WindshieldReport",
     "animate",
     "compare",

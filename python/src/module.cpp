@@ -13,6 +13,7 @@
 #include "shape.h"
 #include "surface.h"
 #include "wind.h"
+#include "windshield.h"
 
 PYBIND11_MODULE(_core, module)
 {
@@ -25,7 +26,8 @@ PYBIND11_MODULE(_core, module)
     binding::bindAnimation(module);
     binding::bindComparison(module);
     binding::bindWind(module);
-    for (const char* name : {"Animation", "Droplet", "Mask", "Surface"}) {
+    binding::bindWindshield(module);
+    for (const char* name : {"Animation", "Droplet", "Mask", "Surface", "Windshield", "WindshieldFigures"}) {
         module.attr(name).attr("__module__") = "droplet_shape";
     }
 }

@@ -26,7 +26,9 @@ enum class RandomPurpose : std::uint64_t {
     Nucleus,
     TornPart,
     Dew,
-    Pinning
+    Pinning,
+    Spray,
+    Finger
 };
 
 /// Normal with mean 0 and deviation 1, of two random numbers. G. E. P. Box, M. E. Muller, Ann. Math. Stat. 29 (1958)

@@ -9,10 +9,12 @@ namespace droplet {
 double WaterBalance::residual() const
 {
     CompensatedSum difference;
-    for (const double term : {rained, -on_glass_still, -on_glass_running, -left, -wiped}) {
+    for (const double term :
+         {rained, sprayed, condensed, -on_glass_mist, -on_glass_still, -on_glass_running, -left, -wiped}) {
         difference.add(term);
     }
-    return rained > 0.0 ? difference.value() / rained : 0.0;
+    const double come = rained + sprayed + condensed;
+    return come > 0.0 ? difference.value() / come : 0.0;
 }
 
 WaterBalance balanceOf(const WindshieldState& state)
@@ -21,12 +23,16 @@ WaterBalance balanceOf(const WindshieldState& state)
     for (const StillDroplet& d : state.still.all()) {
         still.add(d.volume);
     }
+    for (const StillDroplet& d : state.arriving) {
+        still.add(d.volume);
+    }
     CompensatedSum running;
     for (const RunningDroplet& d : state.droplets) {
         running.add(d.volume);
     }
-    return {state.rained.value(), still.value(),        running.value(),     state.left.value(),
-            state.wiped.value(),  state.merged.value(), state.swept.value(), state.shed.value()};
+    return {state.rained.value(), state.sprayed.value(), state.condensed.value(), state.mist.volume(),
+            still.value(),        running.value(),       state.left.value(),      state.wiped.value(),
+            state.merged.value(), state.swept.value(),   state.shed.value()};
 }
 
 }  // namespace droplet

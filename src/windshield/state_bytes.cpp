@@ -10,15 +10,15 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kHead = "droplet-shape windshield 2\n";
+constexpr std::string_view kHead = "droplet-shape windshield 3\n";
 
 /// Writes or reads all members of a state except the lists.
 template <class Archive, class State>
 void scalars(Archive& archive, State& s)
 {
-    archive.all(s.time, s.next_id, s.next_raindrop, s.until_raindrop, s.rained, s.left, s.wiped, s.merged, s.swept,
-                s.shed, s.counts.raindrops, s.counts.merged, s.counts.swept, s.counts.grown, s.counts.torn,
-                s.counts.left, s.counts.wiped);
+    archive.all(s.time, s.next_id, s.next_raindrop, s.next_touch, s.until_raindrop, s.rained, s.sprayed, s.condensed,
+                s.left, s.wiped, s.merged, s.swept, s.shed, s.counts.raindrops, s.counts.merged, s.counts.swept,
+                s.counts.grown, s.counts.torn, s.counts.left, s.counts.wiped);
 }
 
 }  // namespace
@@ -34,6 +34,15 @@ std::string bytesOf(const WindshieldState& state)
     out.put(std::uint64_t{state.tracks.size()});
     for (const TrackPiece& t : state.tracks) {
         out.all(t.id, t.from, t.to, t.radius);
+    }
+    out.put(std::uint64_t{state.arriving.size()});
+    for (const StillDroplet& d : state.arriving) {
+        out.all(d.position, d.volume);
+    }
+    out.put(std::uint64_t{state.mist.thickness.size()});
+    out.all(state.mist.cell, std::uint64_t{state.mist.columns}, std::uint64_t{state.mist.rows});
+    for (const float height : state.mist.thickness) {
+        out.put(double{height});
     }
     const StillCells& still = StillCells::of(state.still);
     out.all(still.cell, std::uint64_t{still.columns}, std::uint64_t{still.rows});
@@ -66,9 +75,27 @@ WindshieldState stateFromBytes(std::string_view bytes, const std::string& name)
     }
     std::uint64_t columns = 0;
     std::uint64_t rows = 0;
+    constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max();
+    state.arriving.resize(in.count(24));
+    for (StillDroplet& d : state.arriving) {
+        in.all(d.position, d.volume);
+        in.require(d.volume > 0.0);
+    }
+    std::uint64_t cells_of_mist = 0;
+    in.all(cells_of_mist, state.mist.cell, columns, rows);
+    in.require(columns <= kMax && rows <= kMax && columns * rows == cells_of_mist &&
+               cells_of_mist <= bytes.size() / 8 && (state.mist.cell > 0.0 || cells_of_mist == 0));
+    state.mist.columns = static_cast<std::uint32_t>(columns);
+    state.mist.rows = static_cast<std::uint32_t>(rows);
+    state.mist.thickness.resize(cells_of_mist);
+    for (float& height : state.mist.thickness) {
+        double value = 0.0;
+        in.get(value);
+        in.require(value >= 0.0 && value <= 1.0);
+        height = static_cast<float>(value);
+    }
     StillCells& still = StillCells::of(state.still);
     in.all(still.cell, columns, rows);
-    constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max();
     in.require(still.cell > 0.0 && columns <= kMax && rows <= kMax && columns * rows <= bytes.size() / 8);
     still.columns = static_cast<std::uint32_t>(columns);
     still.rows = static_cast<std::uint32_t>(rows);

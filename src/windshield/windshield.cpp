@@ -29,6 +29,7 @@
 #include "union_find.h"
 #include "wind/random.h"
 #include "windshield/cap_scale.h"
+#include "windshield/mist_cells.h"
 #include "windshield/motion.h"
 #include "windshield/still_droplets.h"
 #include "windshield/sweep.h"
@@ -64,6 +65,7 @@ public:
         const TrackCells cells(tracks_, {p_.glass.width(), p_.glass.height()}, rules_.maxReach());
         drizzle(cells);
         merge(cells);
+        gatherMist();
         sweepStill();
         breakUp();
         wipe();
@@ -74,10 +76,11 @@ public:
 private:
     using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-    /// Adds the raindrops that arrive within dt.
+    /// Adds the drops that arrive within dt.
     void rain()
     {
         before_rain_ = s_.droplets.size();
+        arrive();
         const RainImpacts impacts{raindropSizes(p_.rainfall), p_.raindrops, p_.vehicle.speedAt(s_.time + 0.5 * dt_)};
         const double bound = impacts.bound();
         if (!(bound > 0.0)) {
@@ -108,6 +111,21 @@ private:
             }
         }
         s_.until_raindrop -= expected;
+    }
+
+    /// Adds the water of sprayers and fingers.
+    void arrive()
+    {
+        for (const StillDroplet& drop : s_.arriving) {
+            if (!p_.glass.holds(drop.position)) {
+                s_.left.add(drop.volume);
+            } else if (drop.volume >= rules_.max) {
+                s_.droplets.push_back({s_.next_id++, drop.position, {}, drop.volume, 0.0, 0});
+            } else {
+                drizzle_.push_back(drop);
+            }
+        }
+        s_.arriving.clear();
     }
 
     void move()
@@ -256,6 +274,25 @@ private:
         d.position = (1.0 / volume) * moment;
         d.velocity = (1.0 / volume) * momentum;
         grown_[largest] = 1;
+    }
+
+    /// Mist condenses, and droplets that move take it along.
+    void gatherMist()
+    {
+        if (p_.mist > 0.0) {
+            s_.condensed.add(growMist(s_.mist, {p_.glass.width(), p_.glass.height()}, p_.mist * dt_));
+        }
+        if (s_.mist.thickness.empty()) {
+            return;
+        }
+        for (std::uint32_t i = 0; i < moved_to_.size(); ++i) {
+            if (tracks_.from[i] != moved_to_[i]) {
+                if (const double taken = takeMist(s_.mist, {tracks_.from[i], moved_to_[i], tracks_.reach[i]});
+                    taken > 0.0) {
+                    absorb(owner_[i], taken);
+                }
+            }
+        }
     }
 
     /// The Lotus effect: a running droplet absorbs still droplets on its way. It grows, and then absorbs those that it
@@ -493,6 +530,7 @@ private:
                     d.volume = 0.0;
                 }
             }
+            s_.wiped.add(takeMist(s_.mist, *blade));
             StillRemoval removal(still_);
             blade->visitCells(still_.grid(), [&](std::size_t first, std::size_t last) {
                 for (std::size_t cell = first; cell <= last; ++cell) {

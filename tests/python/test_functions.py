@@ -228,5 +228,53 @@ class Flow(InFolder):
             ds.flow(self.folder / "nowhere.glb", self.folder / "wet.glb", drops=3)
 
 
+class LiveWindshield(unittest.TestCase):
+    def test_the_texture_follows_the_rain(self):
+        rain = ds.Windshield(rain="50mm/h", glass_width=0.7, contact_angle="80deg")
+        self.assertAlmostEqual(rain.get("contact_angle"), math.radians(80))
+        first, tiles = rain.draw(256)
+        self.assertEqual(first.shape[1:], (256, 4))
+        self.assertFalse(first.any())
+        shown = np.array(first)
+        for _ in range(30):
+            rain.advance(1 / 60)
+            pixels, tiles = rain.draw(256)
+            for x, y, width, height in tiles:
+                shown[y : y + height, x : x + width] = pixels[y : y + height, x : x + width]
+        self.assertIs(pixels.base, first.base)
+        np.testing.assert_array_equal(shown, pixels)
+        self.assertTrue(pixels[..., 3].any())
+        self.assertEqual(len(rain.running), rain.figures.running)
+        self.assertGreater(rain.running["volume"].min(), 0)
+        self.assertAlmostEqual(rain.figures.time, 0.5)
+        self.assertLess(abs(rain.figures.balance_error), 1e-12)
+
+    def test_mist_is_wiped_by_a_finger(self):
+        rain = ds.Windshield(rain=0, mist=1e-6, speed=0)
+        self.assertEqual(rain.mist.shape, (1, 1))
+        rain.advance(5)
+        self.assertTrue((rain.mist == 128).all())
+        rain.finger((0.5, 0.4), (0.9, 0.4), width=0.02)
+        row = rain.mist[len(rain.mist) // 2]
+        self.assertEqual(row[row.size // 2], 0)
+        rain.spray(0.7, 0.4)
+        rain.advance(0.01)
+        self.assertGreater(rain.figures.running + rain.figures.still, 100)
+
+    def test_errors(self):
+        with self.assertRaisesRegex(ds.InvalidArgument, "figure-9"):
+            ds.Windshield("figure-9")
+        with self.assertRaisesRegex(ds.InvalidArgument, "hysteresis"):
+            ds.Windshield(hysteresis=-1)
+        with self.assertRaises(ds.InvalidArgument):
+            ds.Windshield(speed="5mm")
+        rain = ds.Windshield()
+        with self.assertRaises(ds.InvalidArgument):
+            rain.advance(0)
+        rain.advance(0.01)
+        with self.assertRaisesRegex(ds.InvalidArgument, "slope"):
+            rain.set(slope="30deg")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -8,7 +8,10 @@ struct WindshieldState;
 /// Balance of all water since the start [m³].
 struct WaterBalance {
     double rained = 0.0;            ///< volume of the raindrops that met the glass
-    double on_glass_still = 0.0;    ///< volume of the still droplets
+    double sprayed = 0.0;           ///< volume that sprayers gave
+    double condensed = 0.0;         ///< volume of the mist that has condensed
+    double on_glass_mist = 0.0;     ///< volume of the mist
+    double on_glass_still = 0.0;    ///< volume of the still droplets, and of those that arrive in the next step
     double on_glass_running = 0.0;  ///< volume of the running droplets
     double left = 0.0;              ///< volume that has run off over the edges
     double wiped = 0.0;             ///< volume that wipers removed
@@ -16,7 +19,8 @@ struct WaterBalance {
     double swept = 0.0;   ///< part of `merged` from still droplets along tracks: the Lotus effect
     double shed = 0.0;    ///< flow on the glass: water that running droplets left behind as streaks
 
-    /// Relative error: (rained − on glass − left − wiped) / rained; 0 before any rain.
+    /// Relative error: (come − on glass − left − wiped) / come, where what has come is rained + sprayed + condensed; 0
+    /// before any water.
     [[nodiscard]] double residual() const;
 };
 

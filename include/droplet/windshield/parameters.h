@@ -40,8 +40,9 @@ struct WindshieldParameters {
     Fluctuation fluctuation;                ///< random acceleration
     Streaks streaks;                        ///< film behind running droplets
     double tear_off_weber = kTearOffWeber;  ///< Weber number above which droplets break up, > 0; infinity: none
-    std::vector<Wiper> wipers;              ///< empty: none
-    std::uint64_t seed = 1;                 ///< random seed
+    double mist = 0.0;          ///< growth of the mist's thickness up to kDenseMist [m/s], from 0 to 1 µm/s
+    std::vector<Wiper> wipers;  ///< empty: none
+    std::uint64_t seed = 1;     ///< random seed
 
     /// Checks all fields.
     /// @throws Error InvalidArgument if a field is out of its range

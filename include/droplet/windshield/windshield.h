@@ -7,6 +7,7 @@
 #include "droplet/compensated_sum.h"
 #include "droplet/windshield/balance.h"
 #include "droplet/windshield/droplets.h"
+#include "droplet/windshield/mist.h"
 #include "droplet/windshield/parameters.h"
 
 namespace droplet {
@@ -31,10 +32,15 @@ struct WindshieldState {
     std::vector<RunningDroplet> droplets;  ///< running droplets, in the order of their ids
     StillDroplets still;                   ///< still droplets
     std::vector<TrackPiece> tracks;        ///< paths of the last step, of droplets that moved, in the order of ids
+    std::vector<StillDroplet> arriving;    ///< water of sprayers and fingers that meets the glass in the next step
+    Mist mist;                             ///< mist on the glass
     std::uint64_t next_id = 1;             ///< id of the next running droplet
     std::uint64_t next_raindrop = 0;       ///< number of the next raindrop
     double until_raindrop = 0.0;           ///< time until the next raindrop, as the expected number of raindrops
+    std::uint64_t next_touch = 0;          ///< number of the next spray or stroke of a finger
     CompensatedSum rained;                 ///< WaterBalance::rained [m³]
+    CompensatedSum sprayed;                ///< WaterBalance::sprayed [m³]
+    CompensatedSum condensed;              ///< WaterBalance::condensed [m³]
     CompensatedSum left;                   ///< WaterBalance::left [m³]
     CompensatedSum wiped;                  ///< WaterBalance::wiped [m³]
     CompensatedSum merged;                 ///< WaterBalance::merged [m³]
@@ -55,6 +61,7 @@ WindshieldState startWindshield(const WindshieldParameters& parameters);
 /// - Running droplets absorb still ones along their tracks and merge where they touch.
 /// - Droplets that are too high for the wind at their height, relative to them (tearOffHeight), break up into parts of
 ///   random sizes, half as large as the wind leaves whole or more, scattered downwind.
+/// - Mist condenses; droplets that run over it take it along.
 /// - Wipers remove water. Droplets beyond the edges leave.
 ///
 /// Guarantees: the same arguments give the same bytes with any number of threads; water is conserved (balanceOf);

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The interface from C: interface_test FOLDER PICTURE. Prints what does not hold; the exit code is the number of such
+// lines.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "droplet/c/droplet.h"
+
+static int failures = 0;
+
+#define HOLDS(what)                                                     \
+    do {                                                                \
+        if (!(what)) {                                                  \
+            fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #what);  \
+            fprintf(stderr, "  last message: %s\n", droplet_message()); \
+            ++failures;                                                 \
+        }                                                               \
+    } while (0)
+
+static double volume_of(const DropletMesh* mesh)
+{
+    double six = 0.0;
+    for (size_t t = 0; t < mesh->triangles; ++t) {
+        const float* p[3];
+        for (int k = 0; k < 3; ++k) {
+            p[k] = mesh->positions + 3 * (size_t)mesh->indices[3 * t + (size_t)k];
+        }
+        six += p[0][0] * ((double)p[1][1] * p[2][2] - (double)p[1][2] * p[2][1]) +
+               p[0][1] * ((double)p[1][2] * p[2][0] - (double)p[1][0] * p[2][2]) +
+               p[0][2] * ((double)p[1][0] * p[2][1] - (double)p[1][1] * p[2][0]);
+    }
+    return six / 6.0;
+}
+
+// A disc in memory holds the volume that was asked for, and its files are those of the command.
+static void shapes(const char* folder, const char* picture)
+{
+    enum { kSide = 100 };
+    static uint8_t coverage[kSide * kSide];
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            coverage[y * kSide + x] = hypot(x - 49.5, y - 49.5) < 40.0 ? 255 : 0;
+        }
+    }
+    const DropletMask mask = {coverage, kSide, kSide};
+    const char* const options[] = {"--width", "10mm", "--volume", "20uL", "--threads", "1"};
+    DropletShape* shape = NULL;
+    HOLDS(droplet_shape_of_mask(&mask, options, 6, &shape) == DROPLET_OK);
+    DropletMesh mesh;
+    HOLDS(droplet_shape_mesh(shape, &mesh) == DROPLET_OK);
+    // Floats of millimetres, summed in double.
+    HOLDS(fabs(volume_of(&mesh) - 20e-9) < 1e-5 * 20e-9);
+    const char* report = NULL;
+    HOLDS(droplet_shape_report(shape, &report) == DROPLET_OK);
+    HOLDS(strstr(report, "\"schema\": \"droplet-shape.report/") != NULL);
+    char path[1000];
+    snprintf(path, sizeof path, "%s/of_mask.obj", folder);
+    HOLDS(droplet_shape_write(shape, path) == DROPLET_OK);
+    snprintf(path, sizeof path, "%s/none.xyz", folder);
+    HOLDS(droplet_shape_write(shape, path) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(strstr(droplet_message(), "xyz") != NULL);
+    HOLDS(droplet_shape_write(shape, "/nowhere/at/all.glb") == DROPLET_OUTPUT_FAILED);
+    droplet_shape_delete(shape);
+
+    shape = NULL;
+    HOLDS(droplet_shape_of_file(picture, NULL, 0, &shape) == DROPLET_OK);
+    snprintf(path, sizeof path, "%s/of_file.glb", folder);
+    HOLDS(droplet_shape_write(shape, path) == DROPLET_OK);
+    droplet_shape_delete(shape);
+
+    const char* const wrong[] = {"--volume", "many"};
+    shape = NULL;
+    HOLDS(droplet_shape_of_mask(&mask, wrong, 2, &shape) == DROPLET_INVALID_ARGUMENT && shape == NULL);
+    HOLDS(strstr(droplet_message(), "--volume") != NULL);
+    const char* const page[] = {"--html", "page.html"};
+    HOLDS(droplet_shape_of_mask(&mask, page, 2, &shape) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_shape_of_file("/nowhere/at/all.png", NULL, 0, &shape) == DROPLET_INVALID_INPUT);
+    HOLDS(droplet_shape_of_file(NULL, NULL, 0, &shape) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_shape_of_file(picture, NULL, 0, NULL) == DROPLET_INVALID_ARGUMENT);
+    memset(coverage, 0, sizeof coverage);
+    HOLDS(droplet_shape_of_mask(&mask, NULL, 0, &shape) == DROPLET_INVALID_INPUT);
+    HOLDS(droplet_shape_of_mask(&(DropletMask){coverage, 0, 5}, NULL, 0, &shape) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(shape == NULL);
+    droplet_shape_delete(NULL);
+}
+
+static double value_of(const DropletWindshield* windshield, const char* name)
+{
+    double value = NAN;
+    HOLDS(droplet_windshield_get(windshield, name, &value) == DROPLET_OK);
+    return value;
+}
+
+// Rain that arrives is on the glass or has left it; the texture follows by its tiles alone.
+static void rain(void)
+{
+    DropletWindshield* windshield = NULL;
+    HOLDS(droplet_windshield_new("figure-4", &windshield) == DROPLET_INVALID_ARGUMENT && windshield == NULL);
+    HOLDS(droplet_windshield_new(NULL, &windshield) == DROPLET_OK);
+    HOLDS(value_of(windshield, "speed") == 15.0);
+    HOLDS(droplet_windshield_set(windshield, "glass-width", 0.7) == DROPLET_OK);
+    HOLDS(value_of(windshield, "glass-width") == 0.7);
+    HOLDS(droplet_windshield_set(windshield, "rain", 50.0 / 3.6e6) == DROPLET_OK);
+    HOLDS(droplet_windshield_set(windshield, "mist", 1e-6) == DROPLET_OK);
+    HOLDS(droplet_windshield_set(windshield, "wiper-period", 1.5) == DROPLET_OK);
+    HOLDS(droplet_windshield_set(windshield, "wiper-period", 1.0) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_windshield_set(windshield, "hysteresis", -1.0) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_windshield_set(windshield, "gravity", NAN) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_windshield_set(windshield, "nothing", 1.0) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(strstr(droplet_message(), "hysteresis") != NULL);  // the message lists all names
+    HOLDS(droplet_windshield_set(windshield, NULL, 1.0) == DROPLET_INVALID_ARGUMENT);
+
+    enum { kWidth = 256 };
+    int32_t height = 0;
+    HOLDS(droplet_windshield_map_height(windshield, kWidth, &height) == DROPLET_OK && height > 0);
+    HOLDS(droplet_windshield_map_height(windshield, 4, &height) == DROPLET_INVALID_ARGUMENT);
+    const size_t count = 4 * (size_t)kWidth * (size_t)height;
+    uint16_t* const whole = malloc(count * sizeof *whole);
+    uint16_t* const texture = calloc(count, sizeof *texture);
+    memset(whole, 0x55, count * sizeof *whole);  // the first drawing writes everything
+    for (int frame = 0; frame < 90; ++frame) {
+        if (frame == 30) {
+            HOLDS(droplet_windshield_set(windshield, "contact-angle", 1.5) == DROPLET_OK);
+        }
+        const DropletSpray spray = {0.35, 0.4, 0.05, 1e-8};
+        HOLDS(droplet_windshield_spray(windshield, &spray) == DROPLET_OK);
+        const DropletStroke stroke = {0.2, 0.2 + 0.003 * frame, 0.2, 0.203 + 0.003 * frame, 0.014};
+        HOLDS(droplet_windshield_finger(windshield, &stroke) == DROPLET_OK);
+        HOLDS(droplet_windshield_advance(windshield, 1.0 / 60.0) == DROPLET_OK);
+        DropletTiles tiles;
+        HOLDS(droplet_windshield_draw(windshield, kWidth, whole, &tiles) == DROPLET_OK);
+        for (size_t k = 0; k < tiles.count; ++k) {  // as a texture is filled
+            const DropletTile t = tiles.list[k];
+            for (int32_t y = t.y; y < t.y + t.height; ++y) {
+                const size_t at = 4 * ((size_t)y * kWidth + (size_t)t.x);
+                memcpy(texture + at, whole + at, 4 * (size_t)t.width * sizeof *texture);
+            }
+        }
+    }
+    HOLDS(memcmp(whole, texture, count * sizeof *whole) == 0);
+
+    DropletWindshieldFigures figures;
+    HOLDS(droplet_windshield_figures(windshield, &figures) == DROPLET_OK);
+    HOLDS(fabs(figures.time - 1.5) < 1e-12 && figures.width == 0.7 && figures.raindrops > 0 && figures.still > 0);
+    HOLDS(fabs(figures.balance_error) < 1e-12);
+    DropletRunning first[2];
+    HOLDS(droplet_windshield_running(windshield, first, 2) == figures.running && figures.running > 2);
+    HOLDS(first[0].id < first[1].id && first[0].volume > 0.0 && first[0].radius > 1e-4);
+    HOLDS(droplet_windshield_running(windshield, NULL, 0) == figures.running);
+
+    DropletMistMap mist;
+    HOLDS(droplet_windshield_mist(windshield, &mist) == DROPLET_OK);
+    // 1.5 µm of 10 µm, where neither finger nor wiper was; nothing where the finger is.
+    HOLDS(mist.pixels[mist.width - 1] == 38);
+    const int32_t x = (int32_t)(0.2 / (mist.right * 0.7) * mist.width);
+    const int32_t y = (int32_t)((1.0 - 0.45 / (mist.top * figures.height)) * mist.height);
+    HOLDS(mist.pixels[y * mist.width + x] <= 3);
+
+    DropletPlace place;
+    HOLDS(droplet_windshield_place(windshield, 0.35, 0.4, &place) == DROPLET_OK);
+    HOLDS(fabs(place.point[0]) < 1e-12 && fabs(place.across[0] - 1.0) < 1e-12 && place.normal[2] > 0.0);
+    HOLDS(droplet_windshield_place(windshield, 9.0, 0.4, &place) == DROPLET_INVALID_ARGUMENT);
+
+    // A stroke of the wiper ends before the blades are gone; a speed is reached as a car can.
+    DropletBlade blade;
+    HOLDS(droplet_windshield_set(windshield, "wiper-period", 0.0) == DROPLET_OK);
+    HOLDS(droplet_windshield_set(windshield, "speed", 27.0) == DROPLET_OK);
+    HOLDS(droplet_windshield_set(windshield, "slope", 0.5) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_windshield_set(windshield, "wiper-period", 1.2) == DROPLET_OK);
+    HOLDS(droplet_windshield_advance(windshield, 0.1) == DROPLET_OK);
+    HOLDS(droplet_windshield_set(windshield, "wiper-period", 0.0) == DROPLET_OK);
+    HOLDS(droplet_windshield_blades(windshield, &blade, 1) == 2 && blade.outer_y > blade.inner_y);
+    for (int frame = 0; frame < 12; ++frame) {
+        HOLDS(droplet_windshield_advance(windshield, 0.1) == DROPLET_OK);
+    }
+    HOLDS(droplet_windshield_blades(windshield, &blade, 1) == 0);
+    HOLDS(droplet_windshield_figures(windshield, &figures) == DROPLET_OK);
+    HOLDS(fabs(figures.speed - 27.0) < 1e-9);
+    HOLDS(droplet_windshield_advance(windshield, 0.0) == DROPLET_INVALID_ARGUMENT);
+    free(whole);
+    free(texture);
+    droplet_windshield_delete(windshield);
+    droplet_windshield_delete(NULL);
+}
+
+int main(int argc, char** argv)
+{
+    if (argc != 3) {
+        fprintf(stderr, "usage: interface_test FOLDER PICTURE\n");
+        return 1;
+    }
+    HOLDS(strcmp(droplet_message(), "") == 0);
+    HOLDS(strchr(droplet_version(), '.') != NULL);
+    shapes(argv[1], argv[2]);
+    rain();
+    return failures;
+}
