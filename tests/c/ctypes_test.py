@@ -74,15 +74,15 @@ rain = c_void_p()
 check(new(b"figure-3.10", byref(rain)))
 check(set_value(rain, b"rain", 25.0 / 3.6e6))
 height = c_int32()
-check(map_height(rain, 256, byref(height)))
-pixels = (c_uint16 * (4 * 256 * height.value))()
+check(map_height(rain, 1024, byref(height)))
+pixels = (c_uint16 * (4 * 1024 * height.value))()
 changed = []
 for _ in range(30):
     check(advance(rain, 1.0 / 60.0))
     tiles = Tiles()
-    check(draw(rain, 256, pixels, byref(tiles)))
+    check(draw(rain, 1024, pixels, byref(tiles)))
     changed.append(tiles.count)
-assert changed[0] == math.ceil(height.value / 32) * 8 and 0 < changed[1] < changed[0], changed
+assert changed[0] == math.ceil(height.value / 32) * 32 and 0 < changed[1] < changed[0], changed
 figures = Figures()
 check(figures_of(rain, byref(figures)))
 assert abs(figures.time - 0.5) < 1e-12 and figures.raindrops > 100 and abs(figures.balance_error) < 1e-12
