@@ -59,12 +59,39 @@ Field fieldAt(float u, float v, std::uint32_t seed)
     return fieldFrom(u, v, [&](std::int32_t i, std::int32_t j) { return numberAt(i, j, seed); });
 }
 
-// Streaks of the film along the blade's motion, thick and thin.
-constexpr float kLong = 0.045F;    // [m]
-constexpr float kWide = 0.0042F;   // [m]
-constexpr float kThinLong = 2.1F;  // times as many along
-constexpr float kThinWide = 2.7F;
-constexpr std::uint32_t kThinSeed = 77;
+// Streaks of the film along the blade's motion, thick and thin, that repeat after some metres.
+constexpr float kLong = 0.045F;   // [m]
+constexpr float kWide = 0.0042F;  // [m]
+constexpr std::int32_t kThickAlong = 16;
+constexpr std::int32_t kThickAcross = 64;
+constexpr std::int32_t kThinAlong = 34;
+constexpr std::int32_t kThinAcross = 173;
+constexpr float kThickShare = 0.62F;
+constexpr float kThinShare = 0.38F;
+constexpr float kRoundAlong = static_cast<float>(kThickAlong) * kLong;    // after which they repeat [m]
+constexpr float kRoundAcross = static_cast<float>(kThickAcross) * kWide;  // likewise
+// Samples: sixteen along the shortest streak, six across it.
+constexpr std::int32_t kSamplesAlong = 512;
+constexpr std::int32_t kSamplesAcross = 1024;
+
+/// Level below which the glass is bare at an age of the film.
+float brokenAt(float age)
+{
+    return 0.12F + 0.88F * std::sqrt(age / kFilmLasts);
+}
+
+/// Slope of a film over that of its level at an age [m].
+float thicknessAt(float age)
+{
+    constexpr float kThick = 4.5e-5F;  // [m]
+    return kThick * (0.35F + 0.65F * std::exp(-age / 0.3F));
+}
+
+/// Rims are steeper, as they recede.
+float rimAt(float level)
+{
+    return 1.0F + 1.2F * std::exp(-level / 0.05F);
+}
 
 Vec2f toFloats2(Vec2 v)
 {
@@ -109,34 +136,49 @@ WaterMet beadAt(float across, float width, Vec2f direction, float pixel)
 
 }  // namespace
 
-WiperView::Lattice::Lattice(const Wiper& wiper, Vec2f per_metre, std::uint32_t seed)
+WiperView::FilmField::FilmField() : samples_(static_cast<std::size_t>(kSamplesAlong) * kSamplesAcross)
 {
-    const auto round = static_cast<float>(std::numbers::pi * wiper.outer);
-    first_column_ = static_cast<std::int32_t>(std::floor(-round * per_metre.x)) - 1;
-    columns_ = static_cast<std::int32_t>(std::ceil(round * per_metre.x)) + 2 - first_column_;
-    first_row_ = static_cast<std::int32_t>(std::floor(static_cast<float>(wiper.inner) * per_metre.y)) - 1;
-    const std::int32_t end = static_cast<std::int32_t>(std::ceil(static_cast<float>(wiper.outer) * per_metre.y)) + 2;
-    numbers_.reserve(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(end - first_row_));
-    for (std::int32_t row = first_row_; row < end; ++row) {
-        for (std::int32_t column = first_column_; column < first_column_ + columns_; ++column) {
-            numbers_.push_back(numberAt(column, row, seed));
+    const auto octave = [](float u, float v, std::int32_t along, std::int32_t across) {
+        return fieldFrom(u * static_cast<float>(along), v * static_cast<float>(across),
+                         [&](std::int32_t i, std::int32_t j) {
+                             return numberAt(i % along, j % across, static_cast<std::uint32_t>(along));
+                         });
+    };
+    tbb::parallel_for(0, kSamplesAcross, [&](std::int32_t row) {
+        for (std::int32_t column = 0; column < kSamplesAlong; ++column) {
+            const float u = static_cast<float>(column) / kSamplesAlong;
+            const float v = static_cast<float>(row) / kSamplesAcross;
+            const Field thick = octave(u, v, kThickAlong, kThickAcross);
+            const Field thin = octave(u, v, kThinAlong, kThinAcross);
+            samples_[static_cast<std::size_t>(row) * kSamplesAlong + static_cast<std::size_t>(column)] = {
+                kThickShare * thick.value + kThinShare * thin.value,
+                (kThickShare * kThickAlong * thick.by_u + kThinShare * kThinAlong * thin.by_u) / kRoundAlong,
+                (kThickShare * kThickAcross * thick.by_v + kThinShare * kThinAcross * thin.by_v) / kRoundAcross, 0.0F};
         }
+    });
+    for (std::size_t k = 0; k < ages_.size(); ++k) {
+        const float share = (static_cast<float>(k) + 0.5F) / static_cast<float>(ages_.size());
+        ages_[k] = {brokenAt(share * kFilmLasts), thicknessAt(share * kFilmLasts)};
+        rims_[k] = rimAt(share);
     }
 }
 
-std::vector<WiperView::FilmStreaks> WiperView::streaksOf(const WiperState& one, const std::vector<FilmStreaks>& before)
+Float4 WiperView::FilmField::at(float along, float across) const
 {
-    std::vector<FilmStreaks> streaks;
-    for (const std::uint32_t seed : {2 * one.stroke - 1, 2 * one.stroke, 2 * one.stroke + 1}) {
-        const auto known =
-            std::find_if(before.begin(), before.end(), [&](const FilmStreaks& of) { return of.seed == seed; });
-        const Vec2f thick{1.0F / kLong, 1.0F / kWide};
-        const Vec2f thin{kThinLong / kLong, kThinWide / kWide};
-        streaks.push_back(known != before.end()
-                              ? *known
-                              : FilmStreaks{seed, {one.wiper, thick, seed}, {one.wiper, thin, seed + kThinSeed}});
-    }
-    return streaks;
+    const float u = along * (kSamplesAlong / kRoundAlong);
+    const float v = across * (kSamplesAcross / kRoundAcross);
+    const float column = std::floor(u);
+    const float row = std::floor(v);
+    const auto sample = [&](std::int32_t i, std::int32_t j) -> const Float4& {
+        return samples_[static_cast<std::size_t>((static_cast<std::int32_t>(row) + j) & (kSamplesAcross - 1)) *
+                            kSamplesAlong +
+                        static_cast<std::size_t>((static_cast<std::int32_t>(column) + i) & (kSamplesAlong - 1))];
+    };
+    const Float4 x = float4(u - column);
+    const Float4 y = float4(v - row);
+    const Float4 low = sample(0, 0) + x * (sample(1, 0) - sample(0, 0));
+    const Float4 high = sample(0, 1) + x * (sample(1, 1) - sample(0, 1));
+    return low + y * (high - low);
 }
 
 WiperView::Blade WiperView::bladeAt(const Wiper& wiper, double time)
@@ -162,10 +204,11 @@ void WiperView::update(double time)
     if (options.wipers.empty()) {
         return;
     }
-    if (film_places_.empty()) {
+    if (!film_) {
+        film_.emplace();
         placeFilms();
     }
-    const std::vector<WiperState> before = std::exchange(states_, {});
+    states_.clear();
     moments_ = 1;
     const Vec2 middle{0.5 * scene_.glass.width(), 0.5 * scene_.glass.height()};
     for (const Wiper& wiper : options.wipers) {
@@ -184,8 +227,11 @@ void WiperView::update(double time)
         for (int k = 0; k < moments_; ++k) {
             one.blades.push_back(bladeAt(wiper, time + scene_.timeOf(k, moments_)));
         }
-        const std::size_t number = states_.size();
-        one.streaks = streaksOf(one, number < before.size() ? before[number].streaks : std::vector<FilmStreaks>());
+        // Each way there and back has a part of the film of its own.
+        for (std::uint32_t way = 0; way < one.film_shifts.size(); ++way) {
+            const std::uint32_t seed = 2 * one.stroke + way;
+            one.film_shifts[way] = {kRoundAlong * numberAt(0, 0, seed), kRoundAcross * numberAt(1, 0, seed)};
+        }
         one.wedge = wedgeOf(one);
         states_.push_back(std::move(one));
     }
@@ -230,60 +276,43 @@ WiperView::FilmPlace WiperView::filmPlaceOf(const Wiper& wiper, Vec2f from)
             angle * static_cast<float>(wiper.outer)};
 }
 
-WaterMet WiperView::film(const WiperState& one, const FilmPlace& place, Vec2f from, float pixel)
+WaterMet WiperView::film(const WiperState& one, const FilmPlace& place, Vec2f from, float pixel) const
 {
     if (one.since < 0.0 || place.there < 0.0F) {
         return {};
     }
     const Wiper& wiper = one.wiper;
-    const float radius = size(from);
     // Times at which the blade passed: forward, and on its way back.
     const auto stroke = static_cast<float>(wiper.stroke);
     const float there = place.there;
     const auto since = static_cast<float>(one.since);
-    std::uint32_t seed = 2 * one.stroke;
+    std::size_t way = 1;
     float age = since - there;
     if (since >= stroke - there) {
         age = since - (stroke - there);
-        seed += 1;
+        way = 2;
     } else if (age < 0.0F) {
         if (one.stroke == 0) {
             return {};
         }
         age = since + static_cast<float>(wiper.period) - (stroke - there);
-        seed -= 1;
+        way = 0;
     }
     if (age >= kFilmLasts) {
         return {};
     }
-    const auto streaks =
-        std::find_if(one.streaks.begin(), one.streaks.end(), [&](const FilmStreaks& of) { return of.seed == seed; });
-    const float along = place.along;
-    const auto field = [&](float u, float v, const Lattice& lattice) {
-        return fieldFrom(u, v, [&](std::int32_t i, std::int32_t j) { return lattice.at(i, j); });
-    };
-    constexpr float kThickShare = 0.62F;
-    constexpr float kThinShare = 0.38F;
-    const float broken = 0.12F + 0.88F * std::sqrt(age / kFilmLasts);  // level below which the glass is bare
-    const Field thick = field(along / kLong, radius / kWide, streaks->thick);
-    if (kThickShare * thick.value + kThinShare <= broken) {
-        return {};
-    }
-    const Field thin = field(kThinLong * along / kLong, kThinWide * radius / kWide, streaks->thin);
-    const float level = kThickShare * thick.value + kThinShare * thin.value - broken;
+    const auto [broken, thickness] = film_->ofAge(age / kFilmLasts);
+    const float radius = size(from);
+    const Vec2f shift = one.film_shifts[way];
+    const Float4 field = film_->at(place.along + shift.x, radius + shift.y);
+    const float level = field[0] - broken;
     if (level <= 0.0F) {
         return {};
     }
-    const float along_slope = (kThickShare * thick.by_u + kThinShare * kThinLong * thin.by_u) / kLong;
-    const float across_slope = (kThickShare * thick.by_v + kThinShare * kThinWide * thin.by_v) / kWide;
-    // The rims are steeper, as they recede.
-    constexpr float kThick = 4.5e-5F;  // [m]
-    const float scale = kThick * (0.35F + 0.65F * std::exp(-age / 0.3F)) * (1.0F + 1.2F * std::exp(-level / 0.05F));
-    const Vec2f outward{from.x / radius, from.y / radius};
-    const float slope = std::hypot(along_slope, across_slope);
-    return {within(level / std::max(slope, 1e-3F), pixel),
-            {scale * (across_slope * outward.x - along_slope * outward.y),
-             scale * (across_slope * outward.y + along_slope * outward.x)},
+    const float steepness = std::sqrt(field[1] * field[1] + field[2] * field[2]);
+    const float scale = thickness * film_->rimOf(level) / radius;
+    return {within(level / std::max(steepness, 1e-3F), pixel),
+            {scale * (field[2] * from.x - field[1] * from.y), scale * (field[2] * from.y + field[1] * from.x)},
             false};
 }
 

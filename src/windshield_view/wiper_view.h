@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -62,27 +65,35 @@ private:
         float forward = 0.0F;  ///< 1: its angle grows; −1: it shrinks; 0: at rest
         float pushed = 0.0F;   ///< amount of pushed water, 0 … 1
     };
-    /// Random numbers on a lattice over a wiper's field, along its motion and its blade.
-    class Lattice {
+    /// Level of a film and its slopes: a random field over the way of a blade and along it, which repeats. It is sampled
+    /// once, as are the functions of age and level.
+    class FilmField {
     public:
-        /// @param per_metre  columns and rows
-        Lattice(const Wiper& wiper, Vec2f per_metre, std::uint32_t seed);
-        [[nodiscard]] float at(std::int32_t column, std::int32_t row) const
-        {
-            return numbers_[static_cast<std::size_t>((row - first_row_) * columns_ + column - first_column_)];
-        }
+        FilmField();
+        /// Level, its slope along the blade's motion, and along the blade [1/m].
+        /// @param along   [m], more than -1e6
+        /// @param across  [m]
+        [[nodiscard]] Float4 at(float along, float across) const;
+
+        struct Age {
+            float broken = 0.0F;     ///< level below which the glass is bare
+            float thickness = 0.0F;  ///< slope of the film over that of its level [m]
+        };
+        /// @param share  age over the film's lifetime, 0 to 1
+        [[nodiscard]] Age ofAge(float share) const { return ages_[index(share)]; }
+        /// How much steeper rims are at a level above the bare one.
+        [[nodiscard]] float rimOf(float level) const { return rims_[index(level)]; }
 
     private:
-        std::int32_t first_column_;
-        std::int32_t columns_;
-        std::int32_t first_row_;
-        std::vector<float> numbers_;
-    };
-    /// Streaks of the film of one way of a blade, there or back.
-    struct FilmStreaks {
-        std::uint32_t seed = 0;
-        Lattice thick;
-        Lattice thin;
+        static constexpr std::size_t kSteps = 1024;
+        static std::size_t index(float share)
+        {
+            return static_cast<std::size_t>(std::clamp(share * kSteps, 0.0F, static_cast<float>(kSteps - 1)));
+        }
+
+        std::vector<Float4> samples_;
+        std::array<Age, kSteps> ages_;
+        std::array<float, kSteps> rims_;
     };
     /// Water where a blade has turned.
     struct Wedge {
@@ -97,13 +108,10 @@ private:
         double since = 0.0;                ///< time since the begin of its period [s]
         std::uint32_t stroke = 0;          ///< number of the stroke
         std::vector<Blade> blades;         ///< blade at each moment
-        std::vector<FilmStreaks> streaks;  ///< of the last way of the stroke before, and of both ways of this one
         Wedge wedge;
+        std::array<Vec2f, 3> film_shifts;  ///< in the field, of the last way before this stroke and of its two ways [m]
     };
 
-    /// @param before  those of the last time
-    [[nodiscard]] static std::vector<FilmStreaks> streaksOf(const WiperState& one,
-                                                            const std::vector<FilmStreaks>& before);
     [[nodiscard]] static Blade bladeAt(const Wiper& wiper, double time);
     /// What a pixel's place says of the film there, once for the view.
     struct FilmPlace {
@@ -112,7 +120,7 @@ private:
     };
     void placeFilms();
     [[nodiscard]] static FilmPlace filmPlaceOf(const Wiper& wiper, Vec2f from);
-    [[nodiscard]] static WaterMet film(const WiperState& one, const FilmPlace& place, Vec2f from, float pixel);
+    [[nodiscard]] WaterMet film(const WiperState& one, const FilmPlace& place, Vec2f from, float pixel) const;
     [[nodiscard]] static Wedge wedgeOf(const WiperState& one);
     [[nodiscard]] static WaterMet wedge(const WiperState& one, Vec2f from, float pixel);
     /// Whether a place is in the field of another wiper.
@@ -120,6 +128,7 @@ private:
 
     const ViewContext& scene_;
     std::vector<WiperState> states_;
+    std::optional<FilmField> film_;
     std::vector<std::vector<FilmPlace>> film_places_;  ///< for each wiper: of every pixel, tile by tile
     std::vector<std::uint8_t> tiles_;
     int moments_ = 1;
