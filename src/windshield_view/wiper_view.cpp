@@ -144,16 +144,19 @@ WiperView::FilmField::FilmField() : samples_(static_cast<std::size_t>(kSamplesAl
                              return numberAt(i % along, j % across, static_cast<std::uint32_t>(along));
                          });
     };
+    const Vec2f thick_slope{kThickShare * static_cast<float>(kThickAlong),
+                            kThickShare * static_cast<float>(kThickAcross)};
+    const Vec2f thin_slope{kThinShare * static_cast<float>(kThinAlong), kThinShare * static_cast<float>(kThinAcross)};
     tbb::parallel_for(0, kSamplesAcross, [&](std::int32_t row) {
         for (std::int32_t column = 0; column < kSamplesAlong; ++column) {
             const float u = static_cast<float>(column) / kSamplesAlong;
             const float v = static_cast<float>(row) / kSamplesAcross;
             const Field thick = octave(u, v, kThickAlong, kThickAcross);
             const Field thin = octave(u, v, kThinAlong, kThinAcross);
-            samples_[static_cast<std::size_t>(row) * kSamplesAlong + static_cast<std::size_t>(column)] = {
-                kThickShare * thick.value + kThinShare * thin.value,
-                (kThickShare * kThickAlong * thick.by_u + kThinShare * kThinAlong * thin.by_u) / kRoundAlong,
-                (kThickShare * kThickAcross * thick.by_v + kThinShare * kThinAcross * thin.by_v) / kRoundAcross, 0.0F};
+            samples_[static_cast<std::size_t>(row) * kSamplesAlong + static_cast<std::size_t>(column)] =
+                Float4{kThickShare * thick.value + kThinShare * thin.value,
+                       (thick_slope.x * thick.by_u + thin_slope.x * thin.by_u) / kRoundAlong,
+                       (thick_slope.y * thick.by_v + thin_slope.y * thin.by_v) / kRoundAcross, 0.0F};
         }
     });
     for (std::size_t k = 0; k < ages_.size(); ++k) {

@@ -65,8 +65,8 @@ private:
         float forward = 0.0F;  ///< 1: its angle grows; −1: it shrinks; 0: at rest
         float pushed = 0.0F;   ///< amount of pushed water, 0 … 1
     };
-    /// Level of a film and its slopes: a random field over the way of a blade and along it, which repeats. It is sampled
-    /// once, as are the functions of age and level.
+    /// Level of a film and its slopes: a random field over the way of a blade and along it, which repeats. It is
+    /// sampled once, as are the functions of age and level.
     class FilmField {
     public:
         FilmField();
@@ -105,9 +105,9 @@ private:
     /// Wiper at the present time.
     struct WiperState {
         Wiper wiper;
-        double since = 0.0;                ///< time since the begin of its period [s]
-        std::uint32_t stroke = 0;          ///< number of the stroke
-        std::vector<Blade> blades;         ///< blade at each moment
+        double since = 0.0;         ///< time since the begin of its period [s]
+        std::uint32_t stroke = 0;   ///< number of the stroke
+        std::vector<Blade> blades;  ///< blade at each moment
         Wedge wedge;
         std::array<Vec2f, 3> film_shifts;  ///< in the field, of the last way before this stroke and of its two ways [m]
     };
