@@ -145,7 +145,7 @@ const std::vector<Parameter>& parameters()
     constexpr double kAny = std::numeric_limits<double>::max();
     using droplet::kDegree;
     using droplet::kMillimetrePerHour;
-    static const std::vector<Parameter> kList{
+    static const std::vector<Parameter> list{
         {"speed", 0.0, 150.0, false, [](const DropletWindshield& windshield) { return windshield.speed; },
          [](DropletWindshield& windshield, double value) {
              windshield.speed = value;
@@ -185,7 +185,7 @@ const std::vector<Parameter>& parameters()
         ofGlass("glass-radius", 0.1, 1e6, &droplet::Glass::Cylinder::radius),
         ofGlass("slope", 0.0, 90.0 * kDegree, &droplet::Glass::Cylinder::slope),
     };
-    return kList;
+    return list;
 }
 
 const Parameter& parameterNamed(std::string_view name)
@@ -444,7 +444,7 @@ DropletCode droplet_windshield_mist(DropletWindshield* windshield, DropletMistMa
             const float* const from = mist.thickness.data() + row * mist.columns;
             std::uint8_t* const to = pixels.data() + (mist.rows - 1 - row) * mist.columns;
             for (std::size_t k = 0; k < mist.columns; ++k) {
-                to[k] = static_cast<std::uint8_t>(kLevels * from[k] + 0.5F);
+                to[k] = static_cast<std::uint8_t>(std::lround(kLevels * from[k]));
             }
         }
         *map = {pixels.data(), static_cast<int32_t>(mist.columns), static_cast<int32_t>(mist.rows),

@@ -48,7 +48,8 @@ double takeMist(Mist& mist, const MistStroke& stroke)
     // The share of a cell inside the stroke is that of a straight edge along its distance from the middle.
     const double margin = 0.5 * mist.cell;
     cells.visitAround(stroke.from, stroke.to, stroke.reach + margin, [&](std::size_t first, std::size_t last) {
-        const double up = (static_cast<double>(first / mist.columns) + 0.5) * mist.cell;
+        const std::size_t row = first / mist.columns;
+        const double up = (static_cast<double>(row) + 0.5) * mist.cell;
         for (std::size_t k = first; k <= last; ++k) {
             float& height = mist.thickness[k];
             if (height == 0.0F) {
@@ -71,7 +72,8 @@ double takeMist(Mist& mist, const Sweep& blade)
     }
     double taken = 0.0;
     blade.visitCells({mist.cell, mist.columns, mist.rows}, [&](std::size_t first, std::size_t last) {
-        const double up = (static_cast<double>(first / mist.columns) + 0.5) * mist.cell;
+        const std::size_t row = first / mist.columns;
+        const double up = (static_cast<double>(row) + 0.5) * mist.cell;
         for (std::size_t k = first; k <= last; ++k) {
             if (blade.covers({(static_cast<double>(k % mist.columns) + 0.5) * mist.cell, up})) {
                 taken += static_cast<double>(std::exchange(mist.thickness[k], 0.0F));

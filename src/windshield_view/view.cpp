@@ -279,18 +279,18 @@ struct DriversView::Content {
             light[sample.pixel] += float4(share * static_cast<float>(sample.cover)) *
                                    seen(scene.backdrop.at(sample.outside), static_cast<float>(sample.light) / 255.0F);
         }
-        const bool has_wipers = wipers.reach(tile);
-        if (has_wipers) {
+        if (wipers.reach(tile)) {
             drawWaterLeft(tile, light);
         }
-        int moments = has_wipers ? wipers.moments() : 1;
+        const bool has_blades = wipers.reachNow(tile);
+        int moments = has_blades ? wipers.moments() : 1;
         for (const RaysInTile& in_tile : running->inTile(tile)) {
             moments = std::max(moments, in_tile.moments);
             if (in_tile.moments == 1) {
                 drawRays(*in_tile.rays, light);
             }
         }
-        if (has_wipers && moments == 1) {
+        if (has_blades && moments == 1) {
             drawWipers(tile, 0, light, [](std::size_t) {});
         }
         return moments;
@@ -454,7 +454,7 @@ struct DriversView::Content {
                     }
                 }
             }
-            if (wipers.reach(tile)) {
+            if (wipers.reachNow(tile)) {
                 drawWipers(tile, moment * wipers.moments() / moments, light,
                            [&](std::size_t pixel) { touched.push_back(static_cast<std::uint8_t>(pixel)); });
             }

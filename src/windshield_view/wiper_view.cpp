@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kBladeHalf = 0.0045F;  // half the width of a blade in its middle [m]
 constexpr float kArmHalf = 0.0075F;    // half the width of an arm at its joint [m]
+constexpr float kBesideBlade = 0.06F;  // reach of arm and water [m]
 constexpr float kFilmLasts = 0.75F;    // lifetime of a film [s]
 constexpr float kWedgeLasts = 0.8F;    // lifetime of a wedge [s]
 constexpr float kWidestBead = 0.007F;  // largest width of pushed water [m]
@@ -70,9 +71,9 @@ constexpr float kThickShare = 0.62F;
 constexpr float kThinShare = 0.38F;
 constexpr float kRoundAlong = static_cast<float>(kThickAlong) * kLong;    // after which they repeat [m]
 constexpr float kRoundAcross = static_cast<float>(kThickAcross) * kWide;  // likewise
-// Samples: sixteen along the shortest streak, six across it.
-constexpr std::int32_t kSamplesAlong = 512;
-constexpr std::int32_t kSamplesAcross = 1024;
+// Samples: eight along the shortest streak, three across it, so that they fit into a processor's own cache.
+constexpr std::int32_t kSamplesAlong = 256;
+constexpr std::int32_t kSamplesAcross = 512;
 
 /// Level below which the glass is bare at an age of the film.
 float brokenAt(float age)
@@ -238,16 +239,26 @@ void WiperView::update(double time)
         one.wedge = wedgeOf(one);
         states_.push_back(std::move(one));
     }
-    // Tiles with a part within reach of a blade.
-    tiles_.assign(scene_.tiles.count(), 0);
+    // Tiles with a part within reach of a wiper, and of a blade now.
+    tiles_.assign(scene_.tiles.count(), {});
     for (std::size_t k = 0; k < tiles_.size(); ++k) {
         const ViewTile& tile = scene_.tiles[k];
+        const Vec2f half{0.5F * (tile.high.x - tile.low.x), 0.5F * (tile.high.y - tile.low.y)};
         for (const WiperState& one : states_) {
             const Vec2f pivot = toFloats2(one.wiper.pivot);
             const float x = std::clamp(pivot.x, tile.low.x, tile.high.x) - pivot.x;
             const float y = std::clamp(pivot.y, tile.low.y, tile.high.y) - pivot.y;
             const auto reach = static_cast<float>(one.wiper.outer) + 0.02F;
-            tiles_[k] = tiles_[k] != 0 || (tile.on_glass && x * x + y * y < reach * reach) ? 1 : 0;
+            if (!tile.on_glass || x * x + y * y >= reach * reach) {
+                continue;
+            }
+            tiles_[k].in_field = true;
+            const Vec2f middle{tile.low.x + half.x - pivot.x, tile.low.y + half.y - pivot.y};
+            for (const Blade& blade : one.blades) {
+                const float aside = std::abs(middle.y * blade.along.x - middle.x * blade.along.y);
+                const float extent = half.x * std::abs(blade.along.y) + half.y * std::abs(blade.along.x);
+                tiles_[k].at_blade = tiles_[k].at_blade || aside <= kBesideBlade + extent;
+            }
         }
     }
 }
@@ -344,7 +355,7 @@ WaterMet WiperView::wedge(const WiperState& one, Vec2f from, float pixel)
     constexpr float kWidest = 1.7F * kWidestBead * 1.1F;
     const Wedge& wedge = one.wedge;
     const float beyond = from.x * wedge.ahead.x + from.y * wedge.ahead.y - kBladeHalf;
-    if (!wedge.is_there || beyond < -pixel || beyond > kWidest + pixel) {
+    if (beyond < -pixel || beyond > kWidest + pixel) {
         return {};
     }
     const float radius = size(from);
@@ -370,7 +381,7 @@ WaterMet WiperView::waterLeft(TilePixel at, Vec2f place, float pixel) const
         const WiperState& one = states_[k];
         const Vec2f pivot = toFloats2(one.wiper.pivot);
         const Vec2f from{place.x - pivot.x, place.y - pivot.y};
-        const WaterMet bead = wedge(one, from, pixel);
+        const WaterMet bead = one.wedge.is_there ? wedge(one, from, pixel) : WaterMet();
         if (bead.cover > 0.0F && !isInOtherField(one, place)) {
             return bead;
         }
@@ -408,8 +419,7 @@ WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
         const Vec2f from{place.x - pivot.x, place.y - pivot.y};
         const float along = from.x * blade.along.x + from.y * blade.along.y;
         const float aside = from.y * blade.along.x - from.x * blade.along.y;
-        constexpr float kReach = 0.06F;  // reach of arm and water [m]
-        if (std::abs(aside) > kReach) {
+        if (std::abs(aside) > kBesideBlade) {
             continue;
         }
         const auto inner = static_cast<float>(wiper.inner);

@@ -41,7 +41,9 @@ public:
     void update(double time);
 
     /// Whether wipers may be visible in a tile (upper bound).
-    [[nodiscard]] bool reach(std::size_t tile) const { return !tiles_.empty() && tiles_[tile] != 0; }
+    [[nodiscard]] bool reach(std::size_t tile) const { return !tiles_.empty() && tiles_[tile].in_field; }
+    /// Whether blades or arms, or the water that they push, may be visible in a tile (upper bound).
+    [[nodiscard]] bool reachNow(std::size_t tile) const { return !tiles_.empty() && tiles_[tile].at_blade; }
     /// Number of moments at which blades are drawn while the shutter is open.
     [[nodiscard]] int moments() const { return moments_; }
 
@@ -130,7 +132,11 @@ private:
     std::vector<WiperState> states_;
     std::optional<FilmField> film_;
     std::vector<std::vector<FilmPlace>> film_places_;  ///< for each wiper: of every pixel, tile by tile
-    std::vector<std::uint8_t> tiles_;
+    struct TileReach {
+        bool in_field = false;
+        bool at_blade = false;  ///< at any moment
+    };
+    std::vector<TileReach> tiles_;
     int moments_ = 1;
 };
 

@@ -4,6 +4,7 @@
 // Objects are opaque. Each belongs to one thread at a time; different ones may be used by different threads. All
 // quantities are in SI units, texts are UTF-8. Functions that can fail return a code, and droplet_message() has one
 // line that names the argument, its value and what is allowed. A function that fails changes nothing.
+// NOLINTBEGIN(*): the names and types are those of C
 #ifndef DROPLET_C_DROPLET_H
 #define DROPLET_C_DROPLET_H
 
@@ -283,10 +284,10 @@ DROPLET_API DropletCode droplet_windshield_draw(DropletWindshield* windshield, i
 typedef struct DropletMistMap {
     const uint8_t* pixels;  ///< 0 where the glass is clear to 255 where mist is densest, row by row from the upper
                             ///< left; stays until the next call
-    int32_t width;   ///< [px]; 1 if there is no mist
-    int32_t height;  ///< [px]; 1 if there is no mist
-    double right;    ///< where its right edge is, over the glass's width: 1 or a little more
-    double top;      ///< where its upper edge is, over the glass's height: 1 or a little more
+    int32_t width;          ///< [px]; 1 if there is no mist
+    int32_t height;         ///< [px]; 1 if there is no mist
+    double right;           ///< where its right edge is, over the glass's width: 1 or a little more
+    double top;             ///< where its upper edge is, over the glass's height: 1 or a little more
 } DropletMistMap;
 
 /// Brings the texture of the mist up to the state.
@@ -298,3 +299,4 @@ DROPLET_API DropletCode droplet_windshield_mist(DropletWindshield* windshield, D
 #endif
 
 #endif
+// NOLINTEND(*)
