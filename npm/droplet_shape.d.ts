@@ -188,8 +188,12 @@ export interface Dew {
     readonly surface: Pick<Surface, 'positions' | 'normals' | 'triangles'>;
     /** The command's report, droplet-shape.dew/1. */
     readonly report: Record<string, any>;
-    /** Bytes of a file: object and droplets; in obj, ply and stl the droplets alone; in csv a table of them. */
-    file(format?: 'glb' | 'gltf' | 'usda' | 'usdz' | 'obj' | 'ply' | 'stl' | 'csv'): Uint8Array;
+    /**
+     * Bytes of a file: object and droplets; in obj, ply and stl the droplets alone; in csv a table of them.
+     * `form`: other options for this file.
+     */
+    file(format?: 'glb' | 'gltf' | 'usda' | 'usdz' | 'obj' | 'ply' | 'stl' | 'csv',
+        form?: Pick<DewOptions, 'material' | 'instancing' | 'dropletsOnly' | 'compress'>): Uint8Array;
     /** Gives the solver's memory back before the garbage collector does. */
     free(): void;
 }

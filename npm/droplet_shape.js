@@ -33,6 +33,8 @@ const kNotOfDroplets = new Set([...kNotHere, 'onto', 'surface-depth', 'by-colour
     'compress', 'sink']);
 const kNotOfDew = new Set([...kNotHere, 'droplets', 'json']);
 const kDewFormats = ['glb', 'gltf', 'usda', 'usdz', 'obj', 'ply', 'stl', 'csv'];
+/** Options of dew that change its files alone. */
+const kDewForm = ['material', 'instancing', 'dropletsOnly', 'compress'];
 
 /** Options of the command's --help=json that the solver has, with their names in JavaScript. */
 function optionsOf(help, without) {
@@ -199,9 +201,10 @@ export async function loadSolver(wasm) {
     const known = byName(options);
     const dewOptions = optionsOf(textAt(solver.droplet_dew_help()), kNotOfDew);
     const knownOfDew = byName(dewOptions);
+    const bytesOf = (words) => new TextEncoder().encode(words.map((word) => `${word}\0`).join(''));
     /** Gives the module arguments, and keeps what it makes of them unless it fails. */
-    const made = (words, make, Made) => {
-        const bytes = new TextEncoder().encode(words.map((word) => `${word}\0`).join(''));
+    const made = (words, make, wrap) => {
+        const bytes = bytesOf(words);
         const at = put(bytes);
         const result = make(at, bytes.length);
         solver.free(at);
@@ -211,7 +214,7 @@ export async function loadSolver(wasm) {
             solver.droplet_delete(result);
             throw error;
         }
-        return new Made(result);
+        return wrap(result);
     };
     // The solver's own memory of droplets whose objects are gone.
     const forgotten = new FinalizationRegistry((result) => solver.droplet_delete(result));
@@ -246,8 +249,15 @@ export async function loadSolver(wasm) {
             return this.#report;
         }
 
-        file(format = 'glb') {
+        file(format = 'glb', form = undefined) {
             const result = this.#kept();
+            if (form) {
+                const bytes = bytesOf(form);
+                const at = put(bytes);
+                solver.droplet_dew_form(result, at, bytes.length);
+                solver.free(at);
+                check(result);
+            }
             const place = put(new TextEncoder().encode(`${format}\0`));
             solver.droplet_write(result, place);
             solver.free(place);
@@ -273,16 +283,28 @@ export async function loadSolver(wasm) {
     }
 
     class Dew extends Droplet {
+        #words;
+
+        /** @param words  gives the arguments with other options of files */
+        constructor(result, words) {
+            super(result);
+            this.#words = words;
+        }
+
         get surface() {
             const { positions, normals, triangles } = super.surface;
             return { positions, normals, triangles };
         }
 
-        file(format = 'glb') {
+        file(format = 'glb', form = {}) {
             if (!kDewFormats.includes(format)) {
                 throw new DropletError('InvalidArgument', `format: '${format}' must be one of ${kDewFormats.join(', ')}`);
             }
-            return super.file(format);
+            const other = Object.keys(form).find((name) => !kDewForm.includes(name));
+            if (other) {
+                throw new DropletError('InvalidArgument', `${other}: changes more than a file; only ${kDewForm.join(', ')} may be given here`);
+            }
+            return super.file(format, this.#words(form));
         }
     }
 
@@ -293,19 +315,21 @@ export async function loadSolver(wasm) {
             const { kind, bytes, width, height } = describe(mask);
             const pixels = put(bytes);
             try {
-                return made(words, (at, length) => solver.droplet_make(at, length, pixels, bytes.length, width, height, kind), Droplet);
+                return made(words, (at, length) => solver.droplet_make(at, length, pixels, bytes.length, width, height, kind),
+                    (result) => new Droplet(result));
             } finally {
                 solver.free(pixels);
             }
         },
         dewOptions,
         dew(object, { mask, ...given } = {}) {
-            const words = argumentsOf(given, knownOfDew);
             const inputs = filesOf(object, mask);
             const [name] = inputs.keys();
+            const words = (form) => [...argumentsOf({ ...given, ...form }, knownOfDew), ...mask ? ['--mask=mask'] : [], '--', name, 'droplets.glb'];
+            const first = words();
             inputs.forEach((bytes, path) => void files.set(path, bytes));
             try {
-                return made([...words, ...mask ? ['--mask=mask'] : [], '--', name, 'droplets.glb'], solver.droplet_dew, Dew);
+                return made(first, solver.droplet_dew, (result) => new Dew(result, words));
             } finally {
                 files.clear();
             }

@@ -52,6 +52,7 @@ struct MadeDew {
 
 /// A droplet or a covered object, or the error that prevented it.
 struct Result {
+    bool is_dew = false;  ///< whether an object is to be covered
     std::optional<MadeDew> dew;
     droplet::Surface surface;  ///< of all droplets
     droplet::Report report;
@@ -227,7 +228,8 @@ void guarded(Result& result, const Function& function)
         result.message = error.what();
     } catch (const std::bad_alloc&) {
         result.code = "OutOfMemory";
-        result.message = "out of memory; use a smaller mask or fewer --triangles";
+        result.message = result.is_dew ? "out of memory; use an object of fewer triangles, or fewer droplets"
+                                       : "out of memory; use a smaller mask or fewer --triangles";
     } catch (const std::exception& error) {
         result.code = "Internal";
         result.message = error.what();
@@ -308,8 +310,22 @@ EMSCRIPTEN_KEEPALIVE Result* droplet_make(const char* arguments, std::size_t arg
 EMSCRIPTEN_KEEPALIVE Result* droplet_dew(const char* arguments, std::size_t argument_bytes)
 {
     auto result = std::make_unique<Result>();
+    result->is_dew = true;
     guarded(*result, [&] { makeDew(*result, wordsOf(arguments, argument_bytes)); });
     return result.release();
+}
+
+/// Sets how files of a covered object are written.
+/// @param arguments  those of droplet_dew, with other options of files
+EMSCRIPTEN_KEEPALIVE void droplet_dew_form(Result* result, const char* arguments, std::size_t argument_bytes)
+{
+    result->code.clear();
+    result->message.clear();
+    guarded(*result, [&] {
+        const auto parsed = parseDew(wordsOf(arguments, argument_bytes));
+        const auto* const options = std::get_if<cli::DewCommandOptions>(&parsed);
+        result->dew->options.file = options->file;
+    });
 }
 
 /// Writes a file in a format, for Array::File.

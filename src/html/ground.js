@@ -144,8 +144,8 @@ export class Ground extends Group {
     }
 
     /** Draws the mask's edges on the ground. */
-    outline() {
-        this.uniforms.sheet_half.value = this.picture_half;
+    outline(drawn = true) {
+        this.uniforms.sheet_half.value = drawn ? this.picture_half : new Vector2(-1, -1);
     }
 
     /** Takes light that was aimed at another place. */

@@ -191,7 +191,8 @@ export class GroundLight {
         const shaders = worn.map(({ material }) => this.#through(material));
         meshes.forEach((mesh, i) => {
             mesh.material = shaders[i];
-            if (mesh.visible) {
+            // Only a base that light is refracted to is drawn where it does not belong.
+            if (mesh.visible && !shaders[i].uniforms.opaque.value) {
                 mesh.geometry = this.#surface(mesh.geometry);
             }
         });

@@ -16,13 +16,18 @@ export function decodeBase64(text) {
     return bytes;
 }
 
-export async function loadDroplet(bytes) {
+/** Reads a GLB without fetching anything. */
+export function loadGlb(bytes) {
     // Pictures are loaded as elements, because the page's policy forbids to fetch anything, even from its own memory.
     const byElements = (parser) => {
         parser.textureLoader = new TextureLoader();
         return { name: 'pictures by elements' };
     };
-    const gltf = await new GLTFLoader().register(byElements).parseAsync(bytes.buffer, '');
+    return new GLTFLoader().register(byElements).parseAsync(bytes.buffer, '');
+}
+
+export async function loadDroplet(bytes) {
+    const gltf = await loadGlb(bytes);
     return new Droplet(gltf.scene, gltf.animations[0]);
 }
 

@@ -7,6 +7,9 @@ import { GroundLight } from './light.js';
 import { putIntoRoom } from './room.js';
 import { Sketcher } from './sketch.js';
 
+/** Layer of what casts no light and no shadow on the ground. */
+export const kUnlit = 1;
+
 const kRatioLimit = 2;  // more pixels would not be visible
 const kSketchRatio = 0.5;
 const kFieldOfView = 26;
@@ -36,6 +39,7 @@ export class Stage {
         this.renderer.toneMapping = NeutralToneMapping;
         this.scene = new Scene();
         this.camera = new PerspectiveCamera(kFieldOfView, 1, 0.01, 100);
+        this.camera.layers.enable(kUnlit);
         this.holder = new Group();
         this.holder.add(droplet.scene);
         this.scene.add(this.holder);
@@ -81,6 +85,29 @@ export class Stage {
         this.ground.position.y = this.level;
         this.ground_level.value = this.level;
         this.ground.place(roundLength(size / 12) * this.scale, extent?.map((side) => side * this.scale) ?? [2, 2]);
+    }
+
+    /**
+     * Shows something else in place of the droplet.
+     * @param droplet  as of the constructor; `casters` are the meshes that light on the ground knows, if not all; the others
+     *                 are on kUnlit
+     */
+    swap(droplet, flat, space, extent) {
+        this.flat = flat;
+        this.#hold(droplet);
+        this.move(space, extent);
+    }
+
+    /** Shows something of the same size in place of the droplet, from where the camera is. */
+    exchange(droplet) {
+        this.#hold(droplet);
+        this.renew();
+    }
+
+    #hold(droplet) {
+        this.holder.remove(this.droplet.scene);
+        this.holder.add(droplet.scene);
+        this.droplet = droplet;
     }
 
     /** Shows another space, with a mask of these sides [m]. */
@@ -307,7 +334,8 @@ export class Stage {
         this.frame_id = undefined;
         this.controls.update();  // requests another frame while the motion fades
         if (this.light_is_old && this.ground_light && !this.sketchy) {
-            this.ground_light.update(this.renderer, this.holder, this.droplet.meshes, this.light_is_coarse);
+            const { meshes, casters = meshes } = this.droplet;
+            this.ground_light.update(this.renderer, this.holder, casters, this.light_is_coarse);
             this.light_is_old = false;
         }
         this.#render();

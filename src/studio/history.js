@@ -10,8 +10,9 @@ function bytesOf(states) {
 }
 
 export class History {
-    constructor(state, memory = kMemory) {
-        this.memory = memory;
+    /** @param held  bytes that states hold */
+    constructor(state, memory = kMemory, held = bytesOf) {
+        Object.assign(this, { memory, held });
         this.reset(state);
     }
 
@@ -33,7 +34,7 @@ export class History {
         const joins = run !== undefined && run === this.run && this.at === this.states.length - 1 && this.at > 0;
         this.states.length = joins ? this.at : this.at + 1;
         this.states.push(state);
-        while (this.states.length > 2 && bytesOf(this.states) > this.memory) {
+        while (this.states.length > 2 && this.held(this.states) > this.memory) {
             this.states.shift();
         }
         this.at = this.states.length - 1;

@@ -15,7 +15,7 @@ function choice(field, id) {
 function number(field, id) {
     const [min, max, step] = field.range;
     return Object.assign(document.createElement('input'), {
-        id, type: 'number', inputMode: 'decimal', min, max, step: 'any', required: !field.optional,
+        id, type: 'number', inputMode: 'decimal', min, max, step: field.whole ? 1 : 'any', required: !field.optional,
         placeholder: field.empty ?? '',
         // Arrow keys change it by this much.
         onkeydown(event) {
@@ -31,6 +31,23 @@ function number(field, id) {
     });
 }
 
+/** Digits that a slider of many sizes sets. */
+const kLogDigits = 3;
+
+/** A slider's ends and step, and how its place becomes the value and back: sizes from small to large are even on it by their ratio. */
+function scaleOf(field) {
+    const [min, max, step] = field.range;
+    if (field.slider !== 'log') {
+        return { ends: { min, max, step }, value: Number, place: (value) => value };
+    }
+    const [low, high] = field.window.map(Math.log);
+    return {
+        ends: { min: low, max: high, step: (high - low) / 200 },
+        value: (place) => Number(Math.exp(place).toPrecision(kLogDigits)),
+        place: (value) => (value > 0 ? Math.log(value) : low),
+    };
+}
+
 /**
  * Builds the controls.
  * @param hosts    {plain, more}: elements for usual and for rare fields
@@ -43,21 +60,21 @@ export function buildForm(fields, hosts, prefix, changed) {
         const id = `${prefix}-${field.name}`;
         const row = document.createElement('div');
         row.className = 'field';
-        const label = Object.assign(document.createElement('label'), { htmlFor: id, textContent: field.label });
+        const label = Object.assign(document.createElement('label'), { htmlFor: id, textContent: field.label, title: field.title ?? '' });
         const control = field.choices ? choice(field, id) : number(field, id);
         row.append(label, control);
-        let slider;
+        let [slider, scale] = [];
         if (!field.choices) {
             row.append(Object.assign(document.createElement('span'), { className: 'unit', textContent: field.unit }));
             control.setAttribute('aria-description', field.unit);
         }
         if (field.slider) {
-            const [min, max, step] = field.range;
-            slider = Object.assign(document.createElement('input'), { type: 'range', min, max, step });
+            scale = scaleOf(field);
+            slider = Object.assign(document.createElement('input'), { type: 'range', ...scale.ends });
             slider.setAttribute('aria-label', field.label);
             slider.addEventListener('input', () => {
-                control.value = slider.value;
-                changed(field.name, Number(slider.value));
+                control.value = scale.value(slider.value);
+                changed(field.name, scale.value(slider.value));
             });
             row.append(slider);
         }
@@ -68,17 +85,19 @@ export function buildForm(fields, hosts, prefix, changed) {
             changed(field.name, field.choices ? control.value : control.value === '' ? '' : control.valueAsNumber);
         });
         (field.more ? hosts.more : hosts.plain).append(row);
-        return { field, row, control, slider };
+        return { field, row, control, slider, scale };
     });
     return (settings) => {
-        for (const { field, row, control, slider } of rows) {
+        for (const { field, row, control, slider, scale } of rows) {
             row.hidden = field.when ? !field.when(settings) : false;
             const value = settings[field.name];
-            if (field.choices || document.activeElement !== control || (control.value === '' ? '' : control.valueAsNumber) !== value) {
+            // Somebody who has emptied an optional number is about to write another.
+            const emptied = field.optional && document.activeElement === control && control.value === '';
+            if (field.choices || document.activeElement !== control || !emptied && (control.value === '' ? '' : control.valueAsNumber) !== value) {
                 control.value = value;
             }
             if (slider) {
-                slider.value = value;
+                slider.value = scale.place(value);
                 slider.setAttribute('aria-valuetext', shown(field, value));
             }
         }

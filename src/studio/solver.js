@@ -5,7 +5,7 @@
 const kRest = 250;  // without a change, the hand rests [ms]
 
 /** A worker that answers each message. */
-class Servant {
+export class Servant {
     constructor({ worker_url, wasm }, drafts = false) {
         this.worker = new Worker(worker_url);
         this.waiting = new Map();

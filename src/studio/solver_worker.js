@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The solver in a worker. It knows one job at a time; which jobs are worth doing is decided in solver.js.
 import { loadSolver } from '../../npm/droplet_shape.js';
+import { dewActs } from './dew_acts.js';
 
 const kDraftTriangles = 5000;
 const kDraftSide = 512;  // pixels; the triangles are longer than four of these
@@ -124,6 +125,7 @@ function warmUp() {
 }
 
 const acts = {
+    ...dewActs(() => solver),
     async start({ wasm, drafts }) {
         solver = await loadSolver(wasm);
         if (drafts) {

@@ -67,6 +67,8 @@ export class View {
      */
     constructor({ canvas, extent, still, drawn }) {
         this.droplets = new Droplets();
+        this.extent = extent;
+        this.flat = true;
         this.stage = new Stage({ canvas, droplet: this.droplets, flat: true, extent, space: spaceOf(extent), still, drawn });
         this.stage.ground.outline();
         this.stage.controls.addEventListener('start', () => { this.stage.touched = true; });
@@ -74,30 +76,55 @@ export class View {
 
     /** Shows a sheet of other sides [m]. */
     fit(extent) {
-        this.stage.move(spaceOf(extent), extent);
+        this.extent = extent;
+        if (!this.object) {
+            this.stage.move(spaceOf(extent), extent);
+        }
     }
 
     show(id, look, shape, flat) {
+        this.flat = flat;
         this.droplets.show(id, look, shape);
-        this.stage.renew(flat);
+        this.#renew();
     }
 
     /** Changes a look without a new mesh. */
     look(id, look) {
         this.droplets.look(id, look);
-        this.stage.renew();
+        this.#renew();
     }
 
     remove(id) {
         this.droplets.remove(id);
-        this.stage.renew();
+        this.#renew();
+    }
+
+    #renew() {
+        if (!this.object) {
+            this.stage.renew(this.flat);
+        }
+    }
+
+    /** Shows an object in place of the droplets, or these again if undefined. `again`: from where the camera is. */
+    showObject(object, again = false) {
+        const { stage } = this;
+        this.object = object;
+        if (object && again) {
+            stage.exchange(object);
+        } else if (object) {
+            stage.swap(object, false, object.box());
+            stage.ground.outline(false);
+        } else {
+            stage.swap(this.droplets, this.flat, spaceOf(this.extent), this.extent);
+            stage.ground.outline();
+        }
     }
 
     setVisible(id, visible) {
         const mesh = this.droplets.layers.get(id);
         if (mesh && mesh.visible !== visible) {
             mesh.visible = visible;
-            this.stage.renew();
+            this.#renew();
         }
     }
 
