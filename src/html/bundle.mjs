@@ -11,7 +11,7 @@ const script = await bundleScript(join(sources, 'page.js'), {
     ...wasm ? await withWorker(studio) : {},
     alias: { studio: wasm ? join(studio, 'from_page.js') : join(sources, 'no_studio.js') },
 });
-const style = await bundleStyle([join(sources, 'page.css'), ...wasm ? [join(studio, 'studio.css')] : []]);
+const style = await bundleStyle([join(sources, 'page.css'), ...wasm ? [join(studio, 'studio.css'), join(studio, 'dew.css')] : []]);
 const filled = {
     style,
     script,

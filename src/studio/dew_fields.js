@@ -25,6 +25,8 @@ const kFields = [
     { name: 'liquid', label: 'Liquid', labels: {}, more: true },
     { name: 'material', label: 'Look', labels: { water: 'Clear water', ink: 'Blue ink' }, more: true },
     { name: 'detail', label: 'Triangles', labels: { low: 'few', medium: 'usual', high: 'many' }, more: true },
+    { name: 'instancing', label: 'Droplets are', labels: { auto: 'as their number asks', none: 'one mesh', nodes: 'a node each', gpu: 'GPU instances' }, file: true },
+    { name: 'compress', label: 'Compression', labels: { none: 'none', quantize: '16 bits', meshopt: 'meshopt' }, file: true },
 ];
 
 /** Where droplets are, as options. */
@@ -113,12 +115,16 @@ export const withSetting = (settings, name, value) =>
 export const withPreset = ({ of_preset }, settings, preset) =>
     ({ ...settings, ...Object.fromEntries(of_preset.map((name) => [name, ''])), preset });
 
-/** Options of the command. */
+/** Options of the command that change a file of the result alone. */
+export const formOf = ({ fields }, settings) => Object.fromEntries(fields.filter(({ name, file }) => file && settings[name] !== '')
+    .map(({ name }) => [name, settings[name]]));
+
+/** The other options of the command. */
 export function dewOptionsOf({ fields, preset }, settings) {
     const options = settings.preset === preset ? {} : { preset: settings.preset };
-    for (const { name, unit, choices } of fields) {
+    for (const { name, unit, choices, file } of fields) {
         const value = settings[name];
-        if (value === '') {
+        if (value === '' || file) {
             continue;
         }
         if (name === 'where') {

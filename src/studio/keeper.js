@@ -76,6 +76,16 @@ export class Keeper {
         document.documentElement.dataset.kept = this.#kept === this.#wanted ? 'yes' : 'no';
     }
 
+    /** Keeps another value under a name, beside the project. */
+    keepBeside(name, value) {
+        return written(this.#store, [this.#place, name], value).catch(() => {});
+    }
+
+    /** What was kept under a name; or undefined. */
+    beside(name) {
+        return answerOf(this.#store.transaction(kStore).objectStore(kStore).get([this.#place, name])).catch(() => undefined);
+    }
+
     /** Keeps a project, as soon as the hand rests. */
     keep(project) {
         this.#wanted = project;

@@ -5,6 +5,7 @@ import { length, rows, volume } from '../html/figures.js';
 import { readPicture } from '../html/read_picture.js';
 import { roundLength } from '../html/stage.js';
 import { blank, isDry, overlap } from './coverage.js';
+import { Dew } from './dew.js';
 import { History } from './history.js';
 import { askPicture } from './import_dialog.js';
 import { buildLayers } from './layers.js';
@@ -65,7 +66,9 @@ class Studio {
         this.#offerFiles();
         this.#offerKeys();
         this.#offerView();
+        this.dew = new Dew({ parts: { wasm, worker_url }, view: this.view, say: (text) => this.#say(text), keeper });
         this.#update(undefined);
+        keeper?.beside('dew').then((dew) => dew?.shown && this.#show('dew'));
         find('kept').hidden = !kept;
         this.solver.ready.then(() => { root.dataset.solver = 'ready'; }, (error) => {
             complain('The solver does not run in this browser. Drawings can be saved all the same.');
@@ -232,7 +235,7 @@ class Studio {
                 .map((lower) => `${upper.name} overlaps ${lower.name}: their droplets go through each other.`));
         }
         this.#showFigures();
-        if (!this.stroke && this.solver.at_rest) {
+        if (!this.stroke && this.solver.at_rest && !this.dew.is_shown) {
             root.dataset.droplets = 'ready';
             this.view?.stage.sketch(false);
             this.#say(this.#words().replaceAll('\n', '; '));
@@ -308,6 +311,9 @@ class Studio {
     }
 
     #showFigures() {
+        if (this.dew.is_shown) {
+            return;
+        }
         const known = this.known.get(selectedLayer(this.project).id);
         const refused = this.project.layers.some(({ id, visible }) => visible && this.known.get(id)?.error);
         const draft = this.#drops().some(({ id }) => this.known.get(id).draft);
@@ -437,6 +443,10 @@ class Studio {
     }
 
     #undo(step) {
+        if (this.dew.is_shown) {
+            this.dew.undo(step);
+            return;
+        }
         if (this.stroke) {
             this.sheet.cancel();
             return;
@@ -475,6 +485,10 @@ class Studio {
         }
         for (const button of [find('new'), find('afresh')]) {
             button.addEventListener('click', () => {
+                if (this.dew.is_shown) {
+                    this.dew.clear();
+                    return;
+                }
                 const before = this.project;
                 this.history.add(newProject());  // it can be undone, so nothing is asked
                 this.#altered(this.unsaved);
@@ -484,11 +498,9 @@ class Studio {
         }
         find('open').addEventListener('click', () => find('file').click());
         find('file').addEventListener('change', (event) => {
-            const [file] = event.target.files;
+            const files = [...event.target.files];
             event.target.value = '';
-            if (file) {
-                this.#open(file);
-            }
+            this.#open(files);
         });
         let depth = 0;
         const dropping = (on) => document.body.classList.toggle('dropping', on);
@@ -499,21 +511,30 @@ class Studio {
             event.preventDefault();
             depth = 0;
             dropping(false);
-            const [file] = event.dataTransfer.files;
-            if (file) {
-                this.#open(file);
-            }
+            this.#open([...event.dataTransfer.files]);
         });
         addEventListener('paste', (event) => {
             const file = [...event.clipboardData?.files ?? []].find(({ type }) => type.startsWith('image/'));
             if (file) {
                 event.preventDefault();
-                this.#open(file);
+                this.#open([file]);
             }
         });
     }
 
-    async #open(file) {
+    async #open(files) {
+        const [file] = files;
+        if (!file) {
+            return;
+        }
+        if (this.dew.takes(files)) {
+            this.#show('dew');
+            this.dew.open(files);
+            return;
+        }
+        if (this.dew.is_shown) {
+            this.#show('draw');
+        }
         find('trouble').hidden = true;
         try {
             if (/\.json$/i.test(file.name) || file.type === 'application/json') {
@@ -560,7 +581,7 @@ class Studio {
             if (event.ctrlKey || event.metaKey) {
                 const act = {
                     z: () => this.#undo(event.shiftKey ? 'redo' : 'undo'), y: () => this.#undo('redo'),
-                    s: () => this.#save('project'), o: () => find('file').click(),
+                    s: () => (this.dew.is_shown ? this.dew.save('glb') : this.#save('project')), o: () => find('file').click(),
                 }[key];
                 if (act && !(writes(event.target) && 'zy'.includes(key))) {
                     event.preventDefault();
@@ -568,7 +589,7 @@ class Studio {
                 }
                 return;
             }
-            if (writes(event.target)) {
+            if (writes(event.target) || this.dew.is_shown) {
                 return;
             }
             const tool = Object.keys(kTools).find((name) => kTools[name].key === key);
@@ -581,10 +602,25 @@ class Studio {
             }
         });
         for (const button of find('tabs').querySelectorAll('button')) {
-            button.addEventListener('click', () => {
-                document.body.dataset.part = button.dataset.part;
-                find('tabs').querySelectorAll('button').forEach((each) => each.setAttribute('aria-pressed', each === button));
-            });
+            button.addEventListener('click', () => this.#show(button.dataset.part));
+        }
+        for (const mode of document.getElementsByName('mode')) {
+            mode.addEventListener('change', () => this.#show(mode.value));
+        }
+    }
+
+    /** Shows dew on an object, or the drawing; on phones, a part of the drawing's settings in its place. */
+    #show(part) {
+        this.sheet.cancel();
+        document.body.dataset.part = part;
+        find('tabs').querySelectorAll('button').forEach((each) => each.setAttribute('aria-pressed', each.dataset.part === part));
+        for (const mode of document.getElementsByName('mode')) {
+            mode.checked = mode.value === (part === 'dew' ? 'dew' : 'draw');
+        }
+        const left = this.dew.is_shown && part !== 'dew';
+        this.dew.show(part === 'dew');
+        if (left) {
+            this.#update(this.project);
         }
     }
 

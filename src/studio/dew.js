@@ -1,0 +1,446 @@
+// SPDX-License-Identifier: MIT
+// Dew on an object: the part of Studio that covers an object with droplets. It has an object, settings and a history of
+// its own; the view, the figures and the buttons of the bar are Studio's, while this part is shown.
+import { complain, download, fileStem, find, tabulate } from '../html/controls.js';
+import { digits, length, volume } from '../html/figures.js';
+import { bottle } from './bottle.js';
+import markup from './dew.html';
+import { dewCommandOf, dewFields, dewOptionsOf, formOf, newSettings, settingsFrom, shownSettings, withPreset, withSetting } from './dew_fields.js';
+import { CoveredObject, NoObject } from './dew_object.js';
+import { History } from './history.js';
+import { hasObject, readObject, sizeOf } from './object_files.js';
+import { buildForm } from './physics_form.js';
+import { Servant } from './solver.js';
+
+const kRest = 250;          // without a change, droplets are made [ms]
+const kLong = 1500;         // a run that takes longer can be stopped [ms]
+const kMostKept = 64 << 20; // of an object that the browser keeps [bytes]
+const kManyTriangles = 3e5;
+const kMostHistory = 256 << 20;
+const kTypes = { glb: 'model/gltf-binary', usdz: 'model/vnd.usdz+zip', obj: 'model/obj', stl: 'model/stl', ply: 'model/ply', csv: 'text/csv' };
+const root = document.documentElement;
+
+const counted = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, '\u2009');
+const sentence = ({ message }) => message.charAt(0).toUpperCase() + message.slice(1).replaceAll('\n', ' ');
+
+/** Bytes of the objects that states hold. */
+const bytesIn = (states) => [...new Set(states.map(({ object }) => object))].reduce((sum, object) => sum + (object ? sizeOf(object) : 0), 0);
+
+export class Dew {
+    #parts;
+    #view;
+    #say;
+    #keeper;
+    #history = new History({ object: undefined, settings: undefined }, kMostHistory, bytesIn);
+    #shown = false;
+
+    /**
+     * @param parts   {worker_url, wasm}
+     * @param view    Studio's view; undefined without 3D
+     * @param say     says a sentence to who cannot see
+     * @param keeper  as of Studio; or undefined
+     */
+    constructor({ parts, view, say, keeper }) {
+        this.#parts = parts;
+        this.#view = view;
+        this.#say = say;
+        this.#keeper = keeper;
+        const template = document.createElement('template');
+        template.innerHTML = markup;
+        const [panel, saves] = template.content.children;
+        find('dew').append(...panel.childNodes);
+        document.body.append(saves);
+        this.#offer();
+    }
+
+    get is_shown() {
+        return this.#shown;
+    }
+
+    /** Whether files are for this part. */
+    takes(files) {
+        return hasObject(files);
+    }
+
+    async show(shown) {
+        if (shown === this.#shown) {
+            return;
+        }
+        this.#shown = shown;
+        find('save').setAttribute('popovertarget', shown ? 'dew-saves' : 'saves');
+        find('trouble').hidden = true;
+        this.#keep();
+        const words = find('command-line').firstChild;
+        this.#words ??= words.textContent;
+        words.textContent = shown ? 'The same by the command: ' : this.#words;
+        if (!shown) {
+            this.#view?.showObject(undefined);
+            return;
+        }
+        this.#showScene(false);
+        await this.#start();
+        this.#update();
+    }
+
+    /** Learns the options of the solver, which makes the forms; what was kept comes back. */
+    #start() {
+        this.#started ??= (async () => {
+            const { options } = await this.#servant().ask('dewOptions', {});
+            this.#known = dewFields(options);
+            this.#buildForms();
+            const kept = await this.#keeper?.beside('dew');
+            const settings = kept ? settingsFrom(this.#known, kept.settings) : newSettings(this.#known);
+            this.#history.reset({ object: this.#history.state.object ?? kept?.object, settings });
+            this.#solve();
+        })();
+        return this.#started;
+    }
+
+    #words;  // of the drawing, before its command
+    #started;
+    #known;
+    #worker;
+
+    #servant() {
+        if (!this.#worker) {
+            this.#worker = new Servant(this.#parts);
+            this.#held = undefined;
+        }
+        return this.#worker;
+    }
+
+    #held;  // object that the worker has
+
+    #stopWorker() {
+        this.#worker?.stop();
+        this.#worker = undefined;
+        this.#job = undefined;
+    }
+
+    get #state() {
+        return this.#history.state;
+    }
+
+    // Changes.
+
+    #change(state, run) {
+        this.#history.add({ ...this.#state, ...state }, run);
+        this.#keep();
+        this.#update();
+        this.#solve();
+    }
+
+    undo(step) {
+        const before = this.#state;
+        const state = this.#history[step]();
+        if (state !== before) {
+            this.#keep();
+            this.#update();
+            this.#solve();
+        }
+    }
+
+    async open(files) {
+        find('trouble').hidden = true;
+        try {
+            const object = await readObject(files);
+            await this.#start();
+            this.#take(object);
+        } catch (error) {
+            complain(`${files[0].name} cannot be opened: ${error.message}.`);
+        }
+    }
+
+    /** Takes another object; it keeps its own size. */
+    #take(object) {
+        this.#change({ object, settings: { ...this.#state.settings, objectSize: '', up: '' } });
+        this.#say(`${object.name} opened`);
+    }
+
+    /** Without an object, as at first. */
+    clear() {
+        if (this.#known) {
+            this.#change({ object: undefined, settings: newSettings(this.#known) });
+        }
+    }
+
+    #keep() {
+        clearTimeout(this.#keeping);
+        this.#keeping = setTimeout(() => {
+            const { object, settings } = this.#state;
+            if (this.#known && settings) {
+                const kept = object && sizeOf(object) <= kMostKept ? object : undefined;
+                this.#keeper?.keepBeside('dew', { shown: this.#shown, settings, object: kept });
+            }
+        }, kRest);
+    }
+
+    #keeping;
+
+    // Solving: the newest settings count; what is no longer wanted is broken off.
+
+    #job;     // {object, options, settings} that the worker works on
+    #made;    // the last that came out, with its report; or with its error
+    #resting;
+
+    get #options() {
+        return dewOptionsOf(this.#known, this.#state.settings);
+    }
+
+    #solve() {
+        clearTimeout(this.#resting);
+        const { object } = this.#state;
+        const wanted = object && JSON.stringify(this.#options);
+        const same = (job) => job && job.object === object && job.text === wanted;
+        if (!object || same(this.#made)) {
+            if (this.#job) {
+                this.#stopWorker();
+            }
+            if (!object) {
+                this.#made = undefined;
+                this.#showScene(false);
+            }
+            this.#update();
+            return;
+        }
+        if (same(this.#job)) {
+            return;
+        }
+        this.#resting = setTimeout(() => this.#make({ object, text: wanted, options: this.#options }), kRest);
+        this.#update();
+    }
+
+    async #make(job) {
+        if (this.#job) {
+            this.#stopWorker();
+        }
+        this.#job = job;
+        job.began = performance.now();
+        this.#tick();
+        this.#update();
+        const outcome = await this.#ask(job).catch((error) => ({ error }));
+        if (this.#job !== job) {
+            return;  // a newer one took its place
+        }
+        this.#job = undefined;
+        const { error } = outcome;
+        if (error && (error.code === 'Internal' || error.code === 'OutOfMemory')) {
+            this.#stopWorker();  // a solver that failed so may be damaged
+        }
+        const before = this.#made;
+        this.#made = { ...job, ...outcome };
+        this.#showScene(before?.object === job.object && before.scene !== undefined && frameOf(before) === frameOf(job));
+        this.#update();
+        this.#say(find('result').textContent);
+    }
+
+    async #ask(job) {
+        const servant = this.#servant();
+        await servant.ready;
+        if (this.#held !== job.object) {
+            await servant.ask('object', { object: job.object });
+            this.#held = job.object;
+        }
+        const { report, bytes, solve_ms } = await servant.ask('dew', { options: job.options });
+        const scene = this.#view ? await CoveredObject.load(bytes) : undefined;
+        return { report, solve_ms, scene };
+    }
+
+    /** Counts the seconds of a run that takes long. */
+    #tick() {
+        clearInterval(this.#ticking);
+        this.#ticking = setInterval(() => {
+            if (!this.#job) {
+                clearInterval(this.#ticking);
+            }
+            this.#showResult();
+        }, 500);
+    }
+
+    #ticking;
+
+    #stop() {
+        const { text, object } = this.#job ?? {};
+        if (object) {
+            this.#stopWorker();
+            this.#made?.scene ? undefined : this.#showScene(false);
+            this.#stopped = { object, text };
+            this.#update();
+        }
+    }
+
+    #stopped;
+
+    // What is seen.
+
+    #scene;
+
+    /** @param again  whether the camera stays */
+    #showScene(again) {
+        const scene = this.#made?.scene ?? new NoObject();
+        const before = this.#scene;
+        if (this.#shown && this.#view) {
+            this.#view.showObject(scene, again && before !== undefined);
+        }
+        if (before !== scene) {
+            before?.dispose();
+        }
+        this.#scene = scene;
+    }
+
+    #update() {
+        if (!this.#shown || !this.#known) {
+            return;
+        }
+        const { object, settings } = this.#state;
+        const report = this.#made?.object === object ? this.#made?.report : undefined;
+        const shown = shownSettings(this.#known, settings, object?.name ?? '', report);
+        this.#showFields(shown);
+        this.#showForm(shown);
+        find('dew-kinds').querySelector(`[value=${settings.preset}]`).checked = true;
+        find('undo').disabled = !this.#history.can_undo;
+        find('redo').disabled = !this.#history.can_redo;
+        find('dew-bottle').hidden = object !== undefined;
+        find('dew-open').classList.toggle('main', object === undefined);
+        find('dew-open').textContent = object ? 'Open another' : 'Open an object';
+        find('dew-name').textContent = object?.name ?? 'No object';
+        find('dew-again').disabled = object === undefined;
+        document.title = `${object?.name ?? 'Dew'} – Droplet Studio`;
+        find('dew-object').hidden = !report;
+        if (report) {
+            const { triangles, size_m } = report.input;
+            find('dew-object').textContent = `${counted(triangles)} triangles, ${size_m.map((side) => length(side)).join(' × ')}`;
+        }
+        this.#showResult();
+        this.#showFigures(report);
+    }
+
+    #showResult() {
+        if (!this.#shown) {
+            return;
+        }
+        const { object } = this.#state;
+        const made = this.#made?.object === object ? this.#made : undefined;
+        const waits = object !== undefined && made?.text !== (this.#known && JSON.stringify(this.#options));
+        const stopped = waits && !this.#job && this.#stopped?.object === object && this.#stopped.text === JSON.stringify(this.#options);
+        const seconds = this.#job ? Math.floor((performance.now() - this.#job.began) / 1000) : 0;
+        const refused = !waits && made?.error !== undefined;
+        const text = stopped ? 'Stopped; change something to begin again' : waits ? `Covering ${object.name}…${seconds > 1 ? ` ${seconds} s` : ''}` :
+            refused ? `${sentence(made.error)}.` : made ? wordsOf(made.report) : '';
+        find('result').textContent = text;
+        find('result').classList.toggle('refused', refused);
+        find('dew-stop').hidden = !this.#job || performance.now() - this.#job.began < kLong;
+        find('dew-hint').hidden = object !== undefined;
+        root.dataset.dew = object === undefined ? 'empty' : waits ? stopped ? 'stopped' : 'working' : refused ? 'refused' : 'ready';
+    }
+
+    #showFigures(report) {
+        tabulate(report ? rowsOf(report, this.#made.solve_ms) : [['Object', 'none']]);
+        const many = report && report.input.triangles > kManyTriangles ?
+            [`${counted(report.input.triangles)} triangles are many for a browser; the command droplet-shape dew is faster.`] : [];
+        find('warnings').replaceChildren(...[...report?.warnings ?? [], ...many].map((warning) =>
+            Object.assign(document.createElement('li'), { textContent: warning })));
+        find('command-line').hidden = !report;
+        if (report) {
+            const { object, settings } = this.#state;
+            find('command').textContent = dewCommandOf(object.name, this.#stem, { ...this.#options, ...formOf(this.#known, settings) });
+        }
+    }
+
+    // Controls.
+
+    #showFields = () => {};
+    #showForm = () => {};
+
+    #offer() {
+        find('dew-open').addEventListener('click', () => find('dew-file').click());
+        find('dew-file').addEventListener('change', (event) => {
+            const files = [...event.target.files];
+            event.target.value = '';
+            if (files.length > 0) {
+                hasObject(files) ? this.open(files) : complain(`${files[0].name} is no mesh; .glb, .gltf, .obj, .ply and .stl are.`);
+            }
+        });
+        find('dew-bottle').addEventListener('click', () => {
+            this.#change({ object: bottle(), settings: withPreset(this.#known, this.#state.settings, 'bottle') });
+            find('dew-open').focus();  // this button goes
+        });
+        find('dew-again').addEventListener('click', () => {
+            const { settings } = this.#state;
+            const seed = settings.seed === '' ? this.#made?.report?.sizes.seed ?? 1 : settings.seed;
+            this.#change({ settings: { ...settings, seed: seed + 1 } });
+        });
+        find('dew-stop').addEventListener('click', () => {
+            this.#stop();
+            find('dew-again').focus();
+        });
+        for (const button of find('dew-saves').querySelectorAll('[data-dew-save]')) {
+            button.addEventListener('click', () => this.save(button.dataset.dewSave));
+        }
+    }
+
+    #buildForms() {
+        const changed = (name, value) => this.#change({ settings: withSetting(this.#state.settings, name, value) }, name);
+        const { fields, presets } = this.#known;
+        this.#showFields = buildForm(fields.filter(({ file }) => !file), { plain: find('dew-fields'), more: find('dew-more') }, 'dew', changed);
+        this.#showForm = buildForm(fields.filter(({ file }) => file), { plain: find('dew-form') }, 'dew', changed);
+        find('dew-fields').addEventListener('focusout', () => this.#update());
+        for (const { name, label, title } of presets) {
+            const choice = document.createElement('label');
+            const radio = Object.assign(document.createElement('input'), { type: 'radio', name: 'dew-kind', value: name });
+            radio.addEventListener('change', () => this.#change({ settings: withPreset(this.#known, this.#state.settings, name) }));
+            choice.append(radio, label);
+            choice.title = title ?? '';
+            find('dew-kinds').append(choice);
+        }
+    }
+
+    // Files.
+
+    get #stem() {
+        return `${fileStem((this.#state.object?.name ?? 'object').replace(/\.\w+$/, ''))}-dew`;
+    }
+
+    async save(kind) {
+        if (find('dew-saves').matches(':popover-open')) {
+            find('dew-saves').hidePopover();
+        }
+        try {
+            const name = kind === 'view' ? `${this.#stem}.png` : `${this.#stem}.${kind}`;
+            download(kind === 'view' ? await this.#view.picture() : new Blob([await this.#bytes(kind)], { type: kTypes[kind] }), name);
+            find('trouble').hidden = true;
+            this.#say(`${name} saved`);
+        } catch (error) {
+            complain(`Nothing was saved. ${sentence(error)}.`);
+        }
+    }
+
+    async #bytes(format) {
+        if (root.dataset.dew !== 'ready') {
+            throw new Error('there are no droplets yet');
+        }
+        const form = formOf(this.#known, this.#state.settings);
+        if (format === 'usdz' && form.instancing === 'gpu') {
+            delete form.instancing;  // USD has it by nodes
+        }
+        return (await this.#servant().ask('dewFile', { format, form })).bytes;
+    }
+}
+
+/** What decides where an object is in its file. */
+const frameOf = ({ options: { objectSize, up } }) => `${objectSize} ${up}`;
+
+function wordsOf({ droplets }) {
+    const { count, volume_m3, covered_m2, area_m2 } = droplets;
+    return `${counted(count)} droplet${count === 1 ? '' : 's'}, ${volume(volume_m3)} on ${digits(100 * covered_m2 / area_m2, 2)}\u2009%`;
+}
+
+function rowsOf({ input, droplets, forces }, solve_ms) {
+    const { count, volume_m3, smallest_m, largest_m, joined, run_off, left_out, covered_m2, area_m2 } = droplets;
+    return [
+        ['Droplets', counted(count)], ['Volume', volume(volume_m3)], ['Covered', `${digits(100 * covered_m2 / area_m2, 3)}\u2009%`],
+        ['Radii', `${length(smallest_m)} to ${length(largest_m)}`], ['Contact angle', `${digits(forces.contact_angle_deg)}°`],
+        ['Joined others', counted(joined)], ['Ran off', counted(run_off)], ['Left out', counted(left_out)],
+        ['Triangles of the object', counted(input.triangles)], ['Time', `${digits(solve_ms / 1000, 2)}\u00a0s`],
+    ];
+}

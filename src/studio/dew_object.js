@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// An object with its droplets, as the stage wants a droplet (model.js).
+import { Box3, Group, Vector3 } from 'three';
+import { loadGlb } from '../html/model.js';
+import { kUnlit } from '../html/stage.js';
+
+const kMostCasting = 4e5;  // triangles of an object whose shadow is drawn
+
+/** Nothing, in a space of a hand's size. */
+export class NoObject {
+    scene = new Group();
+    meshes = [];
+
+    box() {
+        return new Box3(new Vector3(-0.05, 0, -0.05), new Vector3(0.05, 0.1, 0.05));
+    }
+
+    dispose() {}
+}
+
+export class CoveredObject {
+    /** Reads a file of `droplet-shape dew`, whose first mesh is the object. */
+    static async load(bytes) {
+        const { scene, parser } = await loadGlb(bytes);
+        return new CoveredObject(scene, (mesh) => parser.associations.get(mesh)?.meshes === 0 ||
+            parser.associations.get(mesh.parent)?.meshes === 0);
+    }
+
+    constructor(scene, isObject) {
+        this.scene = new Group();
+        this.scene.add(scene);
+        this.meshes = [];
+        const own = [];
+        scene.updateMatrixWorld(true);
+        scene.traverse((mesh) => {
+            if (mesh.isMesh) {
+                this.meshes.push(mesh);
+                (isObject(mesh) ? own : []).push(mesh);
+                mesh.layers.set(isObject(mesh) ? 0 : kUnlit);
+            }
+        });
+        this.space = own.reduce((box, mesh) => box.union(boxOf(mesh)), new Box3());
+        const triangles = own.reduce((sum, { geometry }) => sum + geometry.index.count / 3, 0);
+        this.casters = triangles <= kMostCasting ? own : [];
+        own.forEach((mesh) => mesh.layers.set(triangles <= kMostCasting ? 0 : kUnlit));
+        // It stands on the ground, in the middle.
+        const { min } = this.space;
+        const centre = this.space.getCenter(new Vector3());
+        const shift = new Vector3(-centre.x, -min.y, -centre.z);
+        scene.position.add(shift);
+        this.space.translate(shift);
+    }
+
+    box() {
+        return this.space;
+    }
+
+    /** Gives the graphics card's memory back. */
+    dispose() {
+        for (const { geometry, material } of this.meshes) {
+            geometry.dispose();
+            Object.values(material).filter((value) => value?.isTexture).forEach((texture) => texture.dispose());
+            material.dispose();
+        }
+    }
+}
+
+function boxOf({ geometry, matrixWorld }) {
+    geometry.computeBoundingBox();
+    return geometry.boundingBox.clone().applyMatrix4(matrixWorld);
+}
