@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Droplets are sorted into classes by what shapes them: the Bond number of their contact radius, the slope, and the
-// detail that their size deserves. A class has one mesh, the body of its mean droplet, which is scaled to the volume.
+// Droplets are sorted into classes by what shapes them: the Bond number of their contact radius, the slope, the detail
+// that their size deserves, and how the ground below them bends. A class has one mesh, the body of its mean droplet,
+// which is scaled to the volume.
+//
+// The heights of the ground below a rim are a Fourier series over the angle. Its first harmonics are those of a plane,
+// to which the droplet is leant. The mean and the second harmonics are those of a quadric: a dome or bowl, and a
+// saddle. Round droplets are turned so that the saddle is along their axes. Their classes have steps of both. A droplet
+// whose rim is still off the ground has a mesh of its own.
 #include "droplet/flow_io/dew_model.h"
 
 #include <tbb/parallel_for.h>
@@ -9,10 +15,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,19 +37,35 @@
 namespace droplet {
 namespace {
 
-constexpr double kGap = 0.05;                // of a rim, over the contact radius
-constexpr std::size_t kMostMerged = 20'000;  // droplets in one mesh, by default
+constexpr double kGap = 0.05;                  // of a rim, over the contact radius
+constexpr double kBendStep = 0.03;             // of heights on the rim over the contact radius, between classes
+constexpr double kMostBent = 0.36;             // likewise, of classes; what bends more has a mesh of its own
+constexpr int kLeastAlike = 6;                 // droplets that share the mesh of a bend
+constexpr std::size_t kMostVertices = 65'535;  // of a part of a mesh, whose indices then have 16 bits
+constexpr std::size_t kMostMerged = 20'000;    // droplets in one mesh, by default
 
-/// Class of droplets; those of the flat one look the same at every slope.
+/// Quadric that ground below a droplet follows: heights on the rim, in steps.
+struct Bend {
+    int dome = 0;    ///< all around
+    int saddle = 0;  ///< ahead and behind; as far down on both sides
+    int twist = 0;   ///< the same, between these directions
+
+    friend auto operator<=>(const Bend&, const Bend&) = default;
+};
+
+/// Class of droplets; round ones look the same at every slope.
 struct Kind {
-    int volume = 0;  ///< 0: as flat as without gravity
+    int volume = 0;  ///< 0: as round as without gravity
     int slope = 0;
     BodyDetail detail;
+    Bend bend = {};
 
     friend bool operator<(const Kind& a, const Kind& b)
     {
-        return std::array{a.volume, a.slope, static_cast<int>(a.detail.around)} <
-               std::array{b.volume, b.slope, static_cast<int>(b.detail.around)};
+        const auto key = [](const Kind& kind) {
+            return std::tuple(kind.volume, kind.slope, kind.detail.around, kind.bend);
+        };
+        return key(a) < key(b);
     }
 };
 
@@ -85,6 +110,13 @@ struct SharedMesh {
     DropletMesh mesh;
     double volume = 0.0;  ///< of the mean droplet [m³]
     Vec2 half;            ///< of the mean droplet [m]
+
+    /// Contact radius in the mesh's frame, by the factor on heights there.
+    [[nodiscard]] double radius(double unit) const
+    {
+        const double base = half.x * half.y;
+        return std::sqrt(base) * unit * base / volume;
+    }
 };
 
 /// Whether a seated droplet still looks like one.
@@ -96,6 +128,132 @@ bool isLike(const DropletMesh& mesh, const DropletShape& shape, double volume)
     const double seated = volumeUnder(shape.vertices, mesh.triangles);
     const auto height = [](const std::vector<Vec3>& vertices) { return cornersOf(vertices)[1].z; };
     return std::abs(seated / volume - 1.0) <= kLost && height(shape.vertices) <= kTaller * height(mesh.vertices);
+}
+
+/// Ground under a rim: harmonics of its heights over the contact radius.
+struct RimHeights {
+    double mean = 0.0;
+    Vec2 plane;   ///< slope ahead and to the left
+    Vec2 saddle;  ///< second harmonics: of the cosine and of the sine
+};
+
+/// Heights of the ground along a droplet's normal; none where no ground that faces the droplet is in reach.
+/// @param rim  number of the base's vertices on the rim, at even angles
+std::optional<RimHeights> rimHeights(const FlowTerrain& terrain, const DropletMesh& mesh, std::size_t rim,
+                                     const DropletPose& pose)
+{
+    const DropletFrame frame = droplet::frameOf(pose);
+    const double radius = std::sqrt(static_cast<double>(pose.along) * static_cast<double>(pose.across));
+    const std::size_t base = mesh.vertices.size() - baseVertices(rim);
+    RimHeights heights;
+    for (std::size_t k = 0; k < rim; ++k) {
+        const Vec3 p = mesh.vertices[base + k];
+        const Vec3 flat = frame.place + static_cast<double>(pose.along) * p.x * frame.ahead +
+                          static_cast<double>(pose.across) * p.y * frame.left;
+        const auto met = terrain.firstAlong(flat + radius * frame.normal, -1.0 * frame.normal);
+        if (!met || dot(terrain.surface().faces[met->face].normal, frame.normal) <= 0.0) {
+            return std::nullopt;
+        }
+        const double height = dot(met->place - frame.place, frame.normal) / radius;
+        if (std::abs(height) >= 1.0) {
+            return std::nullopt;
+        }
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(rim);
+        const double share = height / static_cast<double>(rim);
+        heights.mean += share;
+        heights.plane = heights.plane + 2.0 * share * Vec2{std::cos(angle), std::sin(angle)};
+        heights.saddle = heights.saddle + 2.0 * share * Vec2{std::cos(2.0 * angle), std::sin(2.0 * angle)};
+    }
+    return heights;
+}
+
+/// A pose whose plane has other slopes.
+DropletPose leant(DropletPose pose, Vec2 slopes)
+{
+    DropletFrame frame = droplet::frameOf(pose);
+    const Vec3 normal = frame.normal - slopes.x * frame.ahead - slopes.y * frame.left;
+    frame.normal = (1.0 / length(normal)) * normal;
+    const Vec3 ahead = frame.ahead - dot(frame.ahead, frame.normal) * frame.normal;
+    frame.ahead = (1.0 / length(ahead)) * ahead;
+    frame.left = cross(frame.normal, frame.ahead);
+    pose.turn = turnOf(frame);
+    return pose;
+}
+
+/// A pose that is turned about its normal.
+DropletPose turnedAbout(DropletPose pose, double angle)
+{
+    DropletFrame frame = droplet::frameOf(pose);
+    frame.ahead = std::cos(angle) * frame.ahead + std::sin(angle) * frame.left;
+    frame.left = cross(frame.normal, frame.ahead);
+    pose.turn = turnOf(frame);
+    return pose;
+}
+
+/// Class of a bend, and the pose in which a droplet belongs to it; none if no quadric is like the ground.
+struct Bent {
+    Bend bend;
+    DropletPose pose;
+};
+
+std::optional<Bent> bentOn(const FlowTerrain& terrain, const DropletMesh& mesh, const Kind& kind, DropletPose pose)
+{
+    const std::size_t rim = kind.detail.around;
+    constexpr int kLeans = 2;
+    auto heights = rimHeights(terrain, mesh, rim, pose);
+    for (int i = 0; i < kLeans && heights; ++i) {
+        pose = leant(pose, heights->plane);
+        heights = rimHeights(terrain, mesh, rim, pose);
+    }
+    if (!heights) {
+        return std::nullopt;
+    }
+    Vec2 saddle = heights->saddle;
+    if (kind.volume == 0) {
+        pose = turnedAbout(pose, 0.5 * std::atan2(saddle.y, saddle.x));
+        saddle = {length(saddle), 0.0};
+    }
+    if (std::max(std::abs(heights->mean), length(saddle)) > kMostBent) {
+        return std::nullopt;
+    }
+    const auto step = [](double height) { return static_cast<int>(std::lround(height / kBendStep)); };
+    return Bent{{step(heights->mean), step(saddle.x), step(saddle.y)}, pose};
+}
+
+/// A flat mesh on a quadric; liquid that hangs over the rim goes with it.
+/// @param height  of the rim's circle, over its height in the mesh's frame
+DropletMesh bentMesh(const DropletMesh& flat, const Bend& bend, double height, double volume)
+{
+    const double unit = kBendStep * height;
+    const Vec3 rise =
+        unit * Vec3{static_cast<double>(bend.dome), static_cast<double>(bend.saddle), static_cast<double>(bend.twist)};
+    DropletMesh mesh = flat;
+    std::vector<double> ground;
+    for (std::size_t v = 0; v < flat.vertices.size(); ++v) {
+        const Vec3 p = flat.vertices[v];
+        const double reach = std::hypot(p.x, p.y);
+        const double way = reach > 1.0 ? 1.0 / reach : 1.0;
+        const Vec2 at{way * p.x, way * p.y};
+        ground.push_back(rise.x * dot(at, at) + rise.y * (at.x * at.x - at.y * at.y) + rise.z * 2.0 * at.x * at.y);
+        const Vec2 slope = way == 1.0 ? Vec2{2.0 * ((rise.x + rise.y) * at.x + rise.z * at.y),
+                                             2.0 * ((rise.x - rise.y) * at.y + rise.z * at.x)}
+                                      : Vec2{};
+        Vec3& n = mesh.normals[v];
+        n = {n.x - slope.x * n.z, n.y - slope.y * n.z, n.z};
+        n = (1.0 / length(n)) * n;
+    }
+    const auto raise = [&](double factor) {
+        for (std::size_t v = 0; v < flat.vertices.size(); ++v) {
+            mesh.vertices[v].z = ground[v] + factor * flat.vertices[v].z;
+        }
+    };
+    // The volume is linear in the factor on the heights.
+    raise(0.0);
+    const double empty = volumeUnder(mesh.vertices, mesh.triangles);
+    raise(1.0);
+    const double full = volumeUnder(mesh.vertices, mesh.triangles);
+    raise((volume - empty) / (full - empty));
+    return mesh;
 }
 
 void append(const DropletShape& shape, const std::vector<Triangle>& triangles, DropletMesh& to)
@@ -128,13 +286,43 @@ struct DewModel::Content {
         return kinds[i]->second.mesh.triangles;
     }
 
-    /// One mesh of all droplets, or of those that have a mesh of their own.
-    [[nodiscard]] DropletMesh merged(bool all) const
+    /// One mesh of all droplets.
+    [[nodiscard]] DropletMesh merged() const
     {
         DropletMesh mesh;
         for (const std::size_t i : shown) {
-            if (all || !own[i].vertices.empty()) {
-                append(shapeOf(i), trianglesOf(i), mesh);
+            append(shapeOf(i), trianglesOf(i), mesh);
+        }
+        return mesh;
+    }
+
+    /// Droplets that share no mesh.
+    [[nodiscard]] std::vector<std::size_t> alone(bool all) const
+    {
+        std::vector<std::size_t> droplets;
+        std::copy_if(shown.begin(), shown.end(), std::back_inserter(droplets),
+                     [&](std::size_t i) { return all || !own[i].vertices.empty(); });
+        return droplets;
+    }
+
+    /// A mesh of droplets. A part has those with the same number of vertices, as many as indices of 16 bits reach, so
+    /// that parts have the same triangles.
+    [[nodiscard]] SceneMesh meshOf(const std::vector<std::size_t>& droplets, const char* name,
+                                   std::size_t material) const
+    {
+        std::map<std::size_t, std::vector<std::size_t>> alike;  // by vertices
+        for (const std::size_t i : droplets) {
+            alike[kinds[i]->second.mesh.vertices.size()].push_back(i);
+        }
+        SceneMesh mesh{name};
+        for (const auto& [vertices, some] : alike) {
+            const std::size_t count = kMostVertices / vertices;
+            for (std::size_t begin = 0; begin < some.size(); begin += count) {
+                DropletMesh part;
+                for (std::size_t k = begin; k < std::min(begin + count, some.size()); ++k) {
+                    append(shapeOf(some[k]), trianglesOf(some[k]), part);
+                }
+                mesh.geometries.push_back(std::move(sceneMesh(part, name, material).geometries.front()));
             }
         }
         return mesh;
@@ -171,7 +359,8 @@ DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> sampl
     content.kinds.resize(samples.size());
     content.poses.resize(samples.size());
     content.own.resize(samples.size());
-    std::vector<char> sits(samples.size(), 1);
+    std::vector<std::optional<Bent>> bent(samples.size());
+    std::vector<char> fits(samples.size(), 0);
     tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
         const FlowSample& sample = samples[i];
         const auto* const kind = &*content.shared.find(kindOf(sample, gravity, detail));
@@ -185,12 +374,48 @@ DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> sampl
         pose.up = toFloat(sample.volume / (unit * half.x * half.y));
         content.kinds[i] = kind;
         const DropletMesh& mesh = kind->second.mesh;
-        const std::size_t rim = kind->first.detail.around;
-        if (rimGap(terrain, mesh.vertices, rim, pose) > kGap) {
-            const DropletShape shape = seatedBody(terrain, mesh, rim, pose);
-            sits[i] = isLike(mesh, shape, unit) ? 1 : 0;
-            content.own[i] = inObject(shape, pose);
+        fits[i] = rimGap(terrain, mesh.vertices, kind->first.detail.around, pose) <= kGap ? 1 : 0;
+        if (fits[i] == 0) {
+            bent[i] = bentOn(terrain, mesh, kind->first, pose);
         }
+    });
+    const auto kindOn = [&](std::size_t i) {
+        Kind kind = content.kinds[i]->first;
+        kind.bend = bent[i]->bend;
+        return kind;
+    };
+    std::map<Kind, int> alike;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (bent[i]) {
+            ++alike[kindOn(i)];
+        }
+    }
+    for (const auto& [kind, count] : alike) {
+        if (count >= kLeastAlike && kind.bend != Bend{}) {
+            Kind flat = kind;
+            flat.bend = {};
+            SharedMesh mesh = content.shared.at(flat);
+            mesh.mesh = bentMesh(mesh.mesh, kind.bend, mesh.radius(unit), unit);
+            content.shared.emplace(kind, std::move(mesh));
+        }
+    }
+    std::vector<char> sits(samples.size(), 1);
+    tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+        if (fits[i] != 0) {
+            return;
+        }
+        const std::size_t rim = content.kinds[i]->first.detail.around;
+        if (const auto shared = bent[i] ? content.shared.find(kindOn(i)) : content.shared.end();
+            shared != content.shared.end() &&
+            rimGap(terrain, shared->second.mesh.vertices, rim, bent[i]->pose) <= kGap) {
+            content.kinds[i] = &*shared;
+            content.poses[i] = bent[i]->pose;
+            return;
+        }
+        const DropletMesh& mesh = content.kinds[i]->second.mesh;
+        const DropletShape shape = seatedBody(terrain, mesh, rim, content.poses[i]);
+        sits[i] = isLike(mesh, shape, unit) ? 1 : 0;
+        content.own[i] = inObject(shape, content.poses[i]);
     });
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (sits[i] != 0) {
@@ -210,7 +435,7 @@ const std::vector<std::size_t>& DewModel::shown() const
 
 Surface DewModel::surface() const
 {
-    DropletMesh mesh = content_->merged(true);
+    DropletMesh mesh = content_->merged();
     Surface surface;
     surface.vertices = std::move(mesh.vertices);
     surface.normals = std::move(mesh.normals);
@@ -244,10 +469,11 @@ std::uint64_t DewModel::write(const FlowObject& object, std::ostream& out, const
     const std::size_t root = form.has_object ? addObject(object, scene) : scene.addNode({"droplets"});
     const double radius = content.meanRadius();
     const auto liquid = [&] { return scene.addMaterial(liquidMaterial(lookOf(form.material), radius)); };
-    const DropletMesh merged = content.merged(instancing == Instancing::None);
-    if (!merged.vertices.empty()) {
-        const char* const name = instancing == Instancing::None ? "droplets" : "droplets on bends";
-        scene.addNode({name, scene.addMesh(sceneMesh(merged, name, liquid()))}, root);
+    const bool all = instancing == Instancing::None;
+    const std::vector<std::size_t> alone = content.alone(all);
+    if (!alone.empty()) {
+        const char* const name = all ? "droplets" : "droplets on bends";
+        scene.addNode({name, scene.addMesh(content.meshOf(alone, name, liquid()))}, root);
     }
     if (instancing != Instancing::None && !content.shown.empty()) {
         scene.gpu_instancing = instancing == Instancing::Gpu;

@@ -17,6 +17,7 @@
 #include <streambuf>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -445,9 +446,22 @@ private:
         }
         for (const ScenePart& part : geometry.parts) {
             primitive.material = static_cast<int>(part.material);
-            primitive.indices = buffer_.add(arrayOf(part.triangles, geometry.vertices.size()), GltfContent::Indices);
+            primitive.indices = addIndices(part.triangles, geometry.vertices.size());
             mesh.primitives.push_back(primitive);
         }
+    }
+
+    /// Parts of the same triangles share an array.
+    int addIndices(const std::vector<Triangle>& triangles, std::size_t vertices)
+    {
+        for (const auto& [same, count, accessor] : indices_) {
+            if (count == vertices && *same == triangles) {
+                return accessor;
+            }
+        }
+        const int accessor = buffer_.add(arrayOf(triangles, vertices), GltfContent::Indices);
+        indices_.push_back({&triangles, vertices, accessor});
+        return accessor;
     }
 
     int addPositions(const std::vector<Float3>& vertices, const std::optional<QuantizationCube>& cube)
@@ -821,6 +835,8 @@ private:
     std::optional<QuantizationCube> cube_;     ///< of all meshes but those of copies
     std::map<std::size_t, QuantizationCube> crowd_cubes_;
     std::deque<Copies> copies_;  ///< what arrays refer to
+    /// Arrays of indices: triangles, number of vertices, accessor.
+    std::vector<std::tuple<const std::vector<Triangle>*, std::size_t, int>> indices_;
     std::deque<std::vector<std::array<float, 16>>> matrices_;
     std::map<std::optional<std::size_t>, int> binds_;  ///< accessors of matrices
     std::vector<int> mesh_nodes_;                      ///< of every node, the one that has its mesh
