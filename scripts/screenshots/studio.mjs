@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws in Studio and takes the pictures of docs/cli/studio.md: node studio.mjs CHROMIUM PLAYWRIGHT_FOLDER STUDIO_HTML DESKTOP_PNG PHONE_PNG
+// Draws in Studio and takes the pictures of docs/cli/studio.md: node studio.mjs CHROMIUM PLAYWRIGHT_FOLDER STUDIO_HTML DESKTOP_PNG
+// PHONE_PNG DEW_PNG
 import { pathToFileURL } from 'node:url';
-import { choose, setValue, settle } from '../../tests/studio/controls.mjs';
+import { choose, setValue, settle, stateOfDew } from '../../tests/studio/controls.mjs';
 
-const [executablePath, playwright, studio, desktop, phone] = process.argv.slice(2);
+const [executablePath, playwright, studio, desktop, phone, dew] = process.argv.slice(2);
 const { chromium } = await import(pathToFileURL(`${playwright}/index.mjs`));
 const browser = await chromium.launch({
     executablePath,
@@ -71,4 +72,15 @@ await stroke(loops, curve(160, (t) => {
     return [0.19 + 0.62 * t - 0.12 * Math.sin(angle), 0.5 + 0.26 * Math.cos(angle)];
 }));
 await take(loops, phone);
+
+// A cold bottle.
+const bottle = await opened({ viewport: { width: 1280, height: 760 }, colorScheme: 'dark' });
+await bottle.locator('#modes [value=dew]').check({ force: true });
+await stateOfDew(bottle, 'empty');
+await bottle.locator('#dew-bottle').click();
+await stateOfDew(bottle, 'ready');
+await bottle.locator('#dew-open').blur();
+await bottle.waitForFunction(() => document.documentElement.dataset.state === 'resting');
+await bottle.screenshot({ path: dew });
+await bottle.close();
 await browser.close();

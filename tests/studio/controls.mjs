@@ -14,3 +14,9 @@ export const setValue = (page, id, value) => page.locator(`#${id}`).evaluate((co
     control.dispatchEvent(new Event('input', { bubbles: true }));
     control.dispatchEvent(new Event('change', { bubbles: true }));
 }, String(value));
+
+/** Waits until dew is in a state: ready, refused or empty, with nothing left to do. */
+export async function stateOfDew(page, state) {
+    await page.waitForFunction(() => document.documentElement.dataset.dew !== undefined);
+    await page.waitForFunction((wanted) => document.documentElement.dataset.dew === wanted, state);
+}

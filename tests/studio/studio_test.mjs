@@ -1,75 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws in Studio with a real browser: node --test studio_test.mjs
-// STUDIO is the HTML file, CHROMIUM the browser; DROPLET_SHAPE the command, whose figures are compared; PAGE a page that
-// --html wrote of data/ampersand.png, with Studio in it.
+// DROPLET_SHAPE is the command, whose figures are compared; PAGE a page that --html wrote of data/ampersand.png, with Studio
+// in it.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { dropFiles, folder, jsonOf, kDesktop, kPhone, kStudio, saved as savedBy, started, studio } from './browser.mjs';
 import { choose, setValue, settle } from './controls.mjs';
 
-const { STUDIO, CHROMIUM = '/usr/bin/chromium', DROPLET_SHAPE, PAGE, SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
-const kStudio = pathToFileURL(resolve(STUDIO)).href;
-const kDesktop = { viewport: { width: 1100, height: 640 } };
-const kPhone = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
-
-let browser;
-let folder;
-before(async () => {
-    folder = mkdtempSync(join(tmpdir(), 'studio-'));
-    browser = await chromium.launch({
-        executablePath: CHROMIUM, args: ['--headless=new', '--no-sandbox', '--enable-unsafe-swiftshader', '--disable-background-networking'],
-    });
-});
-after(async () => {
-    await browser.close();
-    rmSync(folder, { recursive: true });
-});
-
-/** Waits until Studio runs in a page. */
-const started = (page) => page.waitForFunction(() => document.documentElement.dataset.solver === 'ready');
-
-/** Runs a test in a page of its own, in which nothing may complain and nothing may be fetched. */
-function studio(name, options, run, url = kStudio) {
-    test(name, async () => {
-        const context = await browser.newContext({ acceptDownloads: true, deviceScaleFactor: 0.5, colorScheme: 'light', ...options });
-        const complaints = [];
-        await context.route('**', (route) => {
-            const asked = route.request().url();
-            if (asked.split('#')[0] === url || /^(data|blob):/.test(asked)) {
-                return route.continue();
-            }
-            complaints.push(`request of ${asked}`);
-            return route.abort();
-        });
-        context.setDefaultTimeout(120_000);  // enough when many tests share the processor
-        context.on('console', (message) => {
-            // Chromium's messages about software rendering are expected, no others.
-            if (['error', 'warning', 'assert'].includes(message.type()) && !/GPU stall due to ReadPixels|swiftshader/i.test(message.text())) {
-                complaints.push(message.text());
-            }
-        });
-        context.on('weberror', (error) => complaints.push(error.error().message));
-        context.on('dialog', (dialog) => {
-            if (dialog.type() === 'beforeunload') {
-                return dialog.accept();
-            }
-            complaints.push(`dialog ${dialog.message()}`);
-            return dialog.dismiss();
-        });
-        const page = await context.newPage();
-        page.on('popup', () => complaints.push('popup'));
-        await page.goto(url);
-        await page.waitForFunction((alone) => document.documentElement.dataset[alone ? 'solver' : 'state'] !== (alone ? undefined : 'loading'), url === kStudio);
-        await run(page);
-        assert.deepEqual(complaints, []);
-        await context.close();
-    });
-}
+const { DROPLET_SHAPE, PAGE, SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
 
 const said = (page) => page.locator('#said').textContent();
 const result = (page) => page.locator('#result').textContent();
@@ -104,25 +46,10 @@ const drawing = async (page) => (await pixels(page, { width: 1, height: 1 })).ev
     return { hash: [...new Uint8Array(digest)].join(), count: data.reduce((sum, value, i) => sum + (i % 4 === 3 && value > 0 ? 1 : 0), 0) };
 });
 
-async function saved(page, kind) {
-    await page.locator('#save').click();
-    const [file] = await Promise.all([page.waitForEvent('download'), page.locator(`[data-save=${kind}]`).click()]);
-    const path = join(folder, file.suggestedFilename());
-    await file.saveAs(path);
-    return { name: file.suggestedFilename(), path, bytes: readFileSync(path) };
-}
+const saved = (page, kind) => savedBy(page, `[data-save=${kind}]`);
 
 const largest = (list) => list.reduce((most, value) => Math.max(most, value), -Infinity);
-const jsonOf = (glb) => JSON.parse(glb.subarray(20, 20 + glb.readUInt32LE(12)).toString());
-
-async function drop(page, name, type, bytes) {
-    const transfer = await page.evaluateHandle(([file_name, file_type, base64]) => {
-        const data = new DataTransfer();
-        data.items.add(new File([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))], file_name, { type: file_type }));
-        return data;
-    }, [name, type, Buffer.from(bytes).toString('base64')]);
-    await page.dispatchEvent('#sheet', 'drop', { dataTransfer: transfer });
-}
+const drop = (page, name, type, bytes) => dropFiles(page, '#sheet', [name, type, bytes]);
 
 /** A picture that the browser draws: a dark disc on white. */
 const discPicture = (page, type) => page.evaluate(async (kind) => {
