@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -130,6 +132,39 @@ TEST(DewModel, EveryFormShowsAllDroplets)
     EXPECT_EQ(none.at("nodes").size(), 2U);
     const nlohmann::json alone = jsonOf(wet().file({.has_object = false}));
     EXPECT_EQ(alone.at("meshes").size(), 1U);
+}
+
+TEST(DewModel, DropletsOnGentleBendsShareMeshes)
+{
+    const nlohmann::json gpu = jsonOf(wet().file({.instancing = Instancing::Gpu}));
+    std::size_t instances = 0;
+    for (const auto& node : gpu.at("nodes")) {
+        if (node.contains("extensions")) {
+            const auto& attributes = node.at("extensions").at("EXT_mesh_gpu_instancing").at("attributes");
+            instances +=
+                gpu.at("accessors").at(attributes.at("SCALE").get<std::size_t>()).at("count").get<std::size_t>();
+        }
+    }
+    EXPECT_GT(static_cast<double>(instances), 0.88 * static_cast<double>(wet().model.shown().size()));
+}
+
+TEST(DewModel, PartsOfTheSameTrianglesHaveOneArrayOfThem)
+{
+    const nlohmann::json none = jsonOf(wet().file({.instancing = Instancing::None}));
+    const auto& mesh = none.at("meshes").back();
+    ASSERT_EQ(mesh.at("name"), "droplets");
+    std::map<std::size_t, std::set<std::size_t>> indices;  // by the number of vertices
+    for (const auto& primitive : mesh.at("primitives")) {
+        const auto& accessor = none.at("accessors").at(primitive.at("indices").get<std::size_t>());
+        EXPECT_EQ(accessor.at("componentType"), 5123) << "16 bits";
+        const auto& vertices =
+            none.at("accessors").at(primitive.at("attributes").at("POSITION").get<std::size_t>()).at("count");
+        indices[vertices.get<std::size_t>()].insert(primitive.at("indices").get<std::size_t>());
+    }
+    EXPECT_LT(indices.size(), mesh.at("primitives").size()) << "some parts are alike";
+    for (const auto& [vertices, accessors] : indices) {
+        EXPECT_EQ(accessors.size(), 1U) << vertices;
+    }
 }
 
 TEST(DewModel, PassesTheValidator)
