@@ -5,7 +5,9 @@ import { complain, download, fileStem, find, tabulate } from '../html/controls.j
 import { digits, length, volume } from '../html/figures.js';
 import { bottle } from './bottle.js';
 import markup from './dew.html';
-import { dewCommandOf, dewFields, dewOptionsOf, formOf, newSettings, settingsFrom, shownSettings, withPreset, withSetting } from './dew_fields.js';
+import {
+    dewCommandOf, dewFields, dewOptionsOf, formOf, newSettings, settingsFrom, shownSettings, withPreset, withSetting,
+} from './dew_fields.js';
 import { CoveredObject, NoObject } from './dew_object.js';
 import { History } from './history.js';
 import { hasObject, readObject, sizeOf } from './object_files.js';
@@ -18,6 +20,8 @@ const kMostKept = 64 << 20; // of an object that the browser keeps [bytes]
 const kManyTriangles = 3e5;
 const kMostHistory = 256 << 20;
 const kTypes = { glb: 'model/gltf-binary', usdz: 'model/vnd.usdz+zip', obj: 'model/obj', stl: 'model/stl', ply: 'model/ply', csv: 'text/csv' };
+// Droplets of the bottle to try: few enough for a phone, and none so large that it runs off.
+const kBottle = { coverage: 45, smallest: 0.5, largest: 1.6 };
 const root = document.documentElement;
 
 const counted = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, '\u2009');
@@ -109,12 +113,12 @@ export class Dew {
         return this.#worker;
     }
 
-    #held;  // object that the worker has
+    #held;     // object that the worker has
+    #covered;  // job whose droplets it has
 
     #stopWorker() {
         this.#worker?.stop();
-        this.#worker = undefined;
-        this.#job = undefined;
+        this.#worker = this.#covered = this.#job = undefined;
     }
 
     get #state() {
@@ -228,20 +232,26 @@ export class Dew {
             this.#stopWorker();  // a solver that failed so may be damaged
         }
         const before = this.#made;
-        this.#made = { ...job, ...outcome };
+        this.#made = { ...job, ...outcome, job };
         this.#showScene(before?.object === job.object && before.scene !== undefined && frameOf(before) === frameOf(job));
         this.#update();
         this.#say(find('result').textContent);
     }
 
-    async #ask(job) {
+    async #cover(job) {
         const servant = this.#servant();
         await servant.ready;
         if (this.#held !== job.object) {
             await servant.ask('object', { object: job.object });
             this.#held = job.object;
         }
-        const { report, bytes, solve_ms } = await servant.ask('dew', { options: job.options });
+        const answer = await servant.ask('dew', { options: job.options });
+        this.#covered = job;
+        return answer;
+    }
+
+    async #ask(job) {
+        const { report, bytes, solve_ms } = await this.#cover(job);
         const scene = this.#view ? await CoveredObject.load(bytes) : undefined;
         return { report, solve_ms, scene };
     }
@@ -263,7 +273,6 @@ export class Dew {
         const { text, object } = this.#job ?? {};
         if (object) {
             this.#stopWorker();
-            this.#made?.scene ? undefined : this.#showScene(false);
             this.#stopped = { object, text };
             this.#update();
         }
@@ -302,9 +311,9 @@ export class Dew {
         find('redo').disabled = !this.#history.can_redo;
         find('dew-bottle').hidden = object !== undefined;
         find('dew-open').classList.toggle('main', object === undefined);
-        find('dew-open').textContent = object ? 'Open another' : 'Open an object';
+        find('dew-open').textContent = object ? 'Open another' : 'Open object';
         find('dew-name').textContent = object?.name ?? 'No object';
-        find('dew-again').disabled = object === undefined;
+        find('dew-settings').hidden = object === undefined;
         document.title = `${object?.name ?? 'Dew'} – Droplet Studio`;
         find('dew-object').hidden = !report;
         if (report) {
@@ -362,7 +371,7 @@ export class Dew {
             }
         });
         find('dew-bottle').addEventListener('click', () => {
-            this.#change({ object: bottle(), settings: withPreset(this.#known, this.#state.settings, 'bottle') });
+            this.#change({ object: bottle(), settings: { ...withPreset(this.#known, newSettings(this.#known), 'bottle'), ...kBottle } });
             find('dew-open').focus();  // this button goes
         });
         find('dew-again').addEventListener('click', () => {
@@ -422,6 +431,9 @@ export class Dew {
         const form = formOf(this.#known, this.#state.settings);
         if (format === 'usdz' && form.instancing === 'gpu') {
             delete form.instancing;  // USD has it by nodes
+        }
+        if (this.#covered !== this.#made.job) {
+            await this.#cover(this.#made.job);  // another run was broken off, and the worker with it
         }
         return (await this.#servant().ask('dewFile', { format, form })).bytes;
     }

@@ -12,10 +12,10 @@ const kUnits = {
 const kFields = [
     { name: 'objectSize', label: 'Longest side', unit: 'mm', empty: 'as the file', report: ({ input }) => Math.max(...input.size_m) },
     { name: 'coverage', label: 'Covered', unit: '%', step: 1, slider: true, report: ({ sizes }) => sizes.coverage },
-    { name: 'smallest', label: 'Smallest radius', unit: 'mm', slider: 'log', window: [0.05, 2], report: ({ sizes }) => sizes.smallest_m },
-    { name: 'largest', label: 'Largest radius', unit: 'mm', slider: 'log', window: [0.1, 8], report: ({ sizes }) => sizes.largest_m },
+    { name: 'smallest', label: 'Smallest', unit: 'mm', slider: 'log', window: [0.05, 2], report: ({ sizes }) => sizes.smallest_m },
+    { name: 'largest', label: 'Largest', unit: 'mm', slider: 'log', window: [0.1, 8], report: ({ sizes }) => sizes.largest_m },
     { name: 'contactAngle', label: 'Contact angle', unit: '°', step: 1, slider: true, report: ({ forces }) => forces.contact_angle_deg * kUnits['°'].size },
-    { name: 'seed', label: 'Arrangement', unit: '', step: 1, whole: true, window: [0, 2 ** 31], report: ({ sizes }) => sizes.seed },
+    { name: 'seed', label: 'Seed', unit: '', step: 1, whole: true, window: [0, 2 ** 31], report: ({ sizes }) => sizes.seed },
     { name: 'where', label: 'Where' },
     { name: 'up', label: 'Up in the file', labels: { y: 'Y', z: 'Z' }, more: true, when: ({ object }) => /\.(obj|ply|stl)$/i.test(object) },
     { name: 'sizes', label: 'Sizes', labels: { condensation: 'of condensation', lognormal: 'log-normal' }, more: true },

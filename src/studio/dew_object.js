@@ -37,6 +37,9 @@ export class CoveredObject {
                 this.meshes.push(mesh);
                 (isObject(mesh) ? own : []).push(mesh);
                 mesh.layers.set(isObject(mesh) ? 0 : kUnlit);
+                if (mesh.isInstancedMesh) {
+                    hideBase(mesh.geometry);
+                }
             }
         });
         this.space = own.reduce((box, mesh) => box.union(boxOf(mesh)), new Box3());
@@ -63,6 +66,25 @@ export class CoveredObject {
             material.dispose();
         }
     }
+}
+
+/** Leaves out the base, which lies on the object. It comes last, and begins with a copy of the rim. */
+function hideBase(geometry) {
+    const { index, attributes: { position } } = geometry;
+    const places = new Set();
+    let base = 0;
+    for (; base < position.count; ++base) {
+        const place = [position.getX(base), position.getY(base), position.getZ(base)].join();
+        if (places.has(place)) {
+            break;
+        }
+        places.add(place);
+    }
+    let end = index.count;
+    while (end > 0 && index.getX(end - 1) >= base) {
+        end -= 3;
+    }
+    geometry.setDrawRange(0, end);
 }
 
 function boxOf({ geometry, matrixWorld }) {
