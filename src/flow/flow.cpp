@@ -5,8 +5,11 @@
 #include "droplet/flow/flow.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <numbers>
 #include <span>
 #include <unordered_map>
@@ -20,6 +23,7 @@
 #include "flow/flow_terrain_content.h"
 #include "flow/following.h"
 #include "flow/hollow.h"
+#include "flow/joined_faces.h"
 #include "flow/touching.h"
 #include "flow/walk.h"
 #include "number_text.h"
@@ -415,13 +419,28 @@ private:
                 d.has_grown = false;
             }
         }
+        // A pond is asked about every raindrop that falls into it, so its search goes on from one to the next.
+        std::vector<std::unique_ptr<JoinedFaces>> joined_faces(count);
+        std::array<std::mutex, 64> searching;  // of every 64th droplet
+        const auto are_joined = [&](std::uint32_t i, std::uint32_t to, double reach) {
+            const std::uint32_t from = s_.droplets[i].face;
+            const auto& neighbours = c_.surface.faces[from].neighbour;
+            if (from == to || std::find(neighbours.begin(), neighbours.end(), to) != neighbours.end()) {
+                return true;  // a droplet's own face is near it
+            }
+            const std::lock_guard<std::mutex> lock(searching[i % searching.size()]);
+            if (!joined_faces[i]) {
+                joined_faces[i] = std::make_unique<JoinedFaces>(c_.surface, from, balls[i].to);
+            }
+            return joined_faces[i]->has(to, reach);
+        };
         const std::vector<Pair> joined = connectingPairs(balls, [&](std::uint32_t i, std::uint32_t j) {
             const FlowDroplet& a = s_.droplets[i];
             const FlowDroplet& b = s_.droplets[j];
             const Vec3 apart = balls[j].to - balls[i].to;
             return (dot(normalOf(a), normalOf(b)) > 0.0 ||
                     meetOverEdge(a, b, apart, balls[i].reach + balls[j].reach)) &&
-                   c_.areJoined(a.face, b.face, balls[i].to, length(apart) * (1.0 + 1e-9));
+                   are_joined(i, b.face, length(apart) * (1.0 + 1e-9));
         });
         UnionFind sets(count);
         std::vector<std::uint32_t> members;

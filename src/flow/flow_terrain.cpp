@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -14,9 +13,6 @@
 
 namespace droplet {
 namespace {
-
-// A search for a way between two droplets gives up after so many faces.
-constexpr std::size_t kMaxFacesBetween = 4096;
 
 std::vector<double> areasUntil(const FlowSurface& surface)
 {
@@ -107,25 +103,6 @@ Vec3 FlowTerrain::Content::feltOn(const FlowDroplet& droplet, double time) const
     // along the face turns with it, which is one of the two Σ w' c' as far as it is a turn.
     return -1.0 * mixed(motion.acceleration[droplet.face], weightsOn(face.corners, place)) - change_along(speed) -
            cross(spin, speed);
-}
-
-bool FlowTerrain::Content::areJoined(std::uint32_t from, std::uint32_t to, Vec3 place, double reach) const
-{
-    std::vector<std::uint32_t> open{from};
-    std::set<std::uint32_t> seen{from};
-    for (std::size_t i = 0; i < open.size() && open.size() < kMaxFacesBetween; ++i) {
-        if (open[i] == to) {
-            return true;
-        }
-        for (const std::uint32_t next : surface.faces[open[i]].neighbour) {
-            if (next != FlowSurface::kNone && !seen.contains(next) &&
-                distance(place, surface.faces[next].corners) <= reach) {
-                seen.insert(next);
-                open.push_back(next);
-            }
-        }
-    }
-    return std::find(open.begin(), open.end(), to) != open.end();
 }
 
 GroundMotion::Drift GroundMotion::driftOf(std::uint32_t face, double at) const

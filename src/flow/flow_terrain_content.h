@@ -29,8 +29,6 @@ struct FlowTerrain::Content {
     [[nodiscard]] Vec3 feltOn(const FlowDroplet& droplet, double time) const;
     /// Half the longest side of the bounding box [m].
     [[nodiscard]] double halfSize() const;
-    /// Whether a droplet can go from one face to another over faces that are near a place.
-    [[nodiscard]] bool areJoined(std::uint32_t from, std::uint32_t to, Vec3 place, double reach) const;
 };
 
 }  // namespace droplet
