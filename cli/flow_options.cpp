@@ -71,7 +71,7 @@ void declare(CommandLine& line, FlowOptions& options)
     line.addArgument(
         "OBJECT",
         "Mesh to run over: .glb, .gltf, .obj, .ply or .stl; OBJ and STL in millimetres. Or a mesh for every "
-        "frame of an object that deforms, walk/%04d.obj, with the same triangles");
+        "frame of an object that deforms, walk/%04d.obj, with the same triangles; an animated .glb deforms as it says");
     line.addArgument(
         "OUTPUT",
         "Animation of object and droplets, .glb, .gltf, .usda or .usdz; meshes of the droplets in every frame, such as "
@@ -91,7 +91,11 @@ void declare(CommandLine& line, FlowOptions& options)
              "rotation_z, rotation_w",
              into(options.motion));
     line.exclude({"--spin", "--motion"});
+    line.add(kObject, "--object-animation", "NAME",
+             "Animation of the object's file that moves or deforms it [the first]", into(options.animation));
     line.addFlag(kObject, "--no-animation", "Ignore the animation of the object's file");
+    line.exclude({"--object-animation", "--no-animation", "--spin"});
+    line.exclude({"--object-animation", "--motion"});
     constexpr const char* kSources = "Droplets";
     line.add(kSources, "--drops", "N", "Scatter droplets over the object at the start",
              into(options.drops, {0, 1'000'000, "1M"}));
@@ -161,7 +165,8 @@ void declare(CommandLine& line, FlowOptions& options)
              into(parameters.drying, kTime));
     declareForces(line, parameters.forces);
     constexpr const char* kTimes = "Time";
-    line.add(kTimes, "--time", "DURATION", "Time to show [5s, or all meshes of an object that deforms]",
+    line.add(kTimes, "--time", "DURATION",
+             "Time to show [5s, or all meshes or the animation of an object that deforms]",
              into(options.duration, kTime));
     line.add(kTimes, "--fps", "RATE", "Frames per second; they do not change the paths",
              into(options.frames_per_second, kFrameRate));
@@ -247,7 +252,8 @@ void readObject(const CommandLine& line, FlowOptions& options)
         options.shapes = NumberedPath::of(*options.object, "OBJECT");
     }
     if (options.shapes) {
-        for (const char* option : {"--spin", "--motion", "--no-animation", "--floor", "--deformation"}) {
+        for (const char* option :
+             {"--spin", "--motion", "--object-animation", "--no-animation", "--floor", "--deformation"}) {
             if (line.value(option) || line.flag(option)) {
                 refuse(fmt::format("{} needs one mesh as OBJECT, not one for every frame such as '{}'", option,
                                    *options.object));
@@ -398,7 +404,7 @@ void readPreset(const CommandLine& line, FlowOptions& options)
     }
     options.preset = forOption("--preset", [&] { return droplet::flowPresetNamed(preset->text); });
     options.parameters = options.preset->parameters;
-    for (const char* option : {"--scale", "--object-size", "--up", "--no-animation"}) {
+    for (const char* option : {"--scale", "--object-size", "--up", "--object-animation", "--no-animation"}) {
         if (line.value(option) || line.flag(option)) {
             refuse(std::string(option) + " needs OBJECT, not --preset");
         }
@@ -446,12 +452,6 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
         options.file = {*format, readCompression(line, *format)};
     } else if (line.value("--compress")) {
         refuse("--compress needs a .glb as OUTPUT, not '" + options.output + "'");
-    }
-    if (options.shapes && options.kind == FlowOutput::Animation) {
-        refuse(
-            fmt::format("OUTPUT '{}' is an animation of an object that keeps its shape; for one with a mesh for every "
-                        "frame give meshes such as out/%04d.glb, pictures or a video",
-                        options.output));
     }
     const bool is_picture = options.kind != FlowOutput::Animation && options.kind != FlowOutput::Meshes;
     readFlowPreview(line, options, is_picture);

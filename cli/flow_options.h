@@ -42,11 +42,12 @@ struct FlowOptions {
     droplet::AnimatedFile file;         ///< form of the animation, or of every mesh
     std::optional<droplet::FlowPreset> preset;
     droplet::FlowObjectOptions reading;
-    std::optional<droplet::Floor> floor;  ///< below the object
-    bool keeps_animation = true;          ///< the object moves as its file says
-    std::optional<std::string> motion;    ///< path of keys
-    droplet::FlowParameters parameters;   ///< without the content of files
-    bool has_source = false;              ///< whether any source of droplets is given
+    std::optional<droplet::Floor> floor;   ///< below the object
+    bool keeps_animation = true;           ///< the object moves as its file says
+    std::optional<std::string> animation;  ///< of its file, by name
+    std::optional<std::string> motion;     ///< path of keys
+    droplet::FlowParameters parameters;    ///< without the content of files
+    bool has_source = false;               ///< whether any source of droplets is given
     std::size_t drops = 0;
     droplet::VolumeDistribution volumes;
     std::optional<droplet::Vec3> from;
@@ -72,7 +73,7 @@ struct FlowOptions {
     std::optional<droplet::Format> usd_points;  ///< set if `droplets` is points over time
     std::optional<std::string> droplets;
     std::optional<std::string> json;
-    std::optional<double> duration;  ///< [s]; empty: the preset's, that of all shapes, or 5 s
+    std::optional<double> duration;  ///< [s]; empty: the preset's, that of all shapes or of the animation, or 5 s
     double frames_per_second = 30.0;
     bool resume = false;
     std::string fingerprint;  ///< all options that decide what the frames show, as of optionsOfFrames()

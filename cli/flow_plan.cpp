@@ -112,6 +112,39 @@ std::vector<std::string> shapesOf(const FlowOptions& options)
     return files;
 }
 
+droplet::ObjectSampling samplingOf(const FlowOptions& options)
+{
+    return {options.frames_per_second, {}, options.animation};
+}
+
+/// The object in its shapes: one, or one for every frame.
+droplet::DeformingObject readShapes(const FlowOptions& options)
+{
+    if (options.preset) {
+        return {droplet::presetObject(options.preset->object), {}};
+    }
+    if (options.shapes || !options.keeps_animation) {
+        return droplet::readDeformingObject(shapesOf(options), options.reading);
+    }
+    droplet::ObjectSampling sampling = samplingOf(options);
+    sampling.frames = frameCount(options);
+    return droplet::readAnimatedObject(*options.object, sampling, options.reading);
+}
+
+void refuseForShapes(const FlowOptions& options)
+{
+    const auto refuse = [&](bool is_given, const char* option) {
+        if (is_given) {
+            throw droplet::Error(droplet::ErrorCode::InvalidArgument,
+                                 fmt::format("{} needs an object that keeps its shape, but the animation of {} deforms "
+                                             "it; --no-animation ignores it",
+                                             option, *options.object));
+        }
+    };
+    refuse(options.floor.has_value(), "--floor");
+    refuse(options.deformation > 0.0, "--deformation");
+}
+
 droplet::FaceProperties groundOf(const FlowOptions& options, const FlowPlan& plan)
 {
     std::map<std::string, droplet::MaterialProperties> materials = options.materials;
@@ -132,8 +165,13 @@ droplet::FaceProperties groundOf(const FlowOptions& options, const FlowPlan& pla
         ground.friction_picture = droplet::readHeightMap(*options.friction_map);
     }
     ground.materials = std::move(materials);
-    return forOption("--roughness-map, --friction-map, --ground",
-                     [&] { return droplet::faceProperties(plan.object, plan.terrain().surface(), ground); });
+    std::string given;
+    for (const auto& [is_given, option] : {std::pair{options.roughness_map.has_value(), "--roughness-map"},
+                                           {options.friction_map.has_value(), "--friction-map"},
+                                           {!options.materials.empty(), "--ground"}}) {
+        given += is_given ? (given.empty() ? "" : ", ") + std::string(option) : "";
+    }
+    return forOption(given, [&] { return droplet::faceProperties(plan.object, plan.terrain().surface(), ground); });
 }
 
 }  // namespace
@@ -161,6 +199,11 @@ std::size_t frameCount(const FlowOptions& options)
     if (options.shapes && !options.duration) {
         return objectFiles(options).size();
     }
+    if (!options.duration && options.object && options.keeps_animation) {
+        if (const auto frames = droplet::deformingFrames(*options.object, samplingOf(options))) {
+            return *frames;
+        }
+    }
     const double duration = options.duration.value_or(options.preset ? options.preset->duration : kDefaultDuration);
     return std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);
 }
@@ -168,9 +211,11 @@ std::size_t frameCount(const FlowOptions& options)
 FlowPlan planOf(const FlowOptions& options)
 {
     const std::string name = nameOfObject(options);
-    droplet::DeformingObject read = options.preset
-                                        ? droplet::DeformingObject{droplet::presetObject(options.preset->object), {}}
-                                        : droplet::readDeformingObject(shapesOf(options), options.reading);
+    droplet::DeformingObject read = readShapes(options);
+    const bool deforms = options.shapes || read.vertices.size() > 1;
+    if (deforms) {
+        refuseForShapes(options);
+    }
     droplet::FlowObject object = std::move(read.object);
     const std::size_t triangles = object.triangles.size();
     const droplet::Vec3 size = sizeOf(object);
@@ -189,19 +234,19 @@ FlowPlan planOf(const FlowOptions& options)
         surface = droplet::refined(surface, longestEdge(options, surface));
     }
     droplet::FlowShapes shapes =
-        options.shapes ? forOption(name,
-                                   [&] {
-                                       return droplet::FlowShapes(std::move(surface), object.triangles,
-                                                                  std::move(read.vertices), options.frames_per_second);
-                                   })
-                       : droplet::FlowShapes(std::move(surface));
+        deforms ? forOption(name,
+                            [&] {
+                                return droplet::FlowShapes(std::move(surface), object.triangles,
+                                                           std::move(read.vertices), options.frames_per_second);
+                            })
+                : droplet::FlowShapes(std::move(surface));
     FlowPlan plan{std::move(object), std::move(shapes), options.parameters, {}, 1, {}, triangles, size};
-    if (options.shapes) {
+    if (deforms) {
         plan.parameters.step = std::min(plan.parameters.step, 1.0 / options.frames_per_second);
     }
     plan.warnings = plan.object.warnings;
     warnOfDefects(plan.terrain().surface().report, name, plan.warnings);
-    if (options.keeps_animation && !options.shapes) {
+    if (options.keeps_animation && !deforms) {
         plan.parameters.motion = plan.object.motion;
     } else if (options.motion) {
         plan.parameters.motion = droplet::readObjectMotion(*options.motion);

@@ -911,6 +911,7 @@ _FLOW = {
     "spin": "rad/s",
     "spin_axis": "vector",
     "motion": "path",
+    "object_animation": "text",
     "no_animation": "flag",
     "drops": "number",
     "volume": "m3",
@@ -994,6 +995,7 @@ def flow(
     spin: str | float | None = None,
     spin_axis: str | Sequence[float] | None = None,
     motion: Path | None = None,
+    object_animation: str | None = None,
     no_animation: bool = False,
     drops: str | int | None = None,
     volume: str | float | None = None,
@@ -1084,6 +1086,7 @@ def flow(
       spin_axis [m or m/s]: Axis through the origin that spin turns it about (default: 0,1,0)
       motion: Move the object: CSV with the columns time_s, x_m, y_m, z_m and a quaternion rotation_x, rotation_y,
         rotation_z, rotation_w
+      object_animation: Animation of the object's file that moves or deforms it (default: the first)
       no_animation: Ignore the animation of the object's file
 
     Droplets:
@@ -1145,7 +1148,7 @@ def flow(
       gravity [m/s²]: Gravity, downwards (default: 9.81m/s2)
 
     Time:
-      time [s]: Time to show (default: 5s, or all meshes of an object that deforms)
+      time [s]: Time to show (default: 5s, or all meshes or the animation of an object that deforms)
       fps: Frames per second; they do not change the paths (default: 30)
       seed: Random seed (default: 1)
 

@@ -2,6 +2,7 @@
 #include "droplet/flow_io/flow_object.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -225,11 +226,13 @@ void takeLook(const FileMaterial& material, double plate, const std::string& nam
     }
 }
 
-/// How the first shape of an object was read.
+/// How an object is read, and what was learned of its file.
 struct Reading {
+    std::optional<FileSampling> sampling = {};
     double factor = 1.0;  ///< on the file's lengths
-    std::vector<std::uint32_t> fans;
-    std::vector<std::uint32_t> weld;
+    std::vector<std::uint32_t> fans = {};
+    std::vector<std::uint32_t> weld = {};
+    std::vector<std::vector<Vec3>> shapes = {};  ///< of an animation that is sampled [m]
 };
 
 bool isYUp(const std::filesystem::path& path, const FlowObjectOptions& options)
@@ -253,13 +256,25 @@ FlowObject readObject(const std::filesystem::path& path, const FlowObjectOptions
                                         .creases = true,
                                         .looks = true,
                                         .motion = true,
+                                        .sampling = reading.sampling,
                                         .y_up = isYUp(path, options)});
     const std::string name = shown(path);
-    reading = {resize(mesh, options, name), std::move(mesh.fans), std::move(mesh.weld)};
+    reading.factor = resize(mesh, options, name);
+    reading.fans = std::move(mesh.fans);
+    reading.weld = std::move(mesh.weld);
+    reading.shapes = std::move(mesh.shapes);
+    for (std::vector<Vec3>& shape : reading.shapes) {
+        std::transform(shape.begin(), shape.end(), shape.begin(), [&](Vec3 p) { return reading.factor * p; });
+    }
     const std::vector<double> plates = platesOf(mesh);
     FlowObject object;
     if (mesh.ignores_animation) {
         object.warnings.push_back(name + " has an animation that is not a motion of the whole object; it is ignored");
+    }
+    if (mesh.animation_names.size() > 1 && !reading.sampling->animation) {
+        object.warnings.push_back(fmt::format("{} has {} animations, of which the first that moves it is used: {}",
+                                              name, mesh.animation_names.size(),
+                                              fmt::join(mesh.animation_names, ", ")));
     }
     if (mesh.deforms) {
         object.warnings.push_back(name + " has skins or morph targets; they are ignored, and the rest pose is read");
@@ -321,8 +336,8 @@ Vec3 sizeOf(const FlowObject& object)
 
 FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOptions& options)
 {
-    Reading ignored;
-    return readObject(path, options, ignored);
+    Reading reading;
+    return readObject(path, options, reading);
 }
 
 DeformingObject readDeformingObject(const std::vector<std::string>& paths, const FlowObjectOptions& options)
@@ -363,6 +378,29 @@ DeformingObject readDeformingObject(const std::vector<std::string>& paths, const
         }
     }
     return all;
+}
+
+DeformingObject readAnimatedObject(const std::filesystem::path& path, const ObjectSampling& sampling,
+                                   const FlowObjectOptions& options)
+{
+    Reading reading;
+    reading.sampling = FileSampling{sampling.frames_per_second, sampling.frames, sampling.animation};
+    DeformingObject all{readObject(path, options, reading), std::move(reading.shapes)};
+    if (all.vertices.empty()) {
+        all.vertices.push_back(all.object.vertices);
+    }
+    return all;
+}
+
+std::optional<std::size_t> deformingFrames(const std::filesystem::path& path, const ObjectSampling& sampling)
+{
+    const Format format = readableFormat(path);
+    if (format != Format::Glb && format != Format::Gltf) {
+        return std::nullopt;
+    }
+    const FileSampling none{sampling.frames_per_second, 0, sampling.animation};
+    const FileMesh mesh = readFileMesh(path, {.polygons = true, .sampling = none});
+    return mesh.deformation_end ? std::optional(none.framesUntil(*mesh.deformation_end)) : std::nullopt;
 }
 
 FlowObject inShape(FlowObject object, const std::vector<Vec3>& vertices)

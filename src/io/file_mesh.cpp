@@ -743,6 +743,9 @@ void completeNormals(FileMesh& mesh, bool creases)
         for (const std::uint32_t v : creased.copies) {
             mesh.vertices.push_back(mesh.vertices[v]);
             mesh.weld.push_back(mesh.weld[v]);
+            for (std::vector<Vec3>& shape : mesh.shapes) {
+                shape.push_back(shape[v]);
+            }
             if (!mesh.uvs.empty()) {
                 mesh.uvs.push_back(mesh.uvs[v]);
             }
@@ -766,7 +769,8 @@ FileMesh readFileMesh(const std::filesystem::path& path, const FileMeshOptions& 
             mesh = readScene(path, {.motion = options.motion,
                                     .weights = options.weights,
                                     .creases = options.creases,
-                                    .looks = options.looks});
+                                    .looks = options.looks,
+                                    .sampling = options.sampling});
             return;
         }
         std::error_code none;

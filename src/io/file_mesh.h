@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -42,9 +45,27 @@ struct FileMesh {
     std::vector<std::string> look_faults;     ///< why looks are not as the file wants them, one line each
     std::vector<std::uint32_t> fans;          ///< corner that each polygon of more than three is a fan about
     std::optional<FileMotion> motion;
-    bool deforms = false;            ///< the file has skins or morph targets, which are ignored
-    bool ignores_animation = false;  ///< the file has an animation that `motion` does not hold
-    bool lacks_uv = false;           ///< some triangles have no uv, but others have
+    std::vector<std::vector<Vec3>> shapes;     ///< vertices in each frame, if an animation that deforms is sampled
+    std::optional<double> deformation_end;     ///< time of the last key of this animation [s]
+    std::vector<std::string> animation_names;  ///< of all animations, if one is sampled
+    bool deforms = false;                      ///< the file has skins or morph targets, which are ignored
+    bool ignores_animation = false;            ///< the file has an animation that `motion` does not hold
+    bool lacks_uv = false;                     ///< some triangles have no uv, but others have
+};
+
+/// Frames at which an animation is sampled, from time 0 on.
+struct FileSampling {
+    double frames_per_second = 30.0;            ///< > 0
+    std::optional<std::size_t> frames = {};     ///< empty: all up to the last key
+    std::optional<std::string> animation = {};  ///< name; empty: the first that moves triangles
+
+    /// Number of frames of an animation.
+    /// @param end  time of the last key [s]
+    [[nodiscard]] std::size_t framesUntil(double end) const
+    {
+        constexpr double kRounding = 1e-6;  // of a frame
+        return static_cast<std::size_t>(std::max(std::floor(end * frames_per_second + kRounding), 0.0)) + 1;
+    }
 };
 
 struct FileMeshOptions {
@@ -57,6 +78,8 @@ struct FileMeshOptions {
                             ///< its facets'
     bool looks = false;     ///< read materials and their images
     bool motion = false;    ///< read the animation of the node of a glTF scene that carries all meshes
+    std::optional<FileSampling> sampling = {};  ///< sample an animation of glTF that deforms the mesh: nodes that move
+                                                ///< apart, scales, skins, morph targets
     std::vector<std::uint32_t> fans = {};  ///< FileMesh::fans of another shape of the mesh, which polygons are divided
                                            ///< as; of other polygons than the mesh has, it has no effect
     std::optional<bool> y_up = {};         ///< the file's y axis points up; empty: in OBJ; ignored for glTF

@@ -151,6 +151,27 @@ void forObjects(Json& parent, const char* list, const Check& check)
     }
 }
 
+void checkIndices(Json& attributes)
+{
+    for (const auto& attribute : attributes.items()) {
+        checkWhole(attributes, attribute.key().c_str(), Number::Index);
+    }
+}
+
+void checkSparse(Json& sparse)
+{
+    for (const char* const part : {"indices", "values"}) {
+        const auto found = sparse.find(part);  // end() of anything but an object
+        if (found == sparse.end() || !found->is_object() || !found->contains("bufferView")) {
+            throw Damage(std::string("an accessor is sparse without ") + part);
+        }
+        for (const char* const key : {"bufferView", "byteOffset", "componentType"}) {
+            checkWhole(*found, key, Number::Index);
+        }
+    }
+    checkWhole(sparse, "count", Number::Index);
+}
+
 /// Checks types and ranges of the values that tinygltf does not check.
 void checkValues(Json& root)
 {
@@ -176,6 +197,11 @@ void checkValues(Json& root)
         forObjects(root, rule.list, [&](Json& object) { checkWhole(object, rule.key, rule.kind); });
     }
     checkWhole(root, "scene", Number::Index);
+    forObjects(root, "accessors", [](Json& accessor) {
+        if (const auto sparse = accessor.find("sparse"); sparse != accessor.end()) {
+            checkSparse(*sparse);
+        }
+    });
     forObjects(root, "nodes", [](Json& node) {
         checkNumbers(node, "matrix", 16);
         checkNumbers(node, "translation", 3);
@@ -189,15 +215,14 @@ void checkValues(Json& root)
             checkWhole(primitive, "material", Number::Index);
             const auto attributes = primitive.find("attributes");
             if (attributes != primitive.end() && attributes->is_object()) {
-                for (const auto& attribute : attributes->items()) {
-                    checkWhole(*attributes, attribute.key().c_str(), Number::Index);
-                }
+                checkIndices(*attributes);
             }
+            forObjects(primitive, "targets", checkIndices);
         });
     });
 }
 
-// ------------------------------------------------------------------------------------- materials and animations
+// ----------------------------------------------------------------------------- materials, animations and skins
 
 /// Member of an object in a list, or of an object; null if there is none.
 const Json& memberOf(const Json& parent, const char* key)
@@ -399,16 +424,17 @@ std::vector<FileMaterial> withImages(std::vector<ReadMaterial> all, const tinygl
 }
 
 /// Channels that are damaged have no node: not all readers need them.
-std::vector<std::vector<GltfChannel>> animationsOf(const Json& root)
+std::vector<GltfAnimation> animationsOf(const Json& root)
 {
-    std::vector<std::vector<GltfChannel>> animations;
-    for (const Json& animation : memberOf(root, "animations")) {
-        const Json& samplers = memberOf(animation, "samplers");
-        std::vector<GltfChannel>& channels = animations.emplace_back();
-        for (const Json& from : memberOf(animation, "channels")) {
-            GltfChannel& channel = channels.emplace_back();
-            const Json& target = memberOf(from, "target");
-            const std::optional<int> sampler = indexOf(memberOf(from, "sampler"));
+    std::vector<GltfAnimation> animations;
+    for (const Json& from : memberOf(root, "animations")) {
+        const Json& samplers = memberOf(from, "samplers");
+        GltfAnimation& animation = animations.emplace_back();
+        animation.name = textOf(memberOf(from, "name"), "");
+        for (const Json& part : memberOf(from, "channels")) {
+            GltfChannel& channel = animation.channels.emplace_back();
+            const Json& target = memberOf(part, "target");
+            const std::optional<int> sampler = indexOf(memberOf(part, "sampler"));
             if (const auto node = indexOf(memberOf(target, "node"));
                 node && sampler && samplers.is_array() && static_cast<std::size_t>(*sampler) < samplers.size()) {
                 const Json& values = samplers[static_cast<std::size_t>(*sampler)];
@@ -421,6 +447,20 @@ std::vector<std::vector<GltfChannel>> animationsOf(const Json& root)
         }
     }
     return animations;
+}
+
+/// Joints that are damaged are too large: not all readers need them. tinygltf wants matrices, which a skin may lack.
+std::vector<GltfSkin> skinsOf(const Json& root)
+{
+    std::vector<GltfSkin> skins;
+    for (const Json& from : memberOf(root, "skins")) {
+        GltfSkin& skin = skins.emplace_back();
+        skin.matrices = indexOf(memberOf(from, "inverseBindMatrices")).value_or(-1);
+        for (const Json& joint : memberOf(from, "joints")) {
+            skin.joints.push_back(static_cast<std::size_t>(indexOf(joint).value_or(std::numeric_limits<int>::max())));
+        }
+    }
+    return skins;
 }
 
 // ----------------------------------------------------------------------------------------------- the buffers
@@ -544,6 +584,7 @@ GltfFile readGltfFile(const std::filesystem::path& path, bool reads_materials)
     GltfFile file;
     file.material_names = materialNamesOf(root);
     file.animations = animationsOf(root);
+    file.skins = skinsOf(root);
     std::vector<ReadMaterial> materials;
     if (reads_materials) {
         const bool is_extended = container.json.find("\"KHR_") != std::string_view::npos;

@@ -22,13 +22,25 @@ struct GltfChannel {
     int values = -1;  ///< accessor; -1: none
 };
 
-/// The part of a glTF file that describes triangles: scenes, nodes, meshes, accessors, buffers and materials. Extras
-/// and other extensions are left out.
+struct GltfAnimation {
+    std::string name;  ///< "": none
+    std::vector<GltfChannel> channels;
+};
+
+/// Joints that move vertices. Indices may be too large.
+struct GltfSkin {
+    int matrices = -1;                ///< accessor of the inverse bind matrices; -1: they are unit matrices
+    std::vector<std::size_t> joints;  ///< nodes
+};
+
+/// The part of a glTF file that describes triangles and how they move: scenes, nodes, meshes, skins, animations,
+/// accessors, buffers and materials. Extras and other extensions are left out.
 struct GltfFile {
-    tinygltf::Model model;
-    std::vector<std::string> material_names;           ///< "" where a material has none
-    std::vector<FileMaterial> materials;               ///< as many, if asked for
-    std::vector<std::vector<GltfChannel>> animations;  ///< channels of every animation
+    tinygltf::Model model;                    ///< without skins and animations
+    std::vector<std::string> material_names;  ///< "" where a material has none
+    std::vector<FileMaterial> materials;      ///< as many, if asked for
+    std::vector<GltfAnimation> animations;
+    std::vector<GltfSkin> skins;
 };
 
 /// Reads glTF 2.0: .glb, or .gltf with its buffers embedded or beside it.

@@ -2,17 +2,17 @@
 // Khronos Group, "glTF 2.0 Specification" (2021), sections 3.5 to 3.7 and 3.11.
 #include "io/gltf_scene.h"
 
+#include <tbb/parallel_for.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <map>
 #include <numeric>
 #include <optional>
-#include <span>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,230 +20,15 @@
 #include "axes.h"
 #include "droplet/units.h"
 #include "file_bytes.h"
+#include "io/gltf_column.h"
 #include "io/gltf_file.h"
+#include "io/gltf_pose.h"
 #include "io/vertex_normals.h"
 
 namespace droplet {
 namespace {
 
 constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;  // a small file can repeat one mesh many times
-
-template <typename T>
-const T& entry(const std::vector<T>& list, int index, const char* name)
-{
-    if (index < 0 || static_cast<std::size_t>(index) >= list.size()) {
-        throw Damage(std::string(name) + "[" + std::to_string(index) + "] does not exist");
-    }
-    return list[static_cast<std::size_t>(index)];
-}
-
-/// Numbers in a buffer. The constructor checks the bounds.
-class Column {
-public:
-    /// @param type  tinygltf's constant
-    Column(const tinygltf::Model& model, int accessor_index, int type)
-    {
-        const std::string name = "accessors[" + std::to_string(accessor_index) + "]";
-        const tinygltf::Accessor& accessor = entry(model.accessors, accessor_index, "accessors");
-        if (accessor.sparse.isSparse) {
-            throw Damage(name + " is sparse, which is not supported");
-        }
-        if (accessor.type != type) {
-            throw Damage(name + " should hold " +
-                         (type == TINYGLTF_TYPE_SCALAR ? "SCALAR"
-                          : type == TINYGLTF_TYPE_VEC2 ? "VEC2"
-                          : type == TINYGLTF_TYPE_VEC3 ? "VEC3"
-                                                       : "VEC4"));
-        }
-        if (accessor.bufferView < 0) {
-            throw Damage(name + " has no data or compressed data");
-        }
-        kind_ = accessor.componentType;
-        count_ = accessor.count;
-        normalised_ = accessor.normalized;
-        if (kind_ == TINYGLTF_COMPONENT_TYPE_INT || kind_ == TINYGLTF_COMPONENT_TYPE_DOUBLE) {
-            throw Damage(name + " has components of unknown type");
-        }
-        component_bytes_ =
-            static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(kind_)));
-        const std::size_t element =
-            component_bytes_ *
-            static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
-
-        const tinygltf::BufferView& view = entry(model.bufferViews, accessor.bufferView, "bufferViews");
-        const std::span<const unsigned char> buffer = entry(model.buffers, view.buffer, "buffers").data;
-        stride_ = view.byteStride == 0 ? element : view.byteStride;
-        const std::size_t begin = view.byteOffset;
-        const std::size_t length = view.byteLength;
-        const std::size_t offset = accessor.byteOffset;
-        const bool inside = begin <= buffer.size() && length <= buffer.size() - begin && offset <= length;
-        if (!inside || stride_ < element ||
-            (count_ > 0 && (length - offset < element || count_ - 1 > (length - offset - element) / stride_))) {
-            throw Damage(name + " reaches beyond its buffer");
-        }
-        bytes_ = buffer.subspan(begin + offset, length - offset);
-    }
-
-    [[nodiscard]] std::size_t size() const { return count_; }
-    /// Whether the numbers are unsigned integers that are not normalised.
-    [[nodiscard]] bool counts() const
-    {
-        return !normalised_ &&
-               (kind_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || kind_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-                kind_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
-    }
-
-    /// Value of a component; normalised integers as in section 3.11 of the specification.
-    [[nodiscard]] double number(std::size_t i, std::size_t k = 0) const
-    {
-        const unsigned char* const at = bytes_.data() + i * stride_ + k * component_bytes_;
-        const auto scaled = [this](double value, double largest) {
-            return normalised_ ? std::max(value / largest, -1.0) : value;
-        };
-        switch (kind_) {
-            case TINYGLTF_COMPONENT_TYPE_FLOAT:
-                return static_cast<double>(load<float>(at));
-            case TINYGLTF_COMPONENT_TYPE_BYTE:
-                return scaled(load<std::int8_t>(at), 127.0);
-            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-                return scaled(load<std::uint8_t>(at), 255.0);
-            case TINYGLTF_COMPONENT_TYPE_SHORT:
-                return scaled(load<std::int16_t>(at), 32767.0);
-            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-                return scaled(load<std::uint16_t>(at), 65535.0);
-            default:
-                return load<std::uint32_t>(at);
-        }
-    }
-
-    [[nodiscard]] Vec2 vec2(std::size_t i) const { return {number(i, 0), number(i, 1)}; }
-    [[nodiscard]] Vec3 vec3(std::size_t i) const { return {number(i, 0), number(i, 1), number(i, 2)}; }
-
-private:
-    template <typename T>
-    static T load(const unsigned char* from)
-    {
-        T value{};
-        std::memcpy(&value, from, sizeof value);
-        return value;
-    }
-
-    std::span<const unsigned char> bytes_;
-    std::size_t stride_ = 0;
-    std::size_t count_ = 0;
-    std::size_t component_bytes_ = 0;
-    int kind_ = 0;
-    bool normalised_ = false;
-};
-
-/// Affine map: images of the unit vectors and of the origin.
-struct Placement {
-    Vec3 x{1.0, 0.0, 0.0};
-    Vec3 y{0.0, 1.0, 0.0};
-    Vec3 z{0.0, 0.0, 1.0};
-    Vec3 origin;
-
-    [[nodiscard]] Vec3 direction(Vec3 a) const { return a.x * x + a.y * y + a.z * z; }
-    [[nodiscard]] Vec3 place(Vec3 a) const { return origin + direction(a); }
-    [[nodiscard]] Placement of(const Placement& inner) const
-    {
-        return {direction(inner.x), direction(inner.y), direction(inner.z), place(inner.origin)};
-    }
-    /// Whether it is a similarity.
-    [[nodiscard]] bool keepsAngles() const
-    {
-        const double size = dot(x, x);
-        constexpr double kNear = 1e-5;  // files hold floats
-        const auto is_near = [&](double a, double b) { return std::abs(a - b) <= kNear * size; };
-        return size > 0.0 && is_near(dot(y, y), size) && is_near(dot(z, z), size) && is_near(dot(x, y), 0.0) &&
-               is_near(dot(y, z), 0.0) && is_near(dot(z, x), 0.0);
-    }
-    [[nodiscard]] bool mirrors() const { return dot(cross(x, y), z) < 0.0; }
-    /// Normals transform by the cofactor matrix.
-    [[nodiscard]] Vec3 normal(Vec3 a) const
-    {
-        return (mirrors() ? -1.0 : 1.0) * (a.x * cross(y, z) + a.y * cross(z, x) + a.z * cross(x, y));
-    }
-};
-
-/// Transform of a node (section 3.5.3): a matrix by columns; or scale, then rotation, then translation.
-Placement placementOf(const tinygltf::Node& node)
-{
-    if (const std::vector<double>& m = node.matrix; !m.empty()) {
-        const auto column = [&m](std::size_t k) { return Vec3{m[4 * k], m[4 * k + 1], m[4 * k + 2]}; };
-        return {column(0), column(1), column(2), column(3)};
-    }
-    const auto or_else = [](const std::vector<double>& given, const std::vector<double>& otherwise) {
-        return given.empty() ? otherwise : given;
-    };
-    const std::vector<double> t = or_else(node.translation, {0.0, 0.0, 0.0});
-    const std::vector<double> s = or_else(node.scale, {1.0, 1.0, 1.0});
-    const std::vector<double> q = or_else(node.rotation, {0.0, 0.0, 0.0, 1.0});
-    const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    if (!(size > 0.0)) {
-        throw Damage("a node's rotation is not a quaternion");
-    }
-    const auto [x, y, z, w] = std::array{q[0] / size, q[1] / size, q[2] / size, q[3] / size};
-    return {s[0] * Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
-            s[1] * Vec3{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
-            s[2] * Vec3{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)},
-            {t[0], t[1], t[2]}};
-}
-
-/// Key track of one property (appendix C of the specification).
-struct KeyTrack {
-    using Value = std::array<double, 4>;
-    enum class Interpolation { Linear, Step, CubicSpline };
-
-    Interpolation interpolation = Interpolation::Linear;
-    bool turns = false;         ///< values are quaternions
-    std::vector<double> times;  ///< ascending
-    std::vector<Value> values;  ///< with CubicSpline, three for each time: tangent before, value, tangent after
-
-    /// Value at a time; at a jump, the one before or after it.
-    [[nodiscard]] Value at(double time, bool after) const
-    {
-        const auto next = after ? std::upper_bound(times.begin(), times.end(), time)
-                                : std::lower_bound(times.begin(), times.end(), time);
-        const bool is_cubic = interpolation == Interpolation::CubicSpline;
-        const auto key = [&](std::size_t i) { return is_cubic ? values[3 * i + 1] : values[i]; };
-        if (next == times.begin() || next == times.end()) {
-            return key(next == times.begin() ? 0 : times.size() - 1);
-        }
-        const auto i = static_cast<std::size_t>(next - times.begin()) - 1;
-        const double span = times[i + 1] - times[i];
-        const double t = (time - times[i]) / span;
-        if (interpolation == Interpolation::Step) {
-            return key(i);
-        }
-        if (!is_cubic && turns) {
-            const Rotation from = turnOf(key(i));
-            const Rotation turn = rotationBy(t * vectorOf(turnOf(key(i + 1)) * from.inverse())) * from;
-            return {turn.axis.x, turn.axis.y, turn.axis.z, turn.real};
-        }
-        Value value{};
-        for (std::size_t k = 0; k < value.size(); ++k) {
-            const double a = key(i)[k];
-            const double b = key(i + 1)[k];
-            value[k] = a + t * (b - a);
-            if (is_cubic) {
-                value[k] = (1 + 2 * t) * (1 - t) * (1 - t) * a + t * (1 - t) * (1 - t) * span * values[3 * i + 2][k] +
-                           t * t * (3 - 2 * t) * b - t * t * (1 - t) * span * values[3 * i + 3][k];
-            }
-        }
-        return value;
-    }
-
-    static Rotation turnOf(const Value& value)
-    {
-        const Vec3 axis{value[0], value[1], value[2]};
-        const double size = std::hypot(length(axis), value[3]);
-        if (!(size > 0.0) || !std::isfinite(size)) {
-            throw Damage("the rotation of an animation is not a quaternion");
-        }
-        return {(1.0 / size) * axis, value[3] / size};
-    }
-};
 
 /// Times of keys that represent the tracks; curves become pieces.
 std::vector<double> keyTimes(const std::optional<KeyTrack>& a, const std::optional<KeyTrack>& b)
@@ -349,27 +134,125 @@ std::vector<Triangle> trianglesOf(int mode, const std::vector<std::uint32_t>& in
     return triangles;
 }
 
+/// Triangles of a primitive in a node, and what their vertices are computed from.
+struct Part {
+    /// Change of all vertices by a morph target.
+    struct Target {
+        std::optional<Column> vertices;
+        std::optional<Column> normals;
+    };
+    /// Joints of each vertex, and what they weigh; four each.
+    struct Binding {
+        Column joints;
+        Column weights;
+    };
+
+    std::string name;
+    std::size_t node = 0;
+    std::size_t first_vertex = 0;
+    std::size_t first_triangle = 0;
+    Column vertices;
+    std::optional<Column> normals;
+    std::vector<Target> targets = {};
+    std::optional<std::size_t> skin = {};
+    std::vector<Binding> bindings = {};
+
+    /// Where a vertex is put in a pose: by its joints, or by its node.
+    [[nodiscard]] Placement placementOf(const GltfPose& pose, std::size_t v) const
+    {
+        if (!skin || pose.joints.empty()) {
+            return pose.nodes[node];
+        }
+        const std::vector<Placement>& joints = pose.joints[*skin];
+        Placement sum{{}, {}, {}, {}};
+        double total = 0.0;
+        for (const Binding& binding : bindings) {
+            for (std::size_t k = 0; k < 4; ++k) {
+                const double weight = binding.weights.number(v, k);
+                if (weight == 0.0) {
+                    continue;
+                }
+                const double number = binding.joints.number(v, k);
+                if (!(number < static_cast<double>(joints.size()))) {
+                    throw Damage(name + " names a joint that does not exist");
+                }
+                const Placement& joint = joints[static_cast<std::size_t>(number)];
+                total += weight;
+                sum.x = sum.x + weight * joint.x;
+                sum.y = sum.y + weight * joint.y;
+                sum.z = sum.z + weight * joint.z;
+                sum.origin = sum.origin + weight * joint.origin;
+            }
+        }
+        if (!(total > 0.0)) {
+            return pose.nodes[node];
+        }
+        const double share = 1.0 / total;
+        return {share * sum.x, share * sum.y, share * sum.z, share * sum.origin};
+    }
+};
+
 class SceneReader {
 public:
     SceneReader(const GltfFile& file, const SceneOptions& options)
         : file_(file), model_(file.model), options_(options), is_animated_(model_.nodes.size(), false)
     {
-        for (const std::vector<GltfChannel>& channels : file.animations) {
-            for (const GltfChannel& channel : channels) {
+        for (const GltfAnimation& animation : file.animations) {
+            for (const GltfChannel& channel : animation.channels) {
                 if (isMotion(channel) && channel.node < model_.nodes.size()) {
                     is_animated_[*channel.node] = true;
                 }
             }
         }
+        visitNodes();
+        if (mesh_.triangles.empty()) {
+            throw Damage("its scene has no triangles");
+        }
+        dropEmptyColumns();
+        readAnimation();
+        placeVertices();
+        mesh_.weld = firstAtPlace(mesh_.vertices);
+        completeNormals(mesh_, options_.creases);
+        for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+            mesh_.vertices[v] = zUp(mesh_.vertices[v]);
+            mesh_.normals[v] = zUp(mesh_.normals[v]);
+        }
+        for (std::vector<Vec3>& shape : mesh_.shapes) {
+            std::transform(shape.begin(), shape.end(), shape.begin(), zUp);
+        }
+    }
+
+    [[nodiscard]] FileMesh take() { return std::move(mesh_); }
+
+private:
+    /// Animated node that carries all triangles.
+    struct Mover {
+        std::size_t node = 0;
+        Placement parent;
+    };
+    struct Visit {
+        int node = 0;
+        std::optional<std::size_t> parent;
+        std::optional<std::size_t> mover;
+    };
+
+    static bool isMotion(const GltfChannel& channel)
+    {
+        return channel.node && (channel.path == "translation" || channel.path == "rotation");
+    }
+
+    void visitNodes()
+    {
         std::vector<Visit> open;
-        const auto visit_later = [&open](std::vector<int> nodes, const Placement& parent,
-                                         const std::optional<Mover>& mover) {
+        const auto visit_later = [&open](std::vector<int> nodes, std::optional<std::size_t> parent,
+                                         std::optional<std::size_t> mover) {
             std::reverse(nodes.begin(), nodes.end());  // this is a stack: the first node is visited first
             for (const int node : nodes) {
                 open.push_back({node, parent, mover});
             }
         };
         visit_later(rootsOf(model_), {}, {});
+        parents_.resize(model_.nodes.size());
         std::vector<bool> seen(model_.nodes.size(), false);
         while (!open.empty()) {
             const Visit visit = open.back();
@@ -380,49 +263,230 @@ public:
                 throw Damage("nodes[" + std::to_string(visit.node) + "] has two parents");
             }
             seen[index] = true;
-            const Placement placement = visit.parent.of(placementOf(node));
-            const std::optional<Mover> mover =
-                visit.mover || !is_animated_[index] ? visit.mover : std::optional(Mover{index, visit.parent});
+            visits_.push_back({index, visit.parent});
+            parents_[index] = visit.parent;
+            const auto mover = visit.mover || !is_animated_[index] ? visit.mover : std::optional(index);
             mesh_.deforms = mesh_.deforms || node.skin >= 0;
             if (node.mesh >= 0) {
                 const std::size_t before = mesh_.triangles.size();
-                addMesh(node.mesh, placement);
+                addMesh(index);
                 if (mesh_.triangles.size() > before) {
                     movers_.push_back(mover);
                 }
             }
-            visit_later(node.children, placement, mover);
+            visit_later(node.children, index, mover);
         }
-        if (mesh_.triangles.empty()) {
-            throw Damage("its scene has no triangles");
-        }
-        dropEmptyColumns();
-        mesh_.weld = firstAtPlace(mesh_.vertices);
-        completeNormals(mesh_, options_.creases);
-        for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
-            mesh_.vertices[v] = zUp(mesh_.vertices[v]);
-            mesh_.normals[v] = zUp(mesh_.normals[v]);
+    }
+
+    /// Reads what moves the mesh: an animation that deforms it, if that is asked for, otherwise a motion of the whole.
+    void readAnimation()
+    {
+        rest_ = restPose(model_, visits_);
+        if (options_.sampling) {
+            const std::set<std::size_t> moving = movingNodes();
+            const GltfAnimation* const animation = chosenAnimation(moving);
+            if (animation != nullptr && deforms(*animation, moving)) {
+                std::set<std::size_t> skins;
+                for (const Part& part : parts_) {
+                    if (part.skin) {
+                        skins.insert(*part.skin);
+                    }
+                }
+                motion_.emplace(file_, visits_, *animation, std::vector<std::size_t>(skins.begin(), skins.end()));
+                mesh_.deformation_end = motion_->end();
+                mesh_.deforms = false;
+                mesh_.animation_names = namesOf(file_.animations);
+                return;
+            }
         }
         readMotion();
     }
 
-    [[nodiscard]] FileMesh take() { return std::move(mesh_); }
-
-private:
-    /// Outermost animated node above a mesh.
-    struct Mover {
-        std::size_t node = 0;
-        Placement parent;
-    };
-    struct Visit {
-        int node = 0;
-        Placement parent;
-        std::optional<Mover> mover;
-    };
-
-    static bool isMotion(const GltfChannel& channel)
+    static std::vector<std::string> namesOf(const std::vector<GltfAnimation>& animations)
     {
-        return channel.node && (channel.path == "translation" || channel.path == "rotation");
+        std::vector<std::string> names;
+        for (const GltfAnimation& animation : animations) {
+            names.push_back(animation.name);
+        }
+        return names;
+    }
+
+    /// Nodes whose places decide where triangles are.
+    [[nodiscard]] std::set<std::size_t> movingNodes() const
+    {
+        std::set<std::size_t> moving;
+        const auto include = [&](std::optional<std::size_t> node) {
+            while (node && moving.insert(*node).second) {
+                node = parents_[*node];
+            }
+        };
+        for (const Part& part : parts_) {
+            if (!part.skin) {
+                include(part.node);
+                continue;
+            }
+            for (const std::size_t joint : file_.skins[*part.skin].joints) {
+                include(joint < parents_.size() ? std::optional(joint) : std::nullopt);
+            }
+        }
+        return moving;
+    }
+
+    [[nodiscard]] bool moves(const GltfChannel& channel, const std::set<std::size_t>& moving) const
+    {
+        if (channel.path == "weights") {
+            return std::any_of(parts_.begin(), parts_.end(),
+                               [&](const Part& part) { return channel.node == part.node && !part.targets.empty(); });
+        }
+        return channel.node && moving.contains(*channel.node) &&
+               (channel.path == "translation" || channel.path == "rotation" || channel.path == "scale");
+    }
+
+    /// The animation of the name that is asked for, or the first that moves triangles; null: there is none.
+    [[nodiscard]] const GltfAnimation* chosenAnimation(const std::set<std::size_t>& moving) const
+    {
+        const std::optional<std::string>& name = options_.sampling->animation;
+        const auto found =
+            std::find_if(file_.animations.begin(), file_.animations.end(), [&](const GltfAnimation& animation) {
+                return name ? animation.name == *name
+                            : std::any_of(animation.channels.begin(), animation.channels.end(),
+                                          [&](const GltfChannel& channel) { return moves(channel, moving); });
+            });
+        if (found != file_.animations.end()) {
+            return &*found;
+        }
+        if (name) {
+            std::string names;
+            for (const GltfAnimation& animation : file_.animations) {
+                names += (names.empty() ? "" : ", ") + animation.name;
+            }
+            throw Damage("it has no animation " + *name + (names.empty() ? "" : "; it has " + names));
+        }
+        return nullptr;
+    }
+
+    /// Whether an animation does more than to move all triangles as one body.
+    [[nodiscard]] bool deforms(const GltfAnimation& animation, const std::set<std::size_t>& moving) const
+    {
+        const std::optional<std::size_t> mover = commonMover();
+        const bool is_rigid = mover && model_.nodes[*mover].matrix.empty() && parentOf(*mover).keepsAngles();
+        return std::any_of(animation.channels.begin(), animation.channels.end(), [&](const GltfChannel& channel) {
+            return moves(channel, moving) && !(is_rigid && isMotion(channel) && *channel.node == *mover) &&
+                   !isStill(file_, channel);
+        });
+    }
+
+    /// The node that carries all triangles, if one is animated.
+    [[nodiscard]] std::optional<std::size_t> commonMover() const
+    {
+        const bool is_same = std::all_of(movers_.begin(), movers_.end(),
+                                         [&](const auto& other) { return other && other == movers_.front(); });
+        return is_same ? movers_.front() : std::nullopt;
+    }
+
+    [[nodiscard]] Placement parentOf(std::size_t node) const
+    {
+        return parents_[node] ? rest_.nodes[*parents_[node]] : Placement{};
+    }
+
+    /// Time that a frame shows. A cycle, which ends as it begins, is repeated; otherwise the end stays.
+    [[nodiscard]] std::vector<double> timesOfFrames() const
+    {
+        const FileSampling& sampling = *options_.sampling;
+        const double begin = motion_->begin();
+        const double end = motion_->end();
+        const std::size_t whole = sampling.framesUntil(end);
+        const std::size_t frames = sampling.frames.value_or(whole);
+        const bool repeats = frames > whole && end > begin && isCycle();
+        std::vector<double> times(frames);
+        for (std::size_t k = 0; k < frames; ++k) {
+            times[k] = static_cast<double>(k) / sampling.frames_per_second;
+            if (repeats && times[k] > end) {
+                times[k] = begin + std::fmod(times[k] - begin, end - begin);
+            }
+        }
+        return times;
+    }
+
+    [[nodiscard]] bool isCycle() const
+    {
+        const std::vector<Vec3> first = placesIn(motion_->at(motion_->begin()));
+        const std::vector<Vec3> last = placesIn(motion_->at(motion_->end()));
+        Vec3 low = first.front();
+        Vec3 high = low;
+        double farthest = 0.0;
+        for (std::size_t v = 0; v < first.size(); ++v) {
+            low = {std::min(low.x, first[v].x), std::min(low.y, first[v].y), std::min(low.z, first[v].z)};
+            high = {std::max(high.x, first[v].x), std::max(high.y, first[v].y), std::max(high.z, first[v].z)};
+            farthest = std::max(farthest, length(last[v] - first[v]));
+        }
+        constexpr double kClosed = 1e-3;  // over the size: an exporter's rounding, no step
+        return farthest <= kClosed * length(high - low);
+    }
+
+    /// Places of all vertices in a pose.
+    [[nodiscard]] std::vector<Vec3> placesIn(const GltfPose& pose) const
+    {
+        std::vector<Vec3> places(vertex_count_);
+        for (const Part& part : parts_) {
+            const std::vector<double>& weights = pose.weights.empty() ? std::vector<double>{} : pose.weights[part.node];
+            for (std::size_t v = 0; v < part.vertices.size(); ++v) {
+                Vec3 place = part.vertices.vec3(v);
+                for (std::size_t k = 0; k < std::min(weights.size(), part.targets.size()); ++k) {
+                    if (weights[k] != 0.0 && part.targets[k].vertices) {
+                        place = place + weights[k] * part.targets[k].vertices->vec3(v);
+                    }
+                }
+                place = part.placementOf(pose, v).place(place);
+                if (!std::isfinite(place.x + place.y + place.z)) {
+                    throw Damage(part.name + " holds numbers that are not finite");
+                }
+                places[part.first_vertex + v] = place;
+            }
+        }
+        return places;
+    }
+
+    /// Normals of all vertices in a pose, of any length; 0 where the file has none.
+    [[nodiscard]] std::vector<Vec3> normalsIn(const GltfPose& pose) const
+    {
+        std::vector<Vec3> normals(vertex_count_);
+        for (const Part& part : parts_) {
+            const std::vector<double>& weights = pose.weights.empty() ? std::vector<double>{} : pose.weights[part.node];
+            for (std::size_t v = 0; part.normals && v < part.vertices.size(); ++v) {
+                Vec3 normal = part.normals->vec3(v);
+                for (std::size_t k = 0; k < std::min(weights.size(), part.targets.size()); ++k) {
+                    if (weights[k] != 0.0 && part.targets[k].normals) {
+                        normal = normal + weights[k] * part.targets[k].normals->vec3(v);
+                    }
+                }
+                normal = part.placementOf(pose, v).normal(normal);
+                if (!std::isfinite(normal.x + normal.y + normal.z)) {
+                    throw Damage(part.name + " holds numbers that are not finite");
+                }
+                normals[part.first_vertex + v] = normal;
+            }
+        }
+        return normals;
+    }
+
+    /// Puts vertices where they are at the begin, and in all frames that are asked for.
+    void placeVertices()
+    {
+        const std::vector<double> times = motion_ ? timesOfFrames() : std::vector<double>{};
+        const GltfPose pose = motion_ ? motion_->at(0.0) : rest_;
+        mesh_.vertices = placesIn(pose);
+        mesh_.normals = normalsIn(pose);
+        for (std::size_t p = 0; p < parts_.size(); ++p) {
+            const bool mirrors = parts_[p].placementOf(pose, 0).mirrors();
+            const std::size_t end = p + 1 < parts_.size() ? parts_[p + 1].first_triangle : mesh_.triangles.size();
+            for (std::size_t t = parts_[p].first_triangle; mirrors && t < end; ++t) {
+                std::swap(mesh_.triangles[t][1], mesh_.triangles[t][2]);
+            }
+        }
+        mesh_.shapes.resize(times.size());
+        tbb::parallel_for(std::size_t{0}, times.size(),
+                          [&](std::size_t k) { mesh_.shapes[k] = placesIn(motion_->at(times[k])); });
     }
 
     void dropEmptyColumns()
@@ -454,14 +518,12 @@ private:
     void readMotion()
     {
         std::size_t channels = 0;
-        for (const std::vector<GltfChannel>& animation : file_.animations) {
-            channels += std::max<std::size_t>(animation.size(), 1);
+        for (const GltfAnimation& animation : file_.animations) {
+            channels += std::max<std::size_t>(animation.channels.size(), 1);
         }
-        const std::optional<Mover>& mover = movers_.front();
-        const auto is_same = [&](const std::optional<Mover>& other) { return other && other->node == mover->node; };
         std::size_t read = 0;
-        if (options_.motion && mover && std::all_of(movers_.begin(), movers_.end(), is_same)) {
-            read = readMotionOf(*mover);
+        if (const auto mover = commonMover(); options_.motion && mover) {
+            read = readMotionOf({*mover, parentOf(*mover)});
         }
         mesh_.ignores_animation = read < channels;
     }
@@ -470,22 +532,29 @@ private:
     std::size_t readMotionOf(const Mover& mover)
     {
         const tinygltf::Node& node = model_.nodes[mover.node];
-        const auto animation = std::find_if(
-            file_.animations.begin(), file_.animations.end(), [&](const std::vector<GltfChannel>& channels) {
-                return std::any_of(channels.begin(), channels.end(), [&](const GltfChannel& channel) {
-                    return isMotion(channel) && *channel.node == mover.node;
-                });
+        const std::optional<std::string> name = options_.sampling ? options_.sampling->animation : std::nullopt;
+        const auto animation =
+            std::find_if(file_.animations.begin(), file_.animations.end(), [&](const GltfAnimation& one) {
+                return (!name || one.name == *name) &&
+                       std::any_of(one.channels.begin(), one.channels.end(), [&](const GltfChannel& channel) {
+                           return isMotion(channel) && *channel.node == mover.node;
+                       });
             });
+        if (animation == file_.animations.end()) {
+            return 0;
+        }
         std::optional<KeyTrack> translation;
         std::optional<KeyTrack> rotation;
         std::size_t read = 0;
-        for (const GltfChannel& channel : *animation) {
+        for (const GltfChannel& channel : animation->channels) {
             if (!isMotion(channel) || *channel.node != mover.node) {
+                // An animation that is sampled if it deforms has nothing else that moves triangles.
+                read += options_.sampling ? 1 : 0;
                 continue;
             }
             std::optional<KeyTrack>& track = channel.path == "rotation" ? rotation : translation;
             if (!track) {
-                track = trackOf(channel);
+                track = trackOf(model_, channel);
                 ++read;
             }
         }
@@ -496,50 +565,19 @@ private:
         return read;
     }
 
-    [[nodiscard]] KeyTrack trackOf(const GltfChannel& channel) const
+    void addMesh(std::size_t node)
     {
-        const bool turns = channel.path == "rotation";
-        const Column times(model_, channel.times, TINYGLTF_TYPE_SCALAR);
-        const Column values(model_, channel.values, turns ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3);
-        KeyTrack track;
-        track.turns = turns;
-        track.interpolation = channel.interpolation == "STEP"          ? KeyTrack::Interpolation::Step
-                              : channel.interpolation == "CUBICSPLINE" ? KeyTrack::Interpolation::CubicSpline
-                                                                       : KeyTrack::Interpolation::Linear;
-        const std::size_t each = track.interpolation == KeyTrack::Interpolation::CubicSpline ? 3 : 1;
-        if (times.size() == 0 || values.size() != each * times.size()) {
-            throw Damage("an animation has " + std::to_string(times.size()) + " times and " +
-                         std::to_string(values.size()) + " values");
-        }
-        for (std::size_t i = 0; i < times.size(); ++i) {
-            track.times.push_back(times.number(i));
-            if (!std::isfinite(track.times[i]) || (i > 0 && !(track.times[i] > track.times[i - 1]))) {
-                throw Damage("the times of an animation do not ascend");
-            }
-        }
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const KeyTrack::Value value{values.number(i, 0), values.number(i, 1), values.number(i, 2),
-                                        turns ? values.number(i, 3) : 0.0};
-            if (!std::isfinite(value[0] + value[1] + value[2] + value[3])) {
-                throw Damage("an animation holds numbers that are not finite");
-            }
-            track.values.push_back(value);
-        }
-        return track;
-    }
-
-    void addMesh(int mesh_index, const Placement& placement)
-    {
+        const int mesh_index = model_.nodes[node].mesh;
         const tinygltf::Mesh& mesh = entry(model_.meshes, mesh_index, "meshes");
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
             if (primitive.mode >= TINYGLTF_MODE_TRIANGLES) {
-                addPrimitive(primitive, placement,
+                addPrimitive(primitive, node,
                              "mesh " + (mesh.name.empty() ? std::to_string(mesh_index) : "\"" + mesh.name + "\""));
             }
         }
     }
 
-    void addPrimitive(const tinygltf::Primitive& primitive, const Placement& placement, const std::string& name)
+    void addPrimitive(const tinygltf::Primitive& primitive, std::size_t node, const std::string& name)
     {
         const auto column = [&](const char* semantic, int type) -> std::optional<Column> {
             const auto found = primitive.attributes.find(semantic);
@@ -568,25 +606,25 @@ private:
         if (triangles.empty()) {
             return;
         }
-        if (triangles.size() > kMaxTriangles - mesh_.triangles.size() ||
-            count > 3 * kMaxTriangles - mesh_.vertices.size()) {
+        if (triangles.size() > kMaxTriangles - mesh_.triangles.size() || count > 3 * kMaxTriangles - vertex_count_) {
             throw Damage("it has more than " + std::to_string(kMaxTriangles) + " triangles");
         }
-        const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+        const auto first = static_cast<std::uint32_t>(vertex_count_);
         for (std::size_t v = 0; v < count; ++v) {
-            const Vec3 p = placement.place(vertices.vec3(v));
-            const Vec3 n = normals ? placement.normal(normals->vec3(v)) : Vec3{};
             const Vec2 uv = uvs ? uvs->vec2(v) : Vec2{};
             const double angle = angles ? angles->number(v) : 0.0;
-            if (!std::isfinite(p.x + p.y + p.z + n.x + n.y + n.z + uv.x + uv.y + angle)) {
+            if (!std::isfinite(uv.x + uv.y + angle)) {
                 throw Damage(name + " holds numbers that are not finite");
             }
-            mesh_.vertices.push_back(p);
-            mesh_.normals.push_back(n);
             mesh_.uvs.push_back(uv);
             mesh_.contact_angles.push_back(static_cast<float>(kDegree * angle));
             const double weight = weights ? weights->number(v) : 0.0;
             mesh_.weights.push_back(std::isfinite(weight) ? std::clamp(weight, 0.0, 1.0) : 0.0);
+        }
+        vertex_count_ += count;
+        Part& part = parts_.emplace_back(Part{name, node, first, mesh_.triangles.size(), vertices, normals});
+        if (options_.sampling) {
+            readDeformation(primitive, part);
         }
         (uvs ? has_uv_ : lacks_uv_) = true;
         has_weights_ = has_weights_ || weights;
@@ -596,8 +634,46 @@ private:
             mesh_.materials.end(), triangles.size(),
             static_cast<std::uint32_t>(has_material ? static_cast<std::size_t>(primitive.material) : materials));
         for (const Triangle& t : triangles) {
-            mesh_.triangles.push_back(placement.mirrors() ? Triangle{first + t[0], first + t[2], first + t[1]}
-                                                          : Triangle{first + t[0], first + t[1], first + t[2]});
+            mesh_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        }
+    }
+
+    /// Reads joints and morph targets of vertices.
+    void readDeformation(const tinygltf::Primitive& primitive, Part& part) const
+    {
+        const auto column = [&](const std::map<std::string, int>& attributes, const std::string& semantic,
+                                int type) -> std::optional<Column> {
+            const auto found = attributes.find(semantic);
+            if (found == attributes.end()) {
+                return std::nullopt;
+            }
+            const Column numbers(model_, found->second, type);
+            if (numbers.size() != part.vertices.size()) {
+                throw Damage(part.name + " has attributes of different lengths");
+            }
+            return numbers;
+        };
+        for (const std::map<std::string, int>& target : primitive.targets) {
+            part.targets.push_back(
+                {column(target, "POSITION", TINYGLTF_TYPE_VEC3), column(target, "NORMAL", TINYGLTF_TYPE_VEC3)});
+        }
+        const int skin = model_.nodes[part.node].skin;
+        if (skin < 0) {
+            return;
+        }
+        entry(file_.skins, skin, "skins");
+        for (std::size_t set = 0;; ++set) {
+            const std::string number = std::to_string(set);
+            const auto joints = column(primitive.attributes, "JOINTS_" + number, TINYGLTF_TYPE_VEC4);
+            const auto weights = column(primitive.attributes, "WEIGHTS_" + number, TINYGLTF_TYPE_VEC4);
+            if (!joints || !weights) {
+                break;
+            }
+            if (!joints->counts()) {
+                throw Damage(part.name + " has joints that are not unsigned integers");
+            }
+            part.bindings.push_back({*joints, *weights});
+            part.skin = static_cast<std::size_t>(skin);
         }
     }
 
@@ -637,8 +713,14 @@ private:
     const GltfFile& file_;
     const tinygltf::Model& model_;
     const SceneOptions& options_;
-    std::vector<bool> is_animated_;             ///< of every node
-    std::vector<std::optional<Mover>> movers_;  ///< of every node that has triangles
+    std::vector<bool> is_animated_;                   ///< of every node
+    std::vector<std::optional<std::size_t>> movers_;  ///< outermost animated nodes above all that have triangles
+    GltfVisits visits_;
+    std::vector<std::optional<std::size_t>> parents_;  ///< of every node
+    std::vector<Part> parts_;
+    std::size_t vertex_count_ = 0;
+    GltfPose rest_;
+    std::optional<GltfMotion> motion_;  ///< if the mesh deforms
     bool has_uv_ = false;
     bool lacks_uv_ = false;
     bool has_weights_ = false;

@@ -20,6 +20,7 @@
 
 #include "cli/in_process.h"
 #include "droplet/drawing/picture.h"
+#include "droplet/flow_io/flow_object.h"
 #include "droplet/io/read_surface.h"
 #include "droplet/units.h"
 #include "support/command.h"
@@ -571,7 +572,15 @@ TEST_F(FlowCommand, AnObjectDeformsByAMeshForEveryFrame)
         EXPECT_EQ(readFile(path(fmt::format("again/{}.png", k))), readFile(path(fmt::format("whole/{}.png", k)))) << k;
     }
 
-    expectRefused({"--drops", "3"}, 2, "give meshes such as out/%04d.glb", "s%d.obj");
+    // In an animation the slope moves with its droplets.
+    ASSERT_EQ(flow("moved.glb", {"--drops", "3", "--fps", "20"}, "s%d.obj").exit_code, 0);
+    const droplet::DeformingObject back = droplet::readAnimatedObject(path("moved.glb"), {20.0});
+    ASSERT_EQ(back.vertices.size(), 6U);
+    for (std::size_t k = 0; k < 6; ++k) {
+        EXPECT_LT(length(back.vertices[k][1] - Vec3{0.1 + 0.02 * static_cast<double>(k), 0.0, 0.0}), 1e-4);
+    }
+    // And it is an object that deforms again; an animation has no mesh for a floor.
+    expectRefused({"--drops", "3", "--floor", "dish"}, 2, "--floor needs an object that keeps its shape", "moved.glb");
     expectRefused({"--drops", "3", "--spin", "30deg/s"}, 2, "--spin needs one mesh as OBJECT", "s%d.obj");
     expectRefused({"--drops", "3", "--floor", "dish"}, 2, "--floor needs one mesh as OBJECT", "s%d.obj");
     testing::expectOneLine(testing::runInProcess(argumentsOf("s%d.obj", "x.png", {"--drops", "3", "--time", "5s"})), 2,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -78,6 +79,32 @@ FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOpt
 /// @param options  of all
 /// @throws Error  as readFlowObject(); InvalidInput, naming the file, if its triangles are not those of the first
 DeformingObject readDeformingObject(const std::vector<std::string>& paths, const FlowObjectOptions& options = {});
+
+/// Frames of a film at which an animated object is read, from time 0 on.
+struct ObjectSampling {
+    double frames_per_second = 30.0;            ///< > 0
+    std::optional<std::size_t> frames = {};     ///< number of shapes; empty: all up to the animation's last key
+    std::optional<std::string> animation = {};  ///< name; empty: the first that moves the object
+};
+
+/// Reads an object with the shapes that an animation of its file gives it: nodes that move apart, scales, skins, morph
+/// targets. An animation that moves the object as a whole stays FlowObject::motion, and the object has one shape.
+///
+/// Shapes are exact at the frames. After its last key an animation that ends as it begins, to a thousandth of the
+/// object's size, is repeated; any other leaves the object as it is. The object's size for FlowObjectOptions::size is
+/// that at time 0.
+/// @param path      .glb or .gltf; other files have no animation
+/// @param sampling  frames
+/// @param options   of the object
+/// @throws Error    as readFlowObject(); InvalidInput if there is no animation of this name
+DeformingObject readAnimatedObject(const std::filesystem::path& path, const ObjectSampling& sampling,
+                                   const FlowObjectOptions& options = {});
+
+/// Number of frames up to the last key of the animation that deforms an object; empty if none does.
+/// @param path      of the object
+/// @param sampling  its `frames` are ignored
+/// @throws Error    as readAnimatedObject()
+std::optional<std::size_t> deformingFrames(const std::filesystem::path& path, const ObjectSampling& sampling);
 
 /// An object in another shape. Its normals turn as the triangles around them do.
 /// @param object    the object

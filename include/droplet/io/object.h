@@ -18,7 +18,7 @@ namespace droplet {
 /// Guarantees: the result is valid.
 /// @param path   file to read
 /// @throws Error InvalidInput, naming the file: it cannot be read, is damaged, has no triangles, triangles without uv,
-///               compressed or sparse data, numbers that are not finite, or more than 2²⁶ triangles
+///               compressed data, numbers that are not finite, or more than 2²⁶ triangles
 TexturedMesh readObject(const std::filesystem::path& path);
 
 /// Paths of the buffers that a .gltf has beside it, so that a run can protect them. Other files, and files that
