@@ -170,7 +170,7 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
         animation.material = material_;
         animation.gravity = plan_.parameters.gravity;
         animation.motion = plan_.parameters.motion;
-        animation_.emplace(plan_.object, plan_.terrain(), bodies_, animation);
+        animation_.emplace(plan_.object, plan_.shapes, bodies_, animation);
     }
     if (isPicture() || options_.has_preview) {
         preparePainter();
@@ -334,7 +334,7 @@ std::function<void()> FlowRun::frame(std::size_t number)
         points_.push_back(pointsOf(moment));
     }
     if (animation_) {
-        animation_->add(moment.time, moment.samples);
+        animation_->add(moment.time, moment.samples, moment.shape);
     }
     if (options_.streak_files) {
         moment.streaks = ribbons_.mesh(state_.time, &moment.terrain->surface()).surface;
@@ -365,8 +365,11 @@ void FlowRun::run(std::ostream* table)
     if (options_.streaks) {
         const std::size_t shape = plan_.shapes.of(state_, plan_.parameters.step);
         streaks_ = ribbons_.mesh(state_.time, &plan_.shapes.at(shape)->surface()).surface;
-        if (animation_) {
+        if (animation_ && plan_.shapes.count() == 1) {
             animation_->setStreaks(ribbons_.growing(1.0 / options_.frames_per_second));
+        } else if (animation_) {
+            report_.warnings.push_back(fmt::format("{} has no streaks, since its object deforms; {} has them",
+                                                   options_.output, *options_.streaks));
         }
         turnToFile(streaks_, formatOf(*options_.streaks), options_.reading);
     }

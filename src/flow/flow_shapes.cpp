@@ -94,6 +94,21 @@ std::vector<std::array<Vec3, 3>> FlowShapes::cornersAt(std::size_t shape) const
     return corners;
 }
 
+FlowSurface::Face FlowShapes::faceAt(std::size_t shape, std::uint32_t face) const
+{
+    FlowSurface::Face result = first_->surface().faces[face];
+    if (shape > 0) {
+        const auto& [a, b, c] = triangles_[result.source];
+        const std::vector<Vec3>& vertices = vertices_[shape];
+        std::array<Vec3, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k) {
+            corners[k] = mixed({vertices[a], vertices[b], vertices[c]}, weights_[face][k]);
+        }
+        setCorners(result, corners);
+    }
+    return result;
+}
+
 GroundMotion FlowShapes::motionAt(std::size_t shape) const
 {
     GroundMotion motion;

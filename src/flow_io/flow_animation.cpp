@@ -19,7 +19,9 @@
 #include "byte_stream.h"
 #include "droplet/error.h"
 #include "droplet/flow_io/droplet_surfaces.h"
+#include "flow/following.h"
 #include "flow_io/object_scene.h"
+#include "flow_io/shape_basis.h"
 #include "flow_io/unit_bodies.h"
 #include "io/droplet_crowd.h"
 #include "require.h"
@@ -111,7 +113,9 @@ struct FlowAnimation::Content {
     const FlowTerrain& terrain;
     const DropletBodies& bodies;
     FlowAnimationOptions options;
-    double unit_volume;  ///< of all meshes of a droplet
+    double unit_volume;                   ///< of all meshes of a droplet
+    const FlowShapes* deforms = nullptr;  ///< null: it keeps its shape
+    std::vector<std::size_t> shown = {};  ///< shapes of all frames, if it deforms
     DropletHistories histories = {};
     std::vector<CrowdPose> poses = {};                 ///< of the object, if it moves
     std::array<Vec3, 2> corners = {};                  ///< of the object and all droplets, in the object's frame
@@ -122,7 +126,7 @@ struct FlowAnimation::Content {
     std::size_t shapes = 0;                            ///< about the number that the file will have
     std::optional<StreakMesh> streaks = {};
 
-    [[nodiscard]] DropletPose poseOf(const FlowSample& sample, Vec3 gravity) const
+    [[nodiscard]] DropletPose poseOf(const FlowSample& sample, Vec3 gravity, std::size_t shape) const
     {
         const DropletPose* const last = histories.last(sample.id);
         const DropletFrame frame = frameOf(sample, gravity);
@@ -136,6 +140,10 @@ struct FlowAnimation::Content {
             return pose;
         }
         pose.moves = sample.velocity != Vec3{};
+        if (deforms != nullptr) {
+            pose.face = *sample.face;
+            pose.shape = static_cast<std::uint32_t>(shape);
+        }
         pose.turn = turnOf(frame);
         if (pose.moves || sample.contact_angle) {
             const Vec2 half = halfSizes(bodies, conditionsOf(sample, gravity));
@@ -162,6 +170,51 @@ struct FlowAnimation::Content {
         }
     }
 
+    /// Pose with which a droplet sits on the first shape as it does on its own.
+    [[nodiscard]] DropletPose onFirst(const DropletPose& pose) const
+    {
+        if (deforms == nullptr || pose.shape == 0) {
+            return pose;
+        }
+        const FlowSurface::Face from = deforms->faceAt(pose.shape, pose.face);
+        const FlowSurface::Face to = deforms->faceAt(0, pose.face);
+        DropletFrame frame = frameOf(pose);
+        frame.place = followed(from, to, frame.place);
+        frame.ahead = turnedWith(from, to, frame.ahead);
+        frame.normal = turnedWith(from, to, frame.normal);
+        DropletPose first = pose;
+        first.place = sceneVector(frame.place);
+        first.turn = turnOf(frame);
+        return first;
+    }
+
+    /// Adds the object, with the changes of its shapes over time.
+    std::size_t addDeforming(Scene& scene) const
+    {
+        std::vector<MeshShape> shapes;
+        for (std::size_t k = 0; k < deforms->count(); ++k) {
+            FlowObject shape = inShape(object, deforms->vertices(k));
+            shapes.push_back({std::move(shape.vertices), std::move(shape.normals)});
+        }
+        constexpr double kNear = 5e-5;   // over the size: less than a pixel of a picture that shows all of it
+        constexpr double kTurned = 0.1;  // of normals: 6 degrees
+        const ShapeBasis basis = shapeBasis(shapes, {kNear * length(sizeOf(object)), kTurned});
+        const std::size_t node = addObject(object, scene, basis.changes);
+        if (!basis.changes.empty()) {
+            std::vector<float> times;
+            std::vector<float> weights;
+            for (std::size_t frame = 0; frame < shown.size(); ++frame) {
+                times.push_back(toFloat(static_cast<double>(frame) / options.frames_per_second));
+                for (const double weight : basis.weights[shown[frame]]) {
+                    weights.push_back(toFloat(weight));
+                }
+            }
+            const std::size_t keys = scene.addTimes(std::move(times));
+            scene.tracks.push_back({node, SceneChange::Weights, false, keys, std::move(weights)});
+        }
+        return node;
+    }
+
     void include(const ObjectPose& pose)
     {
         const auto corner = [&](std::size_t i) {
@@ -186,18 +239,33 @@ FlowAnimation::FlowAnimation(FlowObject object, const FlowTerrain& terrain, cons
     content_->corners = cornersOf(content_->object.vertices);
 }
 
+FlowAnimation::FlowAnimation(FlowObject object, const FlowShapes& shapes, const DropletBodies& bodies,
+                             const FlowAnimationOptions& options)
+    : FlowAnimation(std::move(object), shapes.first(), bodies, options)
+{
+    if (shapes.count() > 1) {
+        content_->deforms = &shapes;
+        std::vector<Vec3> all;
+        for (std::size_t k = 0; k < shapes.count(); ++k) {
+            const std::array<Vec3, 2> corners = cornersOf(shapes.vertices(k));
+            all.insert(all.end(), corners.begin(), corners.end());
+        }
+        content_->corners = cornersOf(all);
+    }
+}
+
 FlowAnimation::~FlowAnimation() = default;
 FlowAnimation::FlowAnimation(FlowAnimation&&) noexcept = default;
 FlowAnimation& FlowAnimation::operator=(FlowAnimation&&) noexcept = default;
 
-void FlowAnimation::add(double time, std::span<const FlowSample> samples)
+void FlowAnimation::add(double time, std::span<const FlowSample> samples, std::size_t shape)
 {
     Content& content = *content_;
     const ObjectPose at = content.options.motion.at(time);
     const Vec3 gravity = at.toObject(content.options.gravity);
     std::vector<DropletPose> poses(samples.size());
     tbb::parallel_for(std::size_t{0}, samples.size(),
-                      [&](std::size_t i) { poses[i] = content.poseOf(samples[i], gravity); });
+                      [&](std::size_t i) { poses[i] = content.poseOf(samples[i], gravity, shape); });
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const Vec3 size = std::cbrt(samples[i].volume) * Vec3{1.0, 1.0, 1.0};
         content.corners =
@@ -205,7 +273,10 @@ void FlowAnimation::add(double time, std::span<const FlowSample> samples)
         content.logarithms += std::log(samples[i].volume);
         ++content.volumes;
         content.histories.add(samples[i].id, poses[i]);
-        content.countShapes(samples[i].id, poses[i]);
+        content.countShapes(samples[i].id, content.onFirst(poses[i]));
+    }
+    if (content.deforms != nullptr) {
+        content.shown.push_back(shape);
     }
     content.include(at);
     if (!content.options.motion.rests()) {
@@ -242,7 +313,8 @@ std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) 
     Scene scene;
     scene.frames_per_second = content.options.frames_per_second;
     CrowdOptions droplets;
-    droplets.ground = addObject(content.object, scene);
+    droplets.deforms = content.deforms != nullptr;
+    droplets.ground = droplets.deforms ? content.addDeforming(scene) : addObject(content.object, scene);
     if (content.streaks && !content.streaks->surface.triangles.empty()) {
         addStreaks(*content.streaks, droplets.ground, content.histories.frames(), scene);
     }
@@ -250,7 +322,8 @@ std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) 
     droplets.animation = "flow";
     droplets.decimals = 7;
     droplets.place_tolerance = 0.1;
-    droplets.time_tolerance = 2e-3;
+    // Where the ground moves fast, a delay would be seen as a slip over it.
+    droplets.time_tolerance = content.deforms != nullptr ? 0.0 : 2e-3;
     droplets.corners = content.moved_corners;
     droplets.corner = "corner of the scene";
     droplets.poses = content.poses;
@@ -260,10 +333,10 @@ std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) 
     droplets.running = std::move(unit.running);
     droplets.falling = std::move(unit.falling);
     droplets.seating = {[&](const DropletMesh& mesh, const DropletPose& pose) {
-                            return seatedBody(content.terrain, mesh, kAround, pose);
+                            return seatedBody(content.terrain, mesh, kAround, content.onFirst(pose));
                         },
                         [&](const std::vector<Vec3>& vertices, const DropletPose& pose) {
-                            return rimGap(content.terrain, vertices, kAround, pose);
+                            return rimGap(content.terrain, vertices, kAround, content.onFirst(pose));
                         }};
     addDroplets(content.histories, droplets, scene);
     return writeScene(scene, out, file);

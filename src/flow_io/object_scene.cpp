@@ -2,6 +2,7 @@
 #include "flow_io/object_scene.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,13 +17,17 @@ SceneMaterial opaqueMaterial(const std::string& name, double roughness)
     return {.look = std::move(look), .both_sides = true};
 }
 
-std::size_t addObject(const FlowObject& object, Scene& scene)
+std::size_t addObject(const FlowObject& object, Scene& scene, const std::vector<MeshShape>& changes)
 {
     SceneMesh mesh{"object"};
     SceneGeometry& geometry = mesh.geometries.emplace_back();
     geometry.vertices = sceneVectors(object.vertices);
     geometry.normals = sceneVectors(object.normals);
     geometry.uvs = sceneCoordinates(object.uvs);
+    for (const MeshShape& change : changes) {
+        geometry.targets.push_back({sceneVectors(change.vertices), sceneVectors(change.normals)});
+        mesh.targets.push_back("motion " + std::to_string(mesh.targets.size() + 1));
+    }
     std::vector<std::string> names = object.material_names;
     names.resize(std::max<std::size_t>(names.size(), 1), "object");
     std::vector<ScenePart> parts(names.size());

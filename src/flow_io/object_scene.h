@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "droplet/flow_io/flow_object.h"
+#include "flow_io/shape_basis.h"
 #include "scene/scene.h"
 
 namespace droplet {
@@ -13,6 +15,7 @@ namespace droplet {
 SceneMaterial opaqueMaterial(const std::string& name, double roughness);
 
 /// Adds an object, with a material for each name in its file, and its node; returns the node.
-std::size_t addObject(const FlowObject& object, Scene& scene);
+/// @param changes  morph targets; may be empty
+std::size_t addObject(const FlowObject& object, Scene& scene, const std::vector<MeshShape>& changes = {});
 
 }  // namespace droplet

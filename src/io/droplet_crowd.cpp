@@ -40,18 +40,27 @@ struct Spans {
 };
 
 /// Whether a droplet runs from one sample to the next. Small shifts are not runs: rain on a droplet at rest shifts its
-/// centre.
-bool runs(const DropletPose& from, const DropletPose& to)
+/// centre. On ground that deforms, large ones may be the ground's.
+bool runs(const DropletPose& from, const DropletPose& to, bool deforms)
 {
-    return from.moves || to.moves || length(vectorOf(to.place) - vectorOf(from.place)) > static_cast<double>(to.across);
+    return from.moves || to.moves ||
+           (!deforms && length(vectorOf(to.place) - vectorOf(from.place)) > static_cast<double>(to.across));
 }
 
-/// Splits the time of a droplet on the ground.
-/// @param first  index of the first sample there
-/// @param last   index behind the last one
-/// @param end    first frame without it
-void splitOnGround(const DropletHistory& history, std::size_t first, std::size_t last, std::uint32_t end, Spans& spans)
+/// Time of a droplet on the ground.
+struct OnGround {
+    std::size_t first = 0;  ///< index of the first sample there
+    std::size_t last = 0;   ///< index behind the last one
+    std::uint32_t end = 0;  ///< first frame without it
+    bool deforms = false;   ///< CrowdOptions::deforms
+};
+
+/// Splits this time.
+void splitOnGround(const DropletHistory& history, const OnGround& time, Spans& spans)
 {
+    const std::size_t first = time.first;
+    const std::size_t last = time.last;
+    const std::uint32_t end = time.end;
     std::uint32_t done = history.samples[first].frame;
     std::optional<std::uint32_t> running;  // first frame of the run
     std::uint32_t moved = 0;               // last frame with a motion
@@ -65,7 +74,7 @@ void splitOnGround(const DropletHistory& history, std::size_t first, std::size_t
     for (std::size_t i = first + 1; i < last; ++i) {
         const DropletPose& from = history.samples[i - 1].pose;
         const DropletPose& to = history.samples[i].pose;
-        if (from.place == to.place || !runs(from, to)) {
+        if (from.place == to.place || !runs(from, to, time.deforms)) {
             continue;
         }
         const std::uint32_t frame = history.samples[i].frame;
@@ -86,7 +95,7 @@ void splitOnGround(const DropletHistory& history, std::size_t first, std::size_t
     }
 }
 
-void split(const DropletHistory& history, Spans& spans)
+void split(const DropletHistory& history, bool deforms, Spans& spans)
 {
     const std::vector<DropletSample>& samples = history.samples;
     for (std::size_t first = 0; first < samples.size();) {
@@ -98,17 +107,17 @@ void split(const DropletHistory& history, Spans& spans)
         if (samples[first].pose.airborne) {
             spans.falls.push_back({&history, samples[first].frame, end});
         } else {
-            splitOnGround(history, first, last, end, spans);
+            splitOnGround(history, {first, last, end, deforms}, spans);
         }
         first = last;
     }
 }
 
-Spans spansOf(const DropletHistories& histories)
+Spans spansOf(const DropletHistories& histories, bool deforms)
 {
     Spans spans;
     for (const DropletHistory* history : histories.all()) {
-        split(*history, spans);
+        split(*history, deforms, spans);
     }
     for (std::vector<Span>* all : {&spans.rests, &spans.runs, &spans.falls}) {
         std::stable_sort(all->begin(), all->end(), [](const Span& a, const Span& b) { return a.begin < b.begin; });
@@ -373,7 +382,7 @@ public:
     CrowdBuilder(const DropletHistories& histories, const CrowdOptions& options, Scene& scene)
         : frames_(histories.frames()), options_(options), scene_(scene)
     {
-        const Spans spans = spansOf(histories);
+        const Spans spans = spansOf(histories, options.deforms);
         scene.animation = options.animation;
         material_ = scene.addMaterial(liquidMaterial(lookOf(options.material), meanRadius(spans)));
         const bool moves = !options.poses.empty();
@@ -385,7 +394,9 @@ public:
             scene.corners.push_back(scene.addNode(std::move(node), moves ? std::nullopt : std::optional(root_)));
         }
         moveGround();
-        if (!spans.rests.empty()) {
+        if (!spans.rests.empty() && options.deforms) {
+            addRuns(spans.rests, options.resting, "droplets at rest", true);
+        } else if (!spans.rests.empty()) {
             addRests(spans.rests);
         }
         if (!spans.runs.empty()) {
@@ -658,6 +669,9 @@ private:
                 DropletPose pose = partOf(piece.changes, frame, frame + 1).front().pose;
                 const Vec3 place = partOf(piece.path, frame, frame).front().place;
                 pose.place = {toFloat(place.x), toFloat(place.y), toFloat(place.z)};
+                const DropletPose& real = piece.span.history->at(frame);
+                pose.face = real.face;
+                pose.shape = real.shape;
                 shown.push_back({frame, pose});
             }
             return shown;

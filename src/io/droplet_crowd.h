@@ -46,6 +46,7 @@ struct CrowdOptions {
     double time_tolerance = 5e-3;   ///< additional, of a run along its path [s]
     std::size_t ground = 0;         ///< node that the droplets run over, a root
     std::vector<CrowdPose> poses;   ///< of it, in all frames; empty if it rests
+    bool deforms = false;           ///< it deforms, so that droplets at rest on it move
     std::array<Vec3, 2> corners;    ///< of a box that holds all droplets at all times, z up
     std::string corner;             ///< name of the nodes of these corners
     DropletMesh resting;            ///< droplets at rest, which are scaled alike in all directions

@@ -27,8 +27,10 @@ struct DropletPose {
     float along = 0.0F;                                 ///< scale along the motion
     float across = 0.0F;                                ///< scale across the motion
     float up = 0.0F;                                    ///< scale of the height
-    bool moves = false;
+    bool moves = false;                                 ///< over the ground
     bool airborne = false;
+    std::uint32_t face = 0;   ///< of ground that deforms
+    std::uint32_t shape = 0;  ///< of this ground
 
     friend bool operator==(const DropletPose&, const DropletPose&) = default;
 

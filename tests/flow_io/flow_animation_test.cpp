@@ -15,7 +15,10 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/flow/flow_shapes.h"
 #include "droplet/flow_io/droplet_surfaces.h"
+#include "droplet/flow_io/flow_object.h"
+#include "droplet/units.h"
 #include "flow_io/unit_bodies.h"
 #include "support/animated_scene.h"
 #include "support/command.h"
@@ -437,6 +440,72 @@ TEST(FlowAnimation, RejectsAnimationsWithoutFrames)
     EXPECT_THROW(FlowAnimation(sphere(0.05), terrain, bodies(), {.frames_per_second = 0.0}), Error);
     std::ostringstream out;
     EXPECT_THROW(FlowAnimation(sphere(0.05), terrain, bodies()).write(out), Error);
+}
+
+// A ball that bends, stretches and shakes, with droplets that stay where they are on it.
+TEST(FlowAnimation, AnObjectThatDeformsCarriesItsDroplets)
+{
+    const FlowObject object = sphere(0.05);
+    constexpr int kFrames = 24;
+    std::vector<std::vector<Vec3>> vertices;
+    for (int k = 0; k < kFrames; ++k) {
+        const double time = k / kRate;
+        std::vector<Vec3>& shape = vertices.emplace_back();
+        for (const Vec3& p : object.vertices) {
+            const double twist = 8.0 * time * p.z;
+            const double c = std::cos(twist);
+            const double s = std::sin(twist);
+            shape.push_back({c * p.x - s * p.y + 0.03 * std::sin(9.0 * time), s * p.x + c * p.y,
+                             (1.0 + 0.2 * std::sin(5.0 * time)) * p.z});
+        }
+    }
+    FlowShapes shapes(flowSurface(object.vertices, object.triangles), object.triangles, vertices, kRate);
+    FlowParameters parameters;
+    parameters.forces.wetting.hysteresis = 1.9;
+    std::vector<FlowStart> starts;
+    for (int k = 0; k < 25; ++k) {
+        const double tilt = 0.3 + 0.04 * k;
+        const double turn = 2.4 * k;
+        const Vec3 up{std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
+        starts.push_back({shapes.first().nearest(0.05 * up).place, 1e-9 * (2 + k % 5), {}});
+    }
+    FlowState state = startFlow(shapes.first(), parameters, starts);
+    FlowAnimation animation(object, shapes, bodies(), {});
+    std::vector<std::vector<FlowSample>> frames;
+    for (int k = 0; k < kFrames; ++k) {
+        state = advanceFlow(std::move(state), shapes, parameters, k / kRate);
+        frames.push_back(sampleFlow(state, shapes, parameters));
+        animation.add(k / kRate, frames.back(), shapes.of(state, parameters.step));
+    }
+    std::ostringstream out;
+    animation.write(out);
+    const testing::ScratchDirectory scratch;
+    testing::writeFile(scratch.path() / "a.glb", out.str());
+    const DeformingObject back = readAnimatedObject(scratch.path() / "a.glb", {kRate, kFrames});
+    ASSERT_EQ(back.vertices.size(), static_cast<std::size_t>(kFrames));
+    for (int k = 0; k < kFrames; ++k) {
+        double farthest = 0.0;
+        for (std::size_t v = 0; v < object.vertices.size(); ++v) {
+            farthest = std::max(farthest, length(back.vertices[k][v] - vertices[k][v]));
+        }
+        EXPECT_LT(farthest, 5.1e-5 * length(sizeOf(object))) << k;
+    }
+    const AnimatedScene scene(out.str());
+    EXPECT_LT(scene.model().at("meshes").at(0).at("primitives").at(0).at("targets").size(), 12U);
+    for (int k = 0; k < kFrames; ++k) {
+        const std::vector<Shown> shown = scene.at((k + 1e-3) / kRate);
+        EXPECT_EQ(shown.size(), frames[k].size()) << k;
+        for (const FlowSample& sample : frames[k]) {
+            ASSERT_NE(sample.contact, FlowContact::Air);
+            const Vec3 place = inFile(sample.place);
+            const auto nearest = std::min_element(shown.begin(), shown.end(), [&](const Shown& a, const Shown& b) {
+                return length(a.place - place) < length(b.place - place);
+            });
+            EXPECT_EQ(nearest->mesh, "droplets at rest");
+            EXPECT_LT(length(nearest->place - place), 0.11 * nearest->scale.z) << k;
+            EXPECT_GT(dot(nearest->y, inFile(sample.normal)), std::cos(2.0 * kDegree)) << k;
+        }
+    }
 }
 
 }  // namespace

@@ -43,6 +43,10 @@ public:
     /// A shape.
     /// @param shape  < count()
     [[nodiscard]] std::shared_ptr<const FlowTerrain> at(std::size_t shape);
+    /// A face in a shape. Many threads may call it at once.
+    /// @param shape  < count()
+    /// @param face   number in FlowSurface::faces
+    [[nodiscard]] FlowSurface::Face faceAt(std::size_t shape, std::uint32_t face) const;
     /// Vertices of the mesh in a shape, if it deforms [m].
     /// @param shape  < count()
     [[nodiscard]] const std::vector<Vec3>& vertices(std::size_t shape) const { return vertices_[shape]; }
