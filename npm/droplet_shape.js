@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads the solver, and calls it.
+import { DropletError } from './droplet_error.js';
 import { pageSystem } from './page_system.js';
 import { pngOf } from './png.js';
 
@@ -7,14 +8,7 @@ import { pngOf } from './png.js';
 const kMask = { png: 0, bytes: 1, words: 2 };
 const kArray = { positions: 0, normals: 1, uvs: 2, contactAngles: 3, triangles: 4, report: 5, file: 6, message: 7, code: 8 };
 
-/** Why there is no droplet. `code` is InvalidArgument, InvalidInput, NoSuchDroplet, OutOfMemory or Internal. */
-export class DropletError extends Error {
-    constructor(code, message) {
-        super(message);
-        this.name = 'DropletError';
-        this.code = code;
-    }
-}
+export { DropletError };
 
 const camelCase = (name) => name.replace(/-(\w)/g, (_, letter) => letter.toUpperCase());
 /** Name of an option on the command line. */

@@ -293,7 +293,12 @@ void run(const Arguments& arguments, GLFWwindow* window)
     glUseProgram(rain);
     glUniform1i(glGetUniformLocation(rain, "water"), 0);
     glUniform1i(glGetUniformLocation(rain, "outside"), 1);
+    glUniform1i(glGetUniformLocation(rain, "dry"), 1);
+    glUniform1i(glGetUniformLocation(rain, "mist"), 2);
+    glUniform2f(glGetUniformLocation(rain, "mist_edge"), 1.0F, 1.0F);
+    glUniform2f(glGetUniformLocation(rain, "wide"), tangent, tangent * kHeight / kWidth);
     glUniform1f(glGetUniformLocation(rain, "blur"), 0.0F);
+    glUniform1f(glGetUniformLocation(rain, "border"), 0.0F);
     glUniform2f(glGetUniformLocation(rain, "glass"), static_cast<float>(glass.width()),
                 static_cast<float>(glass.height()));
     glUniform3f(glGetUniformLocation(rain, "cabin"), 0.01F, 0.01F, 0.012F);
@@ -302,6 +307,9 @@ void run(const Arguments& arguments, GLFWwindow* window)
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, maps.width(), maps.height(), 0, GL_RGBA, GL_HALF_FLOAT, pixels.data());
     texture(GL_TEXTURE1, GL_LINEAR_MIPMAP_LINEAR);
     setOutside(behind);
+    texture(GL_TEXTURE2, GL_LINEAR);
+    constexpr std::array<std::uint8_t, 4> kNoMist{};
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, 1, 1, 0, GL_RED, GL_UNSIGNED_BYTE, kNoMist.data());
     Mesh pane;
     addGlass(pane, glass);
     glEnable(GL_FRAMEBUFFER_SRGB);

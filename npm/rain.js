@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loads the rain, and calls it: the C interface of include/droplet/c/droplet.h.
+import { DropletError } from './droplet_error.js';
+import { instantiate } from './droplet_shape.js';
+import { pageSystem } from './page_system.js';
+
+const kCodes = [undefined, 'Internal', 'InvalidArgument', 'InvalidInput', 'OutputFailed', 'NoSuchDroplet', 'OutOfMemory'];
+/** Parameters, as droplet_windshield_set() has them; those of the glass come first, before others depend on it. */
+const kParameters = ['glass-width', 'glass-height', 'glass-radius', 'slope', 'seed', 'speed', 'rain', 'noise', 'wiper-period', 'gravity',
+    'contact-angle', 'hysteresis', 'kinetic-fraction', 'viscosity-factor', 'film', 'still-diameter', 'mist'];
+const camelCase = (name) => name.replace(/-(\w)/g, (_, letter) => letter.toUpperCase());
+const kNames = new Map(kParameters.map((name) => [camelCase(name), name]));
+/** Bytes of the largest structure of the interface, DropletPlace. */
+const kRoom = 96;
+const kMaxBlades = 8;
+
+/** Decodes IEEE 754 binary16, for programs that read pixels; textures take them as they are. */
+export function halfFloat(bits) {
+    const sign = bits & 0x8000 ? -1 : 1;
+    const exponent = bits >> 10 & 31;
+    const fraction = bits & 1023;
+    return sign * (exponent === 0 ? fraction * 2 ** -24 : exponent === 31 ? (fraction ? NaN : Infinity) : (1024 + fraction) * 2 ** (exponent - 25));
+}
+
+/**
+ * Loads the module.
+ * @param wasm  bytes of droplet_rain.wasm, or the compiled module
+ * @return      function that makes a windshield: see windshield() in windshield.js
+ */
+export async function loadRain(wasm) {
+    const rain = await instantiate(wasm, (memory) => pageSystem(memory, new Map()));
+    const view = () => new DataView(rain.memory.buffer);
+    const textAt = (place) => {
+        const bytes = new Uint8Array(rain.memory.buffer, place);
+        return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
+    };
+    const allocated = (bytes) => rain.malloc(bytes) || (() => {
+        throw new DropletError('OutOfMemory', 'out of memory; use smaller maps');
+    })();
+    const check = (code) => {
+        if (code !== 0) {
+            throw new DropletError(kCodes[code] ?? 'Internal', textAt(rain.droplet_message()));
+        }
+    };
+    /** Calls with a text that ends with 0; an empty place for none. */
+    const withText = (text, call) => {
+        if (text === undefined) {
+            return call(0);
+        }
+        const bytes = new TextEncoder().encode(`${text}\0`);
+        const place = allocated(bytes.length);
+        new Uint8Array(rain.memory.buffer, place, bytes.length).set(bytes);
+        try {
+            return call(place);
+        } finally {
+            rain.free(place);
+        }
+    };
+    const room = allocated(Math.max(kRoom, 32 * kMaxBlades));
+    const numbers = (count, from = room) => Array.from({ length: count }, (_, k) => view().getFloat64(from + 8 * k, true));
+    const count64 = (place) => Number(view().getBigUint64(place, true));
+    const putNumbers = (values) => values.forEach((value, k) => view().setFloat64(room + 8 * k, value, true));
+
+    /** What windshield.d.ts says. */
+    class Windshield {
+        #it;
+        #map;
+
+        constructor({ preset, mapWidth = 1024, ...values } = {}) {
+            this.#it = withText(preset, (name) => {
+                check(rain.droplet_windshield_new(name, room));
+                return view().getUint32(room, true);
+            });
+            try {
+                this.set(values);
+                this.mapWidth = mapWidth;
+            } catch (error) {
+                this.free();
+                throw error;
+            }
+        }
+
+        set(values) {
+            for (const name of Object.keys(values)) {
+                if (!kNames.has(name)) {
+                    throw new DropletError('InvalidArgument', `${name}: unknown parameter; known are preset, mapWidth, ${[...kNames.keys()].join(', ')}`);
+                }
+            }
+            for (const [name, dashed] of kNames) {
+                const value = values[name];
+                if (value === undefined) {
+                    continue;
+                }
+                if (typeof value !== 'number') {
+                    throw new DropletError('InvalidArgument', `${name}: ${JSON.stringify(value)} must be a number`);
+                }
+                withText(dashed, (place) => check(rain.droplet_windshield_set(this.#kept(), place, value)));
+            }
+        }
+
+        get(name) {
+            return withText(kNames.get(name) ?? name, (place) => {
+                check(rain.droplet_windshield_get(this.#kept(), place, room));
+                return numbers(1)[0];
+            });
+        }
+
+        advance(seconds) {
+            check(rain.droplet_windshield_advance(this.#kept(), seconds));
+        }
+
+        spray({ x, y, radius = 0.05, volume = 1e-6 }) {
+            putNumbers([x, y, radius, volume]);
+            check(rain.droplet_windshield_spray(this.#kept(), room));
+        }
+
+        finger({ from, to, width = 14e-3 }) {
+            putNumbers([from.x, from.y, to.x, to.y, width]);
+            check(rain.droplet_windshield_finger(this.#kept(), room));
+        }
+
+        figures() {
+            check(rain.droplet_windshield_figures(this.#kept(), room));
+            const [time, speed, width, height, water, balanceError] = numbers(6);
+            const [running, still, raindrops] = [48, 56, 64].map((at) => count64(room + at));
+            return { time, speed, width, height, water, balanceError, running, still, raindrops };
+        }
+
+        running() {
+            const kBytes = 56;
+            const count = rain.droplet_windshield_running(this.#kept(), 0, 0);
+            const list = allocated(Math.max(kBytes * count, 1));
+            rain.droplet_windshield_running(this.#it, list, count);
+            const droplets = Array.from({ length: count }, (_, k) => {
+                const [x, y, vx, vy, volume, radius] = numbers(6, list + kBytes * k + 8);
+                return { id: count64(list + kBytes * k), x, y, vx, vy, volume, radius };
+            });
+            rain.free(list);
+            return droplets;
+        }
+
+        place(x, y) {
+            check(rain.droplet_windshield_place(this.#kept(), x, y, room));
+            const all = numbers(12);
+            return { point: all.slice(0, 3), normal: all.slice(3, 6), across: all.slice(6, 9), up: all.slice(9) };
+        }
+
+        blades() {
+            const count = Math.min(rain.droplet_windshield_blades(this.#kept(), room, kMaxBlades), kMaxBlades);
+            return Array.from({ length: count }, (_, k) => {
+                const [innerX, innerY, outerX, outerY] = numbers(4, room + 32 * k);
+                return { inner: { x: innerX, y: innerY }, outer: { x: outerX, y: outerY } };
+            });
+        }
+
+        /** Width of the maps [px]; after another width all is drawn anew. */
+        get mapWidth() {
+            return this.#map.width;
+        }
+
+        set mapWidth(width) {
+            check(rain.droplet_windshield_map_height(this.#kept(), width, room));
+            const height = view().getInt32(room, true);
+            rain.free(this.#map?.pixels ?? 0);
+            this.#map = undefined;
+            this.#map = { width, height, pixels: allocated(8 * width * height) };
+        }
+
+        get mapHeight() {
+            return this.#map.height;
+        }
+
+        draw() {
+            const { width, height, pixels } = this.#map;
+            check(rain.droplet_windshield_draw(this.#kept(), width, pixels, room));
+            const [list, count] = [0, 4].map((at) => view().getUint32(room + at, true));
+            const all = new Int32Array(rain.memory.buffer, list, 4 * count);
+            const tiles = Array.from({ length: count }, (_, k) =>
+                ({ x: all[4 * k], y: all[4 * k + 1], width: all[4 * k + 2], height: all[4 * k + 3] }));
+            return { width, height, tiles, pixels: new Uint16Array(rain.memory.buffer, pixels, 4 * width * height) };
+        }
+
+        mist() {
+            check(rain.droplet_windshield_mist(this.#kept(), room));
+            const pixels = view().getUint32(room, true);
+            const [width, height] = [4, 8].map((at) => view().getInt32(room + at, true));
+            const [right, top] = numbers(2, room + 16);
+            return { width, height, right, top, pixels: new Uint8Array(rain.memory.buffer, pixels, width * height) };
+        }
+
+        /** Gives its memory back at once. */
+        free() {
+            rain.droplet_windshield_delete(this.#it ?? 0);
+            rain.free(this.#map?.pixels ?? 0);
+            this.#it = this.#map = undefined;
+        }
+
+        #kept() {
+            if (!this.#it) {
+                throw new DropletError('InvalidArgument', 'the windshield was freed');
+            }
+            return this.#it;
+        }
+    }
+
+    return (values) => new Windshield(values);
+}

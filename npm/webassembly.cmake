@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What all modules have in common; `root` is the folder of the project.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+# Exceptions and vectors of WebAssembly itself: every browser has had them since 2023. Exceptions by JavaScript cost much
+# time.
+add_compile_options(-fwasm-exceptions -sSUPPORT_LONGJMP=wasm -msimd128 -O3 -ffp-contract=off)
+
+# Headers of libraries that are headers alone, without the system's C library beside them.
+set(headers ${PROJECT_BINARY_DIR}/headers)
+file(MAKE_DIRECTORY ${headers})
+function(link_headers)
+  foreach(library ${ARGN})
+    find_path(folder_of_${library} ${library} PATHS /usr/include /usr/include/eigen3 NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+    file(CREATE_LINK ${folder_of_${library}}/${library} ${headers}/${library} SYMBOLIC)
+  endforeach()
+endfunction()

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Water on a windshield, as the driver sees it: a fragment shader for OpenGL 3.3 and WebGL 2 alike. The program puts
+// "#version 330 core", or "#version 300 es" and "precision highp float;", before it. It gives light, not levels.
+//
+// Rays of the eye pass the pane, which does not turn them, and the water on it, and are refracted where they leave it
+// (Snell, Fresnel), as DriversView of the library has it. What lies behind is infinitely far away. Bare glass shows a
+// picture that fills the frame, sharp or out of focus. Droplets show another one, which may reach farther: a picture,
+// which is mirrored at its edges, or a panorama. Mist scatters the light of bare glass.
+
+uniform sampler2D water;    // WindshieldMaps: normal x and y times wetness, thickness in mm, wetness; upper edge first
+uniform sampler2D outside;  // what droplets show, sharp, with mipmaps
+uniform sampler2D dry;      // what bare glass shows in the frame, with mipmaps
+uniform sampler2D mist;     // red: how dense it is, 0 to 1; upper edge first
+uniform vec2 mist_edge;     // where its right and upper edges are, over the glass's width and height
+uniform vec2 glass;         // width and height of the glass [m]
+uniform vec3 eye;           // in the vehicle's frame: x right, y ahead, z up [m]
+uniform vec2 tangent;       // of half the angle of the frame, across and up
+uniform vec2 wide;          // the same of `outside`; 0: it is a panorama, its middle straight ahead
+uniform float blur;         // of bare glass, as a mipmap level of `dry`
+uniform vec3 cabin;         // light that total reflection shows
+uniform float border;       // width of the black border of the glass [m]; 0: none
+
+in vec3 place;   // on the glass, in the vehicle's frame [m]
+in vec3 normal;  // outward
+in vec3 across;  // unit tangents along the map's x, and up the glass
+in vec3 up;
+in vec2 uv;  // in the map, from the upper left
+
+out vec4 colour;
+
+const float kIor = 1.333;                    // of water
+const vec3 kPane = vec3(0.97, 0.985, 0.98);  // what the glass lets pass
+const float kPi = 3.14159265;
+
+// Where the frame shows a direction.
+vec2 frameOf(vec3 direction)
+{
+    vec2 s = direction.xz / (max(direction.y, 1e-4) * tangent);
+    return vec2(0.5 + 0.5 * s.x, 0.5 - 0.5 * s.y);
+}
+
+// Where `outside` shows a direction. A picture is mirrored at its edges, its middle again at a right angle.
+vec2 outsideOf(vec3 direction)
+{
+    if (wide.x == 0.0) {
+        return vec2(0.5 + atan(direction.x, direction.y) / (2.0 * kPi), acos(clamp(direction.z, -1.0, 1.0)) / kPi);
+    }
+    vec2 s = direction.xz / (max(abs(direction.y), 1e-4) * wide);
+    vec2 inside = mix(s, sign(s) / max(abs(s), 1e-4), step(1.0, abs(s)));
+    return vec2(0.5 + 0.5 * inside.x, 0.5 - 0.5 * inside.y);
+}
+
+// Pixels of `outside` for a change of direction straight ahead.
+vec2 scaleOfOutside()
+{
+    vec2 size = vec2(textureSize(outside, 0));
+    return wide.x == 0.0 ? size / vec2(2.0 * kPi, kPi) : size / (2.0 * wide);
+}
+
+// A mipmap level of `dry` between its pixels by cubic splines: four places that the texture unit interpolates.
+vec3 smoothDry(vec2 at, float level)
+{
+    vec2 size = max(vec2(textureSize(dry, 0)) * exp2(-level), 1.0);
+    vec2 p = at * size - 0.5;
+    vec2 f = fract(p);
+    vec2 f2 = f * f;
+    vec2 f3 = f2 * f;
+    vec2 w0 = (1.0 - 3.0 * f + 3.0 * f2 - f3) / 6.0;
+    vec2 w1 = (4.0 - 6.0 * f2 + 3.0 * f3) / 6.0;
+    vec2 w3 = f3 / 6.0;
+    vec2 w2 = 1.0 - w0 - w1 - w3;
+    vec2 low = w0 + w1;
+    vec2 a = (p - f - 0.5 + w1 / low) / size;
+    vec2 b = (p - f + 1.5 + w3 / (1.0 - low)) / size;
+    return mix(mix(textureLod(dry, b, level).rgb, textureLod(dry, vec2(a.x, b.y), level).rgb, low.x),
+               mix(textureLod(dry, vec2(b.x, a.y), level).rgb, textureLod(dry, a, level).rgb, low.x), low.y);
+}
+
+// A number from 0 to 1 for every place of a grid.
+float hashed(vec2 cell)
+{
+    vec3 p = fract(vec3(cell.xyx) * 0.1031);
+    p += dot(p, p.yzx + 33.33);
+    return fract((p.x + p.y) * p.z);
+}
+
+// Grain of the mist, whose droplets differ from place to place: 0 to 1, smooth over half a millimetre and coarser.
+float grain(vec2 position)
+{
+    float sum = 0.0;
+    float part = 0.5;
+    vec2 p = position / 6e-4;
+    for (int k = 0; k < 3; ++k) {
+        vec2 cell = floor(p);
+        vec2 f = smoothstep(0.0, 1.0, p - cell);
+        sum += part * mix(mix(hashed(cell), hashed(cell + vec2(1.0, 0.0)), f.x),
+                          mix(hashed(cell + vec2(0.0, 1.0)), hashed(cell + 1.0), f.x), f.y);
+        part *= 0.6;
+        p /= 3.7;
+    }
+    return sum;
+}
+
+// Light of the glass beside the droplets.
+vec3 bareLight(vec2 at)
+{
+    vec3 clear = textureLod(dry, at, blur).rgb;
+    float dense = texture(mist, vec2(uv.x / mist_edge.x, 1.0 - (1.0 - uv.y) / mist_edge.y)).r;
+    if (dense <= 0.0) {
+        return clear;
+    }
+    // Thin mist is patchy; dense mist is even. Most light goes nearly straight on: a glow around lamps, and a veil of all
+    // that is bright.
+    float share = smoothstep(0.0, 1.0, clamp(dense * (1.0 + 0.9 * (grain(uv * glass) - 0.5) * (1.2 - dense)), 0.0, 1.0));
+    float level = log2(float(textureSize(dry, 0).x)) - 4.0;
+    vec3 glow = 0.34 * smoothDry(at, level - 2.2) + 0.36 * smoothDry(at, level - 0.6) + 0.30 * smoothDry(at, level + 1.2);
+    vec3 veil = smoothDry(at, level + 3.0);
+    return mix(clear, 0.86 * glow + 0.16 * veil + 0.05 * dot(veil, vec3(0.3, 0.6, 0.1)), 0.96 * share);
+}
+
+void main()
+{
+    vec4 wet = texture(water, uv);
+    // The outline of a droplet is sharp, however coarse the map: of several ramps, this is nearest to the ray-traced view.
+    float cover = smoothstep(0.2, 0.7, wet.a);
+    vec3 n = normalize(normal);
+    vec3 ray = normalize(place - eye);
+    vec3 local = vec3(dot(ray, across), dot(ray, up), dot(ray, n));
+    vec3 inside = vec3(local.xy / kIor, 0.0);
+    inside.z = sqrt(1.0 - dot(inside.xy, inside.xy));
+    // The ray leaves the water beside the place where it enters it, the farther the thicker the water is.
+    vec2 aside = inside.xy / inside.z * vec2(1e-3, -1e-3) / glass;
+    vec4 leaves = wet;
+    for (int k = 0; k < 4; ++k) {
+        leaves = texture(water, uv + aside * leaves.b / max(leaves.a, 0.1));
+    }
+    vec2 slope = leaves.xy / max(leaves.a, 1e-3);
+    vec3 facing = vec3(slope, sqrt(max(1.0 - dot(slope, slope), 0.0)));
+
+    // Unpolarised light that goes from water to air.
+    float c = dot(inside, facing);
+    float sine2 = kIor * kIor * (1.0 - c * c);
+    float passes = 0.0;
+    vec3 leaving = local;
+    if (c > 0.0 && sine2 < 1.0) {
+        float k = sqrt(1.0 - sine2);
+        float across_plane = (kIor * c - k) / (kIor * c + k);
+        float in_plane = (c - kIor * k) / (c + kIor * k);
+        passes = 1.0 - 0.5 * (across_plane * across_plane + in_plane * in_plane);
+        leaving = kIor * inside + (k - kIor * c) * facing;
+    }
+    vec3 direction = leaving.x * across + leaving.y * up + leaving.z * n;
+    // What a droplet shows is small: the level follows from how far neighbours look apart.
+    vec2 pixels = scaleOfOutside();
+    float apart = max(length(dFdx(direction.xz) * pixels), length(dFdy(direction.xz) * pixels));
+    vec3 seen = mix(cabin, textureLod(outside, outsideOf(direction), clamp(log2(max(apart, 1.0)), 0.0, 7.0)).rgb, passes);
+    vec3 light = mix(bareLight(frameOf(ray)), seen, cover) * kPane;
+    // The border is printed in black, and ends in dots.
+    vec2 from_edge = min(uv, 1.0 - uv) * glass;
+    float inward = min(from_edge.x, from_edge.y);
+    if (inward < 1.6 * border) {
+        vec2 dot_place = fract(uv * glass / 4e-3) - 0.5;
+        float size = 0.62 * (1.6 - inward / border) / 0.6;
+        float printed = inward < border ? 1.0 : 1.0 - smoothstep(size - 0.12, size + 0.12, length(dot_place));
+        light = mix(light, vec3(0.004), printed);
+    }
+    colour = vec4(light, 1.0);
+}

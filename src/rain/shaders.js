@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// Shaders of the page beside rain.glsl, for WebGL 2. All have light, not levels, until the last.
+
+const kHead = '#version 300 es\nprecision highp float;\nprecision highp int;\n';
+
+/** The film: light to levels, and levels to light, before the curve of sRGB. */
+const kFilm = `
+const float kFilm = 1.15;
+vec3 developed(vec3 light) { return 1.0 - exp(-kFilm * light); }
+vec3 lightOf(vec3 level) { return -log(1.0 - min(level, vec3(0.985))) / kFilm; }
+vec3 encoded(vec3 x) { return mix(12.92 * x, 1.055 * pow(max(x, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, x)); }
+`;
+
+/** A triangle that covers everything; at is from the lower left, 0 to 1. */
+export const kWhole = `${kHead}out vec2 at;
+void main() {
+    at = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0;
+    gl_Position = vec4(2.0 * at - 1.0, 0.0, 1.0);
+}`;
+
+/** The glass: as in examples/simulator. */
+export const kGlass = `${kHead}uniform vec3 eye;
+uniform vec2 tangent;
+layout(location = 0) in vec3 at;
+layout(location = 1) in vec3 facing;
+layout(location = 2) in vec3 right;
+layout(location = 3) in vec3 upward;
+layout(location = 4) in vec2 map;
+out vec3 place, normal, across, up;
+out vec2 uv;
+void main() {
+    place = at; normal = facing; across = right; up = upward; uv = map;
+    vec3 from = at - eye;
+    gl_Position = vec4(from.xz / tangent, 0.0, from.y);
+}`;
+
+export const rainShader = (source) => kHead + source;
+
+/** Dark parts of the car: wipers and the dashboard. side is 0 in the middle of a part and 1 at its edges. */
+export const kPart = `${kHead}uniform vec3 eye;
+uniform vec2 tangent;
+layout(location = 0) in vec3 at;
+layout(location = 1) in vec2 along;
+layout(location = 2) in vec4 paint;
+out vec2 side;
+out vec4 tint;
+void main() {
+    side = along; tint = paint;
+    vec3 from = at - eye;
+    gl_Position = vec4(from.xz / tangent, 0.0, from.y);
+}`;
+
+export const kPaint = `${kHead}in vec2 side;
+in vec4 tint;
+out vec4 colour;
+void main() {
+    vec2 soft = max(fwidth(side), vec2(0.02));
+    vec2 share = 1.0 - smoothstep(1.0 - soft, vec2(1.0), abs(side));
+    float shine = tint.a > 1.0 ? 0.0 : exp(-18.0 * (side.x + 0.45) * (side.x + 0.45));
+    colour = vec4(tint.rgb * (1.0 + 2.5 * shine), share.x * share.y * min(tint.a, 1.0));
+}`;
+
+/** The street without its lights: sky, hills, wet road and its lines. */
+export const kScenery = `${kHead}in vec2 at;
+uniform vec2 wide;
+uniform float spread;
+uniform float travelled;
+out vec4 colour;
+const float kEye = 1.2, kLane = 3.5;
+float depthOf(float up) { return min(kEye / max(-up, 1e-4), 420.0); }
+vec3 sky(vec2 p) {
+    float up = max(p.y, 0.0);
+    vec3 c = mix(mix(vec3(0.20, 0.115, 0.085), vec3(0.050, 0.062, 0.105), smoothstep(0.0, 0.14, up)), vec3(0.012, 0.020, 0.045), smoothstep(0.08, 0.5, up));
+    vec2 g = p - vec2(0.06, 0.012);
+    c += exp(-(g.x * g.x / 0.05 + g.y * g.y / 0.006)) * vec3(0.34, 0.19, 0.10);
+    float bands = 0.5 + 0.5 * sin(31.0 * up + 3.0 * sin(3.0 * p.x + 7.0 * up));
+    return c + 0.022 * bands * smoothstep(0.02, 0.1, up) * vec3(1.0, 0.74, 0.66);
+}
+float line(vec2 p, float across) {
+    float depth = depthOf(p.y), slope = across / kEye, square = inversesqrt(1.0 + slope * slope);
+    float away = square * abs(p.x + slope * p.y), half_width = 0.075 * square / depth;
+    float a = smoothstep(-spread, spread, half_width + away), b = smoothstep(-spread, spread, half_width - away);
+    return (a + b - 1.0) * (1.0 - smoothstep(60.0, 160.0, depth));
+}
+float dashes(float depth) {
+    float soft = 0.3 + spread * depth * depth / kEye, way = mod(depth + travelled, 18.0);
+    float d = abs(way - 9.0) - 3.0;
+    return mix(1.0 - smoothstep(-soft, soft, d), 0.333, smoothstep(3.0, 9.0, soft));
+}
+float skyline(float x) {
+    float roofs = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        float size = 0.11 / (1.0 + float(k)), cell = floor(x / size + 0.37 * float(k));
+        float h = fract(sin(cell * 91.7 + float(k) * 17.0) * 4375.5);
+        roofs = max(roofs, (0.05 + 0.16 * h) * smoothstep(0.06, 0.30 + 0.1 * float(k), abs(x + 0.02)) / (1.0 + 0.5 * float(k)));
+    }
+    return 0.012 + 0.006 * sin(13.7 * x + 2.0) + roofs * (0.7 + 1.3 * smoothstep(0.2, 1.2, abs(x)));
+}
+void main() {
+    vec2 p = (2.0 * at - 1.0) * wide;
+    float depth = depthOf(p.y), down = max(-p.y, 1e-4), across = p.x * depth, edge = (spread + 0.02) * depth;
+    vec3 verge = mix(vec3(0.030, 0.026, 0.028), vec3(0.006, 0.008, 0.009), 1.0 - exp(-down / 0.05));
+    vec3 road = vec3(0.010, 0.011, 0.014) + (0.14 + 0.6 * smoothstep(5.0, 110.0, depth)) * sky(vec2(0.6 * p.x, 0.55 * down));
+    float on_road = smoothstep(-1.5 * kLane - 0.6 - edge, -1.5 * kLane - 0.6 + edge, across) * (1.0 - smoothstep(0.5 * kLane + 0.6 - edge, 0.5 * kLane + 0.6 + edge, across));
+    float painted = max(max(line(p, 0.5 * kLane), line(p, -1.5 * kLane)), dashes(depth) * line(p, -0.5 * kLane));
+    vec3 ground = mix(verge, mix(road, vec3(0.10) + 0.5 * road, painted), on_road);
+    float roof = skyline(p.x);
+    vec3 houses = mix(vec3(0.030, 0.025, 0.027), vec3(0.012, 0.013, 0.017), smoothstep(0.0, 0.2, p.y));
+    vec3 above = mix(houses, sky(p), smoothstep(-0.7 * spread - 0.004, 0.7 * spread + 0.004, p.y - roof));
+    colour = vec4(mix(ground, above, smoothstep(-0.5 * spread - 0.002, 0.5 * spread + 0.002, p.y + 0.002)), 1.0);
+}`;
+
+/** Lights as discs of a lens out of focus, or as small spots. */
+export const kLights = `${kHead}layout(location = 0) in vec2 corner;
+layout(location = 1) in vec4 spot;
+layout(location = 2) in vec4 shine;
+uniform vec2 wide;
+uniform float spread, least;
+out vec2 inside;
+out vec3 light;
+flat out float is_mirrored;
+void main() {
+    float radius = sqrt(spread * spread + spot.z * spot.z);
+    float drawn = max(radius, least);
+    is_mirrored = shine.w;
+    vec2 half_size = shine.w > 0.5 ? vec2(1.7 * drawn, max(2.0 * drawn, spot.w)) : vec2(spread > 0.0 ? 1.04 * drawn : 2.4 * drawn);
+    // A light has the same power in focus and out of it.
+    const float kReference = 0.017;
+    float power = (kReference * kReference + spot.z * spot.z) / (drawn * drawn);
+    light = shine.rgb * min(shine.w > 0.5 ? mix(1.0, sqrt(power), 0.5) : power, 60.0);
+    inside = corner;
+    gl_Position = vec4((spot.xy + corner * half_size) / wide, 0.0, 1.0);
+}`;
+
+export const kShine = `${kHead}in vec2 inside;
+in vec3 light;
+flat in float is_mirrored;
+uniform float spread;
+out vec4 colour;
+void main() {
+    float d = length(inside);
+    float share = exp(-3.2 * d * d) * (1.0 - smoothstep(0.9, 1.0, d));
+    if (is_mirrored < 0.5 && spread > 0.0) {
+        float soft = max(2.0 * fwidth(d), 0.07);
+        share = (1.0 - smoothstep(1.0 - soft, 1.0, d)) * (0.80 + 0.12 * d * d + 0.22 * smoothstep(0.72, 0.95, d));
+    }
+    colour = vec4(light * share, 0.0);
+}`;
+
+/** A picture or panorama as light. \`crop\` is the part of it that is shown: left, top, width, height. */
+export const kDevelop = `${kHead}${kFilm}in vec2 at;
+uniform sampler2D picture;
+uniform vec4 crop;
+out vec4 colour;
+void main() { colour = vec4(lightOf(texture(picture, crop.xy + crop.zw * at).rgb), 1.0); }`;
+
+/** The frame's part of a panorama. */
+export const kAhead = `${kHead}in vec2 at;
+uniform sampler2D panorama;
+uniform vec2 tangent;
+out vec4 colour;
+void main() {
+    vec3 d = normalize(vec3((2.0 * at.x - 1.0) * tangent.x, 1.0, (2.0 * at.y - 1.0) * tangent.y));
+    colour = vec4(textureLod(panorama, vec2(0.5 + atan(d.x, d.y) / 6.2831853, acos(d.z) / 3.14159265), 0.0).rgb, 1.0);
+}`;
+
+/** A lens out of focus: the mean over a disc. Textures have their upper edge first. */
+export const kDefocus = `${kHead}in vec2 at;
+uniform sampler2D sharp;
+uniform vec2 radius;  // of the picture
+out vec4 colour;
+void main() {
+    vec2 p = vec2(at.x, at.y);
+    vec2 size = vec2(textureSize(sharp, 0));
+    float level = max(log2(radius.x * size.x / 5.0), 0.0);
+    vec3 sum = textureLod(sharp, p, level).rgb;
+    for (int k = 1; k < 72; ++k) {
+        float r = sqrt(float(k) / 71.5), a = 2.39996 * float(k);
+        sum += textureLod(sharp, p + r * radius * vec2(cos(a), sin(a)), level).rgb;
+    }
+    colour = vec4(sum / 72.0, 1.0);
+}`;
+
+/** Halves a picture, with a soft filter, for the glow. */
+export const kHalve = `${kHead}in vec2 at;
+uniform sampler2D from;
+uniform float most;
+out vec4 colour;
+void main() {
+    vec2 t = 1.0 / vec2(textureSize(from, 0));
+    vec3 sum = 4.0 * min(texture(from, at).rgb, most);
+    for (int k = 0; k < 4; ++k) {
+        sum += min(texture(from, at + t * vec2(k % 2 == 0 ? -1.0 : 1.0, k < 2 ? -1.0 : 1.0)).rgb, most);
+    }
+    colour = vec4(sum / 8.0, 1.0);
+}`;
+
+/** Doubles a picture, and adds a share of it to what is there by blending. */
+export const kDouble = `${kHead}in vec2 at;
+uniform sampler2D from;
+uniform float share;
+out vec4 colour;
+void main() {
+    vec2 t = 1.0 / vec2(textureSize(from, 0));
+    vec3 sum = vec3(0.0);
+    for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+            sum += float((2 - abs(x)) * (2 - abs(y))) * texture(from, at + t * vec2(x, y)).rgb;
+        }
+    }
+    colour = vec4(sum / 16.0, share);
+}`;
+
+/** The film: glow of the lens, its falloff to the corners, grain. */
+export const kDevelopFrame = `${kHead}${kFilm}in vec2 at;
+uniform sampler2D frame;
+uniform sampler2D glow;
+uniform float time, exposure, graininess;
+out vec4 colour;
+float hashed(vec2 p) {
+    vec3 q = fract(vec3(p.xyx) * 0.1031);
+    q += dot(q, q.yzx + 33.33);
+    return fract((q.x + q.y) * q.z);
+}
+void main() {
+    vec3 light = mix(texture(frame, at).rgb, texture(glow, at).rgb, 0.075);
+    vec2 off = at - 0.5;
+    light *= exposure * (1.0 - 0.42 * dot(off, off));
+    vec3 level = encoded(developed(light));
+    float noise = hashed(gl_FragCoord.xy + 61.0 * fract(time)) + hashed(gl_FragCoord.yx + 17.0 + 61.0 * fract(time)) - 1.0;
+    colour = vec4(level + graininess * noise * (1.0 - 0.6 * level), 1.0);
+}`;
