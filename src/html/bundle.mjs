@@ -15,7 +15,7 @@ const style = await bundleStyle([join(sources, 'page.css'), ...wasm ? [join(stud
 const filled = {
     style,
     script,
-    policy: policyOf(script, style, wasm !== undefined),
+    policy: policyOf(script, style, { compiles: wasm !== undefined, works: wasm !== undefined }),
     solver: wasm ? solverElement(wasm) : '',
     three_licence: threeLicence(),
 };

@@ -43,12 +43,20 @@ export async function bundleStyle(files) {
     return (await esbuild.transform(css, { loader: 'css', minify: true, charset: 'ascii', target: ['es2022'] })).code.trim();
 }
 
-/** The solver as an element for unpack.js. */
-export const solverElement = (wasm) =>
-    `<script id="solver" type="text/plain">${deflateRawSync(readFileSync(wasm), { level: 9 }).toString('base64')}</script>\n`;
+/** A module of WebAssembly as an element, for unpack.js. */
+export const moduleElement = (id, wasm) =>
+    `<script id="${id}" type="text/plain">${deflateRawSync(readFileSync(wasm), { level: 9 }).toString('base64')}</script>\n`;
 
-/** A policy that allows only exactly this script and style, the solver in workers if `solves`, and no network requests. */
-export function policyOf(script, style, solves) {
+/** The solver as an element. */
+export const solverElement = (wasm) => moduleElement('solver', wasm);
+
+/**
+ * A policy that allows only exactly this script and style, and no network requests.
+ * @param compiles  whether it has WebAssembly
+ * @param works     whether workers run it
+ * @param plays     whether it plays videos that the user gives
+ */
+export function policyOf(script, style, { compiles = false, works = false, plays = false } = {}) {
     for (const [name, text] of Object.entries({ script, style })) {
         if (/<\/(script|style)|<!--|[^\x09\x0a\x20-\x7e]/i.test(text)) {
             throw new Error(`the ${name} must be ASCII without HTML end tags or comments`);
@@ -57,8 +65,9 @@ export function policyOf(script, style, solves) {
     const hash = (text) => `'sha256-${createHash('sha256').update(text).digest('base64')}'`;
     return [
         "default-src 'none'",
-        `script-src ${hash(script)}${solves ? " 'wasm-unsafe-eval'" : ''}`,
-        ...solves ? ['worker-src blob:'] : [],
+        `script-src ${hash(script)}${compiles ? " 'wasm-unsafe-eval'" : ''}`,
+        ...works ? ['worker-src blob:'] : [],
+        ...plays ? ['media-src blob:'] : [],
         `style-src ${hash(style)}`,
         'img-src data: blob:',
         "base-uri 'none'",

@@ -10,5 +10,5 @@ const [sources, output, wasm] = process.argv.slice(2);
 const script = await bundleScript(join(sources, 'alone.js'), await withWorker(sources));
 const style = await bundleStyle([join(sources, '../html/page.css'), join(sources, 'studio.css'), join(sources, 'dew.css')]);
 writeFileSync(output, fill(readFileSync(join(sources, 'studio.html'), 'utf8'), {
-    script, style, policy: policyOf(script, style, true), solver: wasm ? solverElement(wasm) : '', three_licence: threeLicence(),
+    script, style, policy: policyOf(script, style, { compiles: true, works: true }), solver: wasm ? solverElement(wasm) : '', three_licence: threeLicence(),
 }, wasm ? [] : ['solver']));

@@ -241,7 +241,7 @@ private:
         members.erase(std::unique(members.begin(), members.end()), members.end());
         for (auto begin = members.begin(); begin != members.end();) {
             const auto end = std::find_if(begin, members.end(), [&](const Pair& m) { return m.first != begin->first; });
-            mergeGroup({begin, end});
+            mergeGroup({&*begin, static_cast<std::size_t>(end - begin)});
             begin = end;
         }
     }

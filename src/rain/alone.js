@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+// Rain in a file of its own, which holds the module and the values that the command has put there.
+import { openRain } from './rain.js';
+import { unpackRain } from './unpack.js';
+
+const text = document.getElementById('rain-values').textContent.trim();
+unpackRain().then((wasm) => openRain(document.body, wasm, text.startsWith('{') && !text.startsWith('{{') ? JSON.parse(text) : {}));

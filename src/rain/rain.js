@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+// Rain on a windshield in a page: the simulation in fixed steps, its view, and the controls.
+import { loadRain } from '../../npm/rain.js';
+import { Backdrop } from './backdrop.js';
+import { Panel } from './panel.js';
+import { Recorder, savePicture } from './recorder.js';
+import { View } from './view.js';
+
+const kStep = 1 / 60;
+const kStepsAtOnce = 3;          // more in a frame, and the rain runs slower than time
+const kMapWidths = [2048, 1536, 1024, 768, 512];
+const kScales = [1, 0.8, 0.65, 0.5];
+const kFrames = 45;              // after which the sizes are judged
+const kSlowMaps = 8;             // [ms] a frame
+const kSlowFrame = 1000 / 40;    // [ms]
+/** Water of a sprayer [m³/s], and the radius that it meets [m]. */
+const kSprayed = 2e-6;
+const kSprayRadius = 0.035;
+const kFinger = 16e-3;           // width [m]
+const kBorder = 0.035;           // of the glass [m]
+const kWarmUpAtOnce = 60;        // [ms]
+const kCalm = 3500;              // [ms] until the bar hides
+
+/** Names of the library's parameters that the page sets. */
+const kParameters = ['speed', 'rain', 'noise', 'wiperPeriod', 'seed', 'gravity', 'contactAngle', 'hysteresis', 'kineticFraction',
+    'viscosityFactor', 'film', 'stillDiameter', 'mist', 'glassWidth', 'glassHeight', 'glassRadius', 'slope'];
+
+/**
+ * Fills an element with the rain.
+ * @param parent  element, empty or not
+ * @param wasm    droplet_rain.wasm, as bytes or compiled
+ * @param given   what the command wrote: `parameters` by the names of windshield.d.ts, `preset`, `warm_up` [s], `map_width`,
+ *                `eye_distance` [m], `field_of_view` [rad], `background`, the URL of a picture
+ */
+export async function openRain(parent, wasm, given = {}) {
+    const root = document.createElement('div');
+    root.className = 'rain';
+    parent.append(root);
+    const state = document.documentElement.dataset;
+    try {
+        await Rain.open(root, wasm, given);
+    } catch (error) {
+        const trouble = document.createElement('div');
+        trouble.className = 'trouble';
+        trouble.setAttribute('role', 'alert');
+        trouble.textContent = `The rain cannot be shown: ${error.message}`;
+        root.append(trouble);
+        state.state = 'failed';
+        throw error;
+    }
+}
+
+class Rain {
+    static async open(root, wasm, given) {
+        const canvas = document.createElement('canvas');
+        canvas.setAttribute('aria-label', 'Rain on a windshield, from inside. Draw on it with a finger.');
+        canvas.setAttribute('role', 'img');
+        root.append(canvas);
+        return new Rain(root, canvas, await loadRain(wasm), given);
+    }
+
+    constructor(root, canvas, windshield, given) {
+        this.root = root;
+        this.canvas = canvas;
+        this.make = windshield;
+        this.preset = given.preset ?? 'figure-3.12';
+        this.warm_up = given.warm_up ?? 10;
+        /** What the sliders show: parameters, and those of the view. */
+        this.values = {
+            wind: 0, distance: given.eye_distance ?? 0.4, blur: given.background_blur ?? 2.6 * Math.PI / 180, exposure: 1,
+            ...given.parameters,
+        };
+        this.fieldOfView = given.field_of_view;
+        this.full = location.hash === '#full';  // sizes stay, for pictures of the page
+        this.map = given.map_width ? kMapWidths.length : 0;
+        this.map_width = given.map_width ?? kMapWidths[0];
+        this.scale = 0;
+        this.tool = 'finger';
+        this.view = new View(canvas);
+        this.restart();
+        for (const name of kParameters) {
+            this.values[name] ??= this.windshield.get(name);
+        }
+        this.backdrop = new Backdrop(this.view, root, (name) => this.panel?.showBackdrop(name));
+        this.recorder = new Recorder(canvas);
+        this.panel = new Panel(root, this);
+        if (given.background) {
+            this.backdrop.load(given.background, 'own');
+        }
+        this.#followPointer();
+        addEventListener('resize', () => this.#fit());
+        this.#fit();
+        this.last = performance.now();
+        requestAnimationFrame((now) => this.#frame(now));
+    }
+
+    /** A dry glass, and the rain on it until now. */
+    restart() {
+        this.windshield?.free();
+        const { wind, distance, blur, exposure, ...parameters } = this.values;
+        this.windshield = this.make({ preset: this.preset, ...parameters, mapWidth: this.map_width });
+        this.#setSpeed();
+        this.view.setGlass(this.windshield);
+        this.behind = 0;       // time that has passed and was not simulated [s]
+        this.travelled = 0;    // [m]
+        this.to_warm_up = this.warm_up;
+        this.strokes = [];
+        this.draws = true;
+        this.panel?.showAll();
+    }
+
+    /** Values of a figure of the thesis. */
+    show(figure) {
+        this.preset = `figure-${figure}`;
+        const { wind, distance, blur, exposure, mist, glassWidth, glassHeight, seed } = this.values;
+        this.values = { wind: 0, distance, blur, exposure, mist, glassWidth, glassHeight, seed };
+        this.restart();
+        for (const name of kParameters) {
+            this.values[name] ??= this.windshield.get(name);
+        }
+        this.panel.showAll();
+    }
+
+    set(name, value, { again = false } = {}) {
+        this.values[name] = value;
+        if (again) {
+            clearTimeout(this.soon);
+            this.soon = setTimeout(() => this.restart(), 250);
+        } else if (name === 'speed' || name === 'wind') {
+            this.#setSpeed();
+        } else if (kParameters.includes(name)) {
+            this.windshield.set({ [name]: value });
+        }
+        this.draws = true;
+    }
+
+    /** Droplets feel the car's speed and the wind against it. */
+    #setSpeed() {
+        const { speed = this.windshield.get('speed'), wind } = this.values;
+        this.windshield.set({ speed: Math.min(speed + wind, 150) });
+    }
+
+    get camera() {
+        return { distance: this.values.distance, fieldOfView: this.fieldOfView };
+    }
+
+    #fit() {
+        const ratio = Math.min(devicePixelRatio, 2) * kScales[this.scale];
+        this.canvas.width = Math.max(Math.round(this.root.clientWidth * ratio), 16);
+        this.canvas.height = Math.max(Math.round(this.root.clientHeight * ratio), 16);
+        this.draws = true;
+    }
+
+    /** Smaller maps, or fewer pixels, if frames are slow. */
+    #judge(busy, whole) {
+        if (this.full || this.to_warm_up > 0) {
+            return;
+        }
+        if (busy > kSlowMaps && this.map + 1 < kMapWidths.length) {
+            this.map_width = this.windshield.mapWidth = kMapWidths[++this.map];
+        } else if (whole > kSlowFrame && this.scale + 1 < kScales.length) {
+            ++this.scale;
+            this.#fit();
+        }
+    }
+
+    #advance(seconds) {
+        const before = this.windshield.figures().speed;
+        this.windshield.advance(seconds);
+        this.time = this.windshield.figures().time;
+        this.travelled += Math.max(before - this.values.wind, 0) * seconds;
+    }
+
+    /** Rain before the first frame, some of it in each. */
+    #warmUp() {
+        const begin = performance.now();
+        while (this.to_warm_up > 0 && performance.now() - begin < kWarmUpAtOnce) {
+            const step = Math.min(1 / 30, this.to_warm_up);
+            this.#advance(step);
+            this.to_warm_up = this.to_warm_up - step < 1e-9 ? 0 : this.to_warm_up - step;
+        }
+    }
+
+    /** What the pointers have done since the last step. */
+    #touch() {
+        for (const stroke of this.strokes.splice(0)) {
+            this.windshield.finger(stroke);
+        }
+        for (const at of this.sprays?.values() ?? []) {
+            this.windshield.spray({ ...at, radius: kSprayRadius, volume: kSprayed * kStep });
+        }
+    }
+
+    #frame(now) {
+        requestAnimationFrame((next) => this.#frame(next));
+        const state = document.documentElement.dataset;
+        const passed = Math.min((now - this.last) / 1000, 0.25);
+        this.last = now;
+        const begin = performance.now();
+        if (this.to_warm_up > 0) {
+            this.#warmUp();  // nothing is shown until it is done
+            return;
+        }
+        if (!this.paused) {
+            this.behind = Math.min(this.behind + passed, kStepsAtOnce * kStep + 1e-9);
+            for (; this.behind >= kStep; this.behind -= kStep) {
+                this.#touch();
+                this.#advance(kStep);
+            }
+        } else if (this.strokes.length > 0) {
+            this.#touch();
+            this.draws = true;
+        }
+        if (!this.paused || this.draws) {
+            this.view.setWater(this.windshield.draw());
+            this.view.setMist(this.windshield.mist());
+        }
+        const busy = performance.now() - begin;
+        if (!this.paused || this.draws || this.backdrop.moves) {
+            this.#draw();
+            this.draws = false;
+        }
+        state.state = this.paused ? 'paused' : 'running';
+        state.frames = Number(state.frames ?? 0) + 1;
+        this.root.classList.add('ready');
+        this.#measure(busy, passed);
+    }
+
+    #measure(busy, passed) {
+        const sums = this.sums ??= { busy: 0, whole: 0, frames: 0 };
+        sums.busy += busy;
+        sums.whole += 1000 * passed;
+        if (++sums.frames < kFrames) {
+            return;
+        }
+        const [mean, whole] = [sums.busy / kFrames, sums.whole / kFrames];
+        this.sums = undefined;
+        document.documentElement.dataset.busy = mean.toFixed(2);
+        document.documentElement.dataset.map = this.windshield.mapWidth;
+        this.panel.showFigures(this.windshield.figures(), mean, 1000 / whole);
+        if (!this.paused) {
+            this.#judge(mean, whole);
+        }
+    }
+
+    #draw() {
+        const { blur, exposure } = this.values;
+        this.view.draw(this.windshield, { travelled: this.travelled, time: this.time ?? 0, blur, exposure, camera: this.camera, border: kBorder });
+    }
+
+    pause(paused = !this.paused) {
+        this.paused = paused;
+        this.behind = 0;
+        this.panel.showPaused(paused);
+    }
+
+    /** Saves the frame as a picture; a canvas keeps it only until the browser shows it. */
+    savePicture() {
+        this.#draw();
+        savePicture(this.canvas);
+    }
+
+    /** The pointer is a finger, or a sprayer. */
+    #followPointer() {
+        const { canvas } = this;
+        const last = new Map();
+        this.sprays = new Map();
+        const placed = ({ clientX, clientY }) => {
+            const box = canvas.getBoundingClientRect();
+            return this.view.onGlass(2 * (clientX - box.left) / box.width - 1, 1 - 2 * (clientY - box.top) / box.height, this.windshield, this.camera);
+        };
+        const spray = (event) => this.sprays.set(event.pointerId, placed(event));
+        canvas.addEventListener('pointerdown', (event) => {
+            canvas.setPointerCapture(event.pointerId);
+            if (this.tool === 'spray') {
+                spray(event);
+                return;
+            }
+            const at = placed(event);
+            last.set(event.pointerId, at);
+            this.strokes.push({ from: at, to: { x: at.x + 1e-4, y: at.y }, width: kFinger });
+        });
+        canvas.addEventListener('pointermove', (event) => {
+            this.panel.wake();
+            if (this.sprays.has(event.pointerId)) {
+                spray(event);
+            }
+            const from = last.get(event.pointerId);
+            if (!from) {
+                return;
+            }
+            const to = placed(event);
+            if (Math.hypot(to.x - from.x, to.y - from.y) > 1e-3) {
+                this.strokes.push({ from, to, width: kFinger });
+                last.set(event.pointerId, to);
+            }
+        });
+        for (const end of ['pointerup', 'pointercancel']) {
+            canvas.addEventListener(end, ({ pointerId }) => {
+                last.delete(pointerId);
+                this.sprays.delete(pointerId);
+            });
+        }
+    }
+
+    get calmAfter() {
+        return kCalm;
+    }
+}

@@ -1,0 +1,461 @@
+// SPDX-License-Identifier: MIT
+// Draws a windshield by WebGL 2: what lies behind it, the water, the mist, wipers and the car's dark parts, and the film.
+import rain from './rain.glsl';
+import { Road, kNumbers } from './road.js';
+import {
+    kAhead, kDefocus, kDevelop, kDevelopFrame, kDouble, kGlass, kHalve, kLights, kPaint, kPart, kScenery, kShine, kWhole, rainShader,
+} from './shaders.js';
+
+const kColumns = 64;
+const kFieldOfView = Math.PI / 4;
+/** Tangents that droplets of the street show, up to 60 degrees aside. */
+const kWide = [1.75, 1.0];
+const kStreetMap = [1024, 576];
+const kPanoramaMap = [2048, 1024];
+
+class Program {
+    constructor(gl, vertex, fragment) {
+        this.gl = gl;
+        const program = gl.createProgram();
+        for (const [kind, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+            const shader = gl.createShader(kind);
+            gl.shaderSource(shader, text);
+            gl.compileShader(shader);
+            gl.attachShader(program, shader);
+            this.log = gl.getShaderInfoLog(shader);
+            if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost()) {
+                throw new Error(this.log);
+            }
+        }
+        gl.linkProgram(program);
+        if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
+            throw new Error(gl.getProgramInfoLog(program));
+        }
+        this.program = program;
+        this.places = new Map();
+    }
+
+    /** Uses the program with these values: numbers, lists of numbers, or textures, which take the units in their order. */
+    use(values) {
+        const { gl } = this;
+        gl.useProgram(this.program);
+        let unit = 0;
+        for (const [name, value] of Object.entries(values)) {
+            if (!this.places.has(name)) {
+                this.places.set(name, gl.getUniformLocation(this.program, name));
+            }
+            const at = this.places.get(name);
+            if (typeof value === 'number') {
+                gl.uniform1f(at, value);
+            } else if (value instanceof WebGLTexture) {
+                gl.activeTexture(gl.TEXTURE0 + unit);
+                gl.bindTexture(gl.TEXTURE_2D, value);
+                gl.uniform1i(at, unit++);
+            } else {
+                gl[`uniform${value.length}fv`](at, value);
+            }
+        }
+    }
+}
+
+/** Where a picture covers a frame of an aspect: left, top, width and height of the part that is shown. */
+function covering(width, height, aspect) {
+    const part = Math.min(width / height / aspect, aspect * height / width);
+    return width / height > aspect ? [0.5 - 0.5 * part, 0, part, 1] : [0, 0.5 - 0.5 * part, 1, part];
+}
+
+export class View {
+    #gl;
+    #programs;
+    #road = new Road();
+    #targets = new Map();
+    #water;
+    #mist;
+    #picture;      // a picture, video or panorama: {texture, width, height, video, panorama}
+    #is_stale = true;  // whether what lies behind must be drawn anew, though it does not move
+    #pane;
+    #parts;
+    #lights;
+    #drawn_with = '';
+
+    constructor(canvas) {
+        const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, depth: false, powerPreference: 'high-performance' });
+        if (!gl) {
+            throw new Error('this browser has no WebGL 2');
+        }
+        this.canvas = canvas;
+        this.#gl = gl;
+        this.#deep = Boolean(gl.getExtension('EXT_color_buffer_float') ?? gl.getExtension('EXT_color_buffer_half_float'));
+        this.#programs = Object.fromEntries(Object.entries({
+            rain: [kGlass, rainShader(rain)], part: [kPart, kPaint], scenery: [kWhole, kScenery], lights: [kLights, kShine],
+            develop: [kWhole, kDevelop], ahead: [kWhole, kAhead], defocus: [kWhole, kDefocus], halve: [kWhole, kHalve],
+            double: [kWhole, kDouble], film: [kWhole, kDevelopFrame],
+        }).map(([name, [vertex, fragment]]) => [name, new Program(gl, vertex, fragment)]));
+        this.#empty = gl.createVertexArray();
+        this.#pane = this.#mesh([3, 3, 3, 3, 2]);
+        this.#parts = this.#mesh([3, 2, 4]);
+        this.#lights = this.#mesh([2], new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
+        this.#lights.numbers = gl.createBuffer();
+        gl.bindBuffer(gl.ARRAY_BUFFER, this.#lights.numbers);
+        for (const k of [0, 1]) {
+            gl.enableVertexAttribArray(k + 1);
+            gl.vertexAttribPointer(k + 1, 4, gl.FLOAT, false, 4 * kNumbers, 16 * k);
+            gl.vertexAttribDivisor(k + 1, 1);
+        }
+        gl.bindVertexArray(null);
+        this.#water = this.#texture(gl.LINEAR);
+        this.#mist = this.#texture(gl.LINEAR);
+        gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+    }
+
+    #deep;
+    #empty;
+
+    /** Attributes of these sizes, one after another. */
+    #mesh(sizes, numbers) {
+        const gl = this.#gl;
+        const mesh = { array: gl.createVertexArray(), buffer: gl.createBuffer(), stride: sizes.reduce((a, b) => a + b), count: 0 };
+        gl.bindVertexArray(mesh.array);
+        gl.bindBuffer(gl.ARRAY_BUFFER, mesh.buffer);
+        let offset = 0;
+        sizes.forEach((size, k) => {
+            gl.enableVertexAttribArray(k);
+            gl.vertexAttribPointer(k, size, gl.FLOAT, false, 4 * mesh.stride, 4 * offset);
+            offset += size;
+        });
+        if (numbers) {
+            gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.STATIC_DRAW);
+        }
+        return mesh;
+    }
+
+    #fill(mesh, numbers) {
+        const gl = this.#gl;
+        gl.bindBuffer(gl.ARRAY_BUFFER, mesh.buffer);
+        gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(numbers), gl.DYNAMIC_DRAW);
+        mesh.count = numbers.length / mesh.stride;
+    }
+
+    #texture(filter) {
+        const gl = this.#gl;
+        const texture = gl.createTexture();
+        gl.activeTexture(gl.TEXTURE0);
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, filter);
+        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
+        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
+        gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
+        return texture;
+    }
+
+    /** A texture that is drawn on; made anew if its size changes. */
+    #target(name, width, height) {
+        const gl = this.#gl;
+        let target = this.#targets.get(name);
+        if (!target) {
+            target = { texture: this.#texture(gl.LINEAR_MIPMAP_LINEAR), frame: gl.createFramebuffer(), width: 0, height: 0 };
+            this.#targets.set(name, target);
+        }
+        if (target.width !== width || target.height !== height) {
+            Object.assign(target, { width, height });
+            gl.activeTexture(gl.TEXTURE0);
+            gl.bindTexture(gl.TEXTURE_2D, target.texture);
+            const mipmapped = ['outside', 'dry', 'sharp'].includes(name);
+            gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, mipmapped ? gl.LINEAR_MIPMAP_LINEAR : gl.LINEAR);
+            gl.texImage2D(gl.TEXTURE_2D, 0, this.#deep ? gl.RGBA16F : gl.RGBA8, width, height, 0, gl.RGBA,
+                this.#deep ? gl.HALF_FLOAT : gl.UNSIGNED_BYTE, null);
+            if (mipmapped) {
+                gl.generateMipmap(gl.TEXTURE_2D);
+            }
+            gl.bindFramebuffer(gl.FRAMEBUFFER, target.frame);
+            gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, target.texture, 0);
+        }
+        return target;
+    }
+
+    #onto({ frame = null, width, height }) {
+        const gl = this.#gl;
+        gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+        gl.viewport(0, 0, width, height);
+    }
+
+    /** Draws everywhere. */
+    #whole(target, program, values) {
+        const gl = this.#gl;
+        this.#onto(target);
+        this.#programs[program].use(values);
+        gl.bindVertexArray(this.#empty);
+        gl.drawArrays(gl.TRIANGLES, 0, 3);
+    }
+
+    #mipmap({ texture }) {
+        const gl = this.#gl;
+        gl.activeTexture(gl.TEXTURE0);
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.generateMipmap(gl.TEXTURE_2D);
+    }
+
+    /** Takes a windshield: its glass as a mesh. */
+    setGlass(windshield) {
+        const { width, height } = windshield.figures();
+        this.glass = [width, height];
+        const corner = (x, y) => {
+            const { point, normal, across, up } = windshield.place(Math.min(x, width), Math.min(y, height));
+            return [...point, ...normal, ...across, ...up, x / width, 1 - y / height];
+        };
+        const numbers = [];
+        for (let k = 0; k < kColumns; ++k) {
+            const [left, right] = [k, k + 1].map((i) => i * width / kColumns);
+            const [a, b, c, d] = [corner(left, 0), corner(right, 0), corner(right, height), corner(left, height)];
+            numbers.push(...a, ...b, ...c, ...a, ...c, ...d);
+        }
+        this.#fill(this.#pane, numbers);
+        this.middle = windshield.place(0.5 * width, 0.5 * height).point;
+        this.#drawn_with = '';
+    }
+
+    /** Shows a picture, a video or a panorama behind the glass; nothing: the street. */
+    setPicture(source, { panorama = false } = {}) {
+        const gl = this.#gl;
+        if (this.#picture) {
+            gl.deleteTexture(this.#picture.texture);
+        }
+        this.#picture = undefined;
+        this.#is_stale = true;
+        if (!source) {
+            return;
+        }
+        const is_video = source instanceof HTMLVideoElement;
+        this.#picture = {
+            source, panorama, is_video, texture: this.#texture(gl.LINEAR_MIPMAP_LINEAR),
+            width: is_video ? source.videoWidth : source.width, height: is_video ? source.videoHeight : source.height,
+        };
+        this.#upload();
+    }
+
+    #upload() {
+        const gl = this.#gl;
+        const { source, texture } = this.#picture;
+        gl.activeTexture(gl.TEXTURE0);
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+        gl.texImage2D(gl.TEXTURE_2D, 0, gl.SRGB8_ALPHA8, gl.RGBA, gl.UNSIGNED_BYTE, source);
+        gl.generateMipmap(gl.TEXTURE_2D);
+    }
+
+    /** Eye and angles of a frame; the field of view is that of a frame of 16:9 that the frame covers. */
+    #cameraOf({ distance, fieldOfView = kFieldOfView, height = 0 }) {
+        const aspect = this.canvas.width / this.canvas.height;
+        const reference = Math.tan(0.5 * fieldOfView);
+        const tangent = aspect > 16 / 9 ? [reference, reference / aspect] : [reference * 9 / 16 * aspect, reference * 9 / 16];
+        const [x, y, z] = this.middle;
+        return { tangent, eye: [x, y - distance, z + height] };
+    }
+
+    /** Place of the frame where a place in space is seen, from the middle: −1 to 1 to the right and up. */
+    seen([x, y, z], camera) {
+        const { eye, tangent } = this.#cameraOf(camera);
+        const ahead = y - eye[1];
+        return [(x - eye[0]) / ahead / tangent[0], (z - eye[2]) / ahead / tangent[1]];
+    }
+
+    /** Position on the glass [m] that is seen at a place of the frame. Newton's method: the glass is nearly flat. */
+    onGlass(right, up, windshield, camera) {
+        const [width, height] = this.glass;
+        const clamped = (value, most) => Math.min(Math.max(value, 0), most);
+        let [x, y] = [0.5 * width, 0.5 * height];
+        const missed = (u, v) => this.seen(windshield.place(clamped(u, width), clamped(v, height)).point, camera);
+        const kStep = 1e-3;
+        for (let k = 0; k < 8; ++k) {
+            [x, y] = [clamped(x, width - kStep), clamped(y, height - kStep)];
+            const [a, b] = missed(x, y);
+            const [ax, bx] = missed(x + kStep, y);
+            const [ay, by] = missed(x, y + kStep);
+            const [j11, j12, j21, j22] = [(ax - a) / kStep, (ay - a) / kStep, (bx - b) / kStep, (by - b) / kStep];
+            const d = j11 * j22 - j12 * j21;
+            x += ((right - a) * j22 - (up - b) * j12) / d;
+            y += ((up - b) * j11 - (right - a) * j21) / d;
+        }
+        return { x: clamped(x, width), y: clamped(y, height) };
+    }
+
+    /** Uploads what has changed of the water; neighbours of a row go together, as calls are slow. */
+    setWater({ width, height, tiles, pixels }) {
+        const gl = this.#gl;
+        gl.activeTexture(gl.TEXTURE0);
+        gl.bindTexture(gl.TEXTURE_2D, this.#water);
+        const size = `${width}x${height}`;
+        if (this.#drawn_with !== size) {
+            this.#drawn_with = size;
+            gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA16F, width, height, 0, gl.RGBA, gl.HALF_FLOAT, pixels);
+            return;
+        }
+        const kGap = 96;  // [px] of what has not changed, which are cheaper than a call
+        gl.pixelStorei(gl.UNPACK_ROW_LENGTH, width);
+        for (let k = 0; k < tiles.length;) {
+            const { x, y, height: rows } = tiles[k];
+            let end = x;
+            for (; k < tiles.length && tiles[k].y === y && tiles[k].x <= end + kGap; ++k) {
+                end = tiles[k].x + tiles[k].width;
+            }
+            gl.texSubImage2D(gl.TEXTURE_2D, 0, x, y, end - x, rows, gl.RGBA, gl.HALF_FLOAT, pixels, 4 * (y * width + x));
+        }
+        gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
+    }
+
+    setMist({ width, height, right, top, pixels }) {
+        const gl = this.#gl;
+        gl.activeTexture(gl.TEXTURE0);
+        gl.bindTexture(gl.TEXTURE_2D, this.#mist);
+        gl.texImage2D(gl.TEXTURE_2D, 0, gl.R8, width, height, 0, gl.RED, gl.UNSIGNED_BYTE, pixels);
+        this.mist_edge = [right, top];
+    }
+
+    /** What lies behind: `outside`, which droplets show, and `dry`, which bare glass shows. */
+    #drawOutside({ travelled, time, blur }, tangent) {
+        const spread = 0.5 * blur;  // of the disc, as a tangent
+        const width = Math.min(1280, this.canvas.width);
+        const height = Math.max(Math.round(width * tangent[1] / tangent[0]), 1);
+        const before = this.#targets.get('dry');
+        const is_resized = before?.width !== width || before?.height !== height;
+        if (this.#picture) {
+            if (!this.#picture.is_video && !this.#is_stale && !is_resized && this.#blurred === blur) {
+                return this.#picture.panorama ? [0, 0] : tangent;
+            }
+            return this.#drawPicture(spread, width, height, tangent);
+        }
+        const gl = this.#gl;
+        const numbers = this.#road.at(travelled, time);
+        const street = (target, wide, out_of_focus) => {
+            const flipped = [wide[0], -wide[1]];  // upper edge first
+            this.#whole(target, 'scenery', { wide: flipped, spread: Math.max(out_of_focus, 0.002), travelled: travelled % 18 });
+            gl.enable(gl.BLEND);
+            gl.blendFunc(gl.ONE, gl.ONE);
+            this.#programs.lights.use({ wide: flipped, spread: out_of_focus, least: 1.1 * wide[0] / target.width });
+            gl.bindVertexArray(this.#lights.array);
+            gl.bindBuffer(gl.ARRAY_BUFFER, this.#lights.numbers);
+            gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.STREAM_DRAW);
+            gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, numbers.length / kNumbers);
+            gl.disable(gl.BLEND);
+            this.#mipmap(target);
+        };
+        street(this.#target('outside', ...kStreetMap), kWide, 0);
+        street(this.#target('dry', width, height), tangent, spread);
+        return kWide;
+    }
+
+    #blurred = 0;
+
+    #drawPicture(spread, width, height, tangent) {
+        const { panorama, texture, is_video, width: own_width, height: own_height } = this.#picture;
+        if (is_video) {
+            this.#upload();
+        }
+        let sharp;
+        if (panorama) {
+            const outside = this.#target('outside', ...kPanoramaMap);
+            this.#whole(outside, 'develop', { picture: texture, crop: [0, 0, 1, 1] });
+            this.#mipmap(outside);
+            sharp = this.#target('sharp', width, height);
+            this.#whole(sharp, 'ahead', { panorama: outside.texture, tangent: [tangent[0], -tangent[1]] });
+        } else {
+            sharp = this.#target('outside', width, height);
+            this.#whole(sharp, 'develop', { picture: texture, crop: covering(own_width, own_height, tangent[0] / tangent[1]) });
+        }
+        this.#mipmap(sharp);
+        const dry = this.#target('dry', width, height);
+        this.#whole(dry, 'defocus', { sharp: sharp.texture, radius: [0.5 * spread / tangent[0], 0.5 * spread / tangent[1]] });
+        this.#mipmap(dry);
+        this.#is_stale = false;
+        this.#blurred = 2 * spread;
+        return panorama ? [0, 0] : tangent;
+    }
+
+    /** Vertices of a flat part between two positions on the glass, some way above it. */
+    static #bar(numbers, windshield, [width, height], from, to, half, paint, above = 0.004) {
+        const away = Math.hypot(to.x - from.x, to.y - from.y) || 1;
+        const side = { x: -half * (to.y - from.y) / away, y: half * (to.x - from.x) / away };
+        const corner = (p, s, u, v) => {
+            const [x, y] = [p.x + s * side.x, p.y + s * side.y];
+            const [inside_x, inside_y] = [Math.min(Math.max(x, 0), width), Math.min(Math.max(y, 0), height)];
+            const { point, normal, across, up } = windshield.place(inside_x, inside_y);
+            return [...point.map((value, k) =>
+                value + (x - inside_x) * across[k] + (y - inside_y) * up[k] + above * normal[k]), u, v, ...paint];
+        };
+        const [a, b, c, d] = [corner(from, -1, -1, -1), corner(to, -1, -1, 1), corner(to, 1, 1, 1), corner(from, 1, 1, -1)];
+        numbers.push(...a, ...b, ...c, ...a, ...c, ...d);
+    }
+
+    /** Wipers, beyond the glass. */
+    #drawBlades(windshield, camera) {
+        const numbers = [];
+        for (const { inner, outer } of windshield.blades()) {
+            const along = { x: outer.x - inner.x, y: outer.y - inner.y };
+            const at = (share) => ({ x: inner.x + share * along.x, y: inner.y + share * along.y });
+            View.#bar(numbers, windshield, this.glass, at(0), at(1), 0.0075, [0.0035, 0.0036, 0.004, 1]);
+            View.#bar(numbers, windshield, this.glass, at(-0.4), at(0.5), 0.006, [0.006, 0.006, 0.007, 1], 0.02);
+        }
+        this.#drawParts(numbers, camera);
+    }
+
+    /** The dashboard, before the glass. */
+    #drawDashboard(camera) {
+        const half = 0.5 * this.glass[0] + 0.25;
+        const corner = (x, y, z, v) => [x, y, z, 0, v, 0.010, 0.010, 0.011, 2];
+        const [a, b, c, d] = [corner(-half, 0.03, 0.012, 0), corner(half, 0.03, 0.012, 0), corner(half, -0.8, -0.1, 0), corner(-half, -0.8, -0.1, 0)];
+        this.#drawParts([...a, ...b, ...c, ...a, ...c, ...d], camera);
+    }
+
+    #drawParts(numbers, camera) {
+        const gl = this.#gl;
+        if (numbers.length === 0) {
+            return;
+        }
+        gl.enable(gl.BLEND);
+        gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE);
+        this.#programs.part.use(camera);
+        this.#fill(this.#parts, numbers);
+        gl.bindVertexArray(this.#parts.array);
+        gl.drawArrays(gl.TRIANGLES, 0, this.#parts.count);
+        gl.disable(gl.BLEND);
+    }
+
+    /**
+     * Draws a frame.
+     * @param windshield  of setGlass()
+     * @param shown       travelled [m], time [s], blur [rad], camera, border [m], exposure
+     */
+    draw(windshield, shown) {
+        const gl = this.#gl;
+        const { width, height } = this.canvas;
+        const camera = this.#cameraOf(shown.camera);
+        const wide = this.#drawOutside(shown, camera.tangent);
+        const [outside, dry] = ['outside', 'dry'].map((name) => this.#targets.get(name).texture);
+        const frame = this.#target('frame', width, height);
+        this.#onto(frame);
+        gl.clearColor(0.0025, 0.0025, 0.003, 1);
+        gl.clear(gl.COLOR_BUFFER_BIT);
+        this.#programs.rain.use({
+            ...camera, water: this.#water, outside, dry, mist: this.#mist, mist_edge: this.mist_edge, glass: this.glass, wide, blur: 0,
+            cabin: this.#picture ? [0.03, 0.03, 0.032] : [0.006, 0.006, 0.008], border: shown.border,
+        });
+        gl.bindVertexArray(this.#pane.array);
+        gl.drawArrays(gl.TRIANGLES, 0, this.#pane.count);
+        this.#drawBlades(windshield, camera);
+        this.#drawDashboard(camera);
+        // The glow of the lens: halved some times, and added up again.
+        const levels = [frame];
+        for (let k = 1; k <= 6 && Math.min(width, height) >> k > 4; ++k) {
+            levels.push(this.#target(`glow${k}`, width >> k, height >> k));
+            this.#whole(levels[k], 'halve', { from: levels[k - 1].texture, most: k === 1 ? 12 : 1e4 });
+        }
+        gl.enable(gl.BLEND);
+        gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+        for (let k = levels.length - 1; k > 1; --k) {
+            this.#whole(levels[k - 1], 'double', { from: levels[k].texture, share: 0.6 });
+        }
+        gl.disable(gl.BLEND);
+        this.#whole({ width, height }, 'film', {
+            frame: frame.texture, glow: levels[1].texture, time: shown.time, exposure: shown.exposure, graininess: this.#picture ? 0.008 : 0.014,
+        });
+    }
+}
