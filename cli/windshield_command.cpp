@@ -10,6 +10,7 @@
 #include "film.h"
 #include "terminal.h"
 #include "windshield_files.h"
+#include "windshield_live.h"
 #include "windshield_options.h"
 #include "windshield_run.h"
 
@@ -42,6 +43,10 @@ int runWindshield(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<WindshieldOptions>(parsed);
+    if (options.live) {
+        writeLive(options);
+        return 0;
+    }
     return runFilm(options.run, filesOf(options), [&](ProgressDisplay& progress) {
         const droplet::WindshieldReport report = simulateWindshield(options, progress);
         return RunEnd{summaryOf(report), report.warnings};

@@ -16,6 +16,7 @@
 #include "option_values.h"
 #include "value_list.h"
 #include "video_writer.h"
+#include "windshield_live.h"
 
 namespace cli {
 namespace {
@@ -42,7 +43,7 @@ constexpr Range kEye{Dimension::Length, 0.01, 100.0, "from 10mm to 100m"};
 const CommandText& commandText()
 {
     static const CommandText text{"droplet-shape windshield", "show rain on a moving car's windshield",
-                                  "[OPTIONS] OUTPUT",
+                                  "[OPTIONS] OUTPUT | --live PAGE",
                                   "Quantities carry a unit:\n"
                                   "  rainfall mm/h in/h; speed mm/s m/s km/h mph; durations ms s min h;\n"
                                   "  lengths nm um mm cm m in; angles deg rad; surface tension mN/m N/m dyn/cm;\n"
@@ -52,6 +53,7 @@ const CommandText& commandText()
                                   "  droplet-shape windshield rain.mp4 --rain 25mm/h --speed 50km/h\n"
                                   "  droplet-shape windshield 'rain-%05d.png' --background road.mp4 --layer\n"
                                   "  droplet-shape windshield still.png --preset figure-3.12 --time 30s\n"
+                                  "  droplet-shape windshield --live rain.html --rain 25mm/h\n"
                                   "\n"
                                   "Exit codes:\n"
                                   "  0 done; 1 internal error; 2 usage; 3 input unreadable;\n"
@@ -168,6 +170,9 @@ void declare(CommandLine& line, WindshieldOptions& options)
              into(options.model_animation,
                   {{"nodes", droplet::AnimationMethod::Nodes}, {"texture", droplet::AnimationMethod::Texture}}));
     declareCompression(line, kOut);
+    line.add(kOut, "--live", "PAGE",
+             "Instead of OUTPUT, write a page, .html, that shows the rain as it falls, with controls and without a "
+             "server; most options are where it begins");
     line.add(kOut, "--json", "FILE", "Write a report, with the water's balance every second; - is standard output",
              into(options.json));
     constexpr const char* kRun = "Run";
@@ -296,6 +301,20 @@ void readShutter(const CommandLine& line, WindshieldOptions& options)
     options.view.shutter_time = share / options.frames_per_second;
 }
 
+/// Reads --live, which OUTPUT and all files beside it exclude.
+void readLive(const CommandLine& line, WindshieldOptions& options)
+{
+    const Given page = *line.value("--live");
+    checkLive(line);
+    if (!isStream(page.text) && lowerExtension(page.text) != ".html") {
+        refuse(page, "a file that ends in .html");
+    }
+    options.live = LivePage{page.text, {}};
+    for (const auto& [name, value] : line.given()) {
+        options.live->given.insert(name);
+    }
+}
+
 void readOutputs(const CommandLine& line, WindshieldOptions& options)
 {
     options.output = line.argument("OUTPUT");
@@ -379,9 +398,13 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     readGlass(line, options);
     readDroplets(line, options);
     readView(line, options);
+    options.run = readRun(line);
+    if (line.value("--live")) {
+        readLive(line, options);
+        return options;
+    }
     readOutputs(line, options);
     readShutter(line, options);
-    options.run = readRun(line);
     options.fingerprint = optionsOfFrames(
         line, options.output, {"--droplets", "--animation", "--moving-only", "--animation-method", "--compress"});
     return options;

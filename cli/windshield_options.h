@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 
@@ -16,9 +17,16 @@
 
 namespace cli {
 
+/// The page of --live.
+struct LivePage {
+    std::string path;             ///< or kStandardStream
+    std::set<std::string> given;  ///< options that are given; the page has defaults of its own for some others
+};
+
 /// Options of `droplet-shape windshield`. All values are in range; no file but the configuration file has been read.
 struct WindshieldOptions {
-    std::string output;                 ///< path
+    std::string output;  ///< path; empty with `live`
+    std::optional<LivePage> live;
     std::optional<NumberedPath> files;  ///< set if every frame gets a file
     bool is_video = false;              ///< if neither this nor files is set, the output is the last frame
     std::string preset = "figure-3.12";

@@ -111,7 +111,7 @@ vec3 bareLight(vec2 at)
     }
     // Thin mist is patchy; dense mist is even. Most light goes nearly straight on: a glow around lamps, and a veil of all
     // that is bright.
-    float share = smoothstep(0.0, 1.0, clamp(dense * (1.0 + 0.9 * (grain(uv * glass) - 0.5) * (1.2 - dense)), 0.0, 1.0));
+    float share = 1.0 - pow(1.0 - clamp(dense * (1.0 + 0.9 * (grain(uv * glass) - 0.5) * (1.2 - dense)), 0.0, 1.0), 2.2);
     float level = log2(float(textureSize(dry, 0).x)) - 4.0;
     vec3 glow = 0.34 * smoothDry(at, level - 2.2) + 0.36 * smoothDry(at, level - 0.6) + 0.30 * smoothDry(at, level + 1.2);
     vec3 veil = smoothDry(at, level + 3.0);

@@ -64,10 +64,10 @@ class Rain {
         this.canvas = canvas;
         this.make = windshield;
         this.preset = given.preset ?? 'figure-3.12';
-        this.warm_up = given.warm_up ?? 10;
+        this.warm_up = given.warm_up ?? 20;
         /** What the sliders show: parameters, and those of the view. */
         this.values = {
-            wind: 0, distance: given.eye_distance ?? 0.4, blur: given.background_blur ?? 2.6 * Math.PI / 180, exposure: 1,
+            wind: 0, distance: given.eye_distance ?? 0.3, blur: given.background_blur ?? 2.6 * Math.PI / 180, exposure: 1,
             ...given.parameters,
         };
         this.fieldOfView = given.field_of_view;

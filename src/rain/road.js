@@ -4,6 +4,7 @@
 
 const kEye = 1.2;          // height of the eye over the road [m]
 const kLane = 3.5;         // width of a lane [m]
+const kFull = 34;          // distance from which on lights are weaker the farther they are [m]
 const kFarthest = 420;     // largest distance of a visible light [m]
 /** Numbers of a light: tangents right and up, its size, length of a reflection (0: a light), red, green, blue, 1 if it is a sign. */
 export const kNumbers = 8;
@@ -38,6 +39,7 @@ export class Road {
             return;
         }
         const right = across / depth;
+        dim *= Math.min(kFull / depth, 1) ** 1.3;
         const put = (...all) => this.#numbers.set(all, kNumbers * this.#count++);
         put(right, (height - kEye) / depth, size / depth, 0, dim * red, dim * green, dim * blue, 0);
         if (mirrored > 0) {
@@ -57,7 +59,7 @@ export class Road {
         const passed = (period, times = 1) => wrapped(times * travelled, period);
         // Street lamps on both sides.
         const kLamps = 32;
-        for (let k = 1; k < 14; ++k) {
+        for (let k = 1; k < 10; ++k) {
             const depth = kLamps * k - passed(kLamps);
             for (const [across, at] of [[4.8, depth], [-8.3, depth + kLamps / 2]]) {
                 this.#add(across, 7.2, at, 0.14, kSodium, smoothstep(7, 12, at) * (1 - smoothstep(260, kFarthest, at)), 0.2);

@@ -87,15 +87,19 @@ float dashes(float depth) {
     float d = abs(way - 9.0) - 3.0;
     return mix(1.0 - smoothstep(-soft, soft, d), 0.333, smoothstep(3.0, 9.0, soft));
 }
-float skyline(float x) {
-    float roofs = 0.0;
+// Roofs at both sides, the nearer the higher; the lens blurs their edges.
+float roofs(float x) {
+    float high = 0.0;
     for (int k = 0; k < 3; ++k) {
-        float size = 0.11 / (1.0 + float(k)), cell = floor(x / size + 0.37 * float(k));
-        float h = fract(sin(cell * 91.7 + float(k) * 17.0) * 4375.5);
-        roofs = max(roofs, (0.05 + 0.16 * h) * smoothstep(0.06, 0.30 + 0.1 * float(k), abs(x + 0.02)) / (1.0 + 0.5 * float(k)));
+        float size = 0.13 / (1.0 + 0.7 * float(k)), place = x / size + 0.37 * float(k), soft = clamp(1.2 * spread / size, 0.01, 0.5);
+        float cell = floor(place), f = place - cell;
+        vec3 h = fract(sin((cell + vec3(-1.0, 0.0, 1.0)) * 91.7 + float(k) * 17.0) * 4375.5);
+        float roof = mix(mix(h.x, h.y, smoothstep(-soft, soft, f)), h.z, smoothstep(1.0 - soft, 1.0 + soft, f));
+        high = max(high, (0.05 + 0.16 * roof) * smoothstep(0.05, 0.32 + 0.1 * float(k), abs(x + 0.02)) / (1.0 + 0.5 * float(k)));
     }
-    return 0.012 + 0.006 * sin(13.7 * x + 2.0) + roofs * (0.7 + 1.3 * smoothstep(0.2, 1.2, abs(x)));
+    return high;
 }
+float skyline(float x) { return 0.012 + 0.006 * sin(13.7 * x + 2.0) + roofs(x) * (0.7 + 1.3 * smoothstep(0.2, 1.2, abs(x))); }
 void main() {
     vec2 p = (2.0 * at - 1.0) * wide;
     float depth = depthOf(p.y), down = max(-p.y, 1e-4), across = p.x * depth, edge = (spread + 0.02) * depth;

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rain on a windshield in three.js as it falls: the maps are textures, and the shader is that of `windshield --live`.
+import {
+    BufferAttribute, BufferGeometry, DataTexture, GLSL3, HalfFloatType, LinearFilter, Mesh, RawShaderMaterial, RedFormat, RGBAFormat,
+    UnsignedByteType, Vector2, Vector3,
+} from 'three';
+
+const kColumns = 64;
+const kStep = 1 / 60;
+const kStepsAtOnce = 3;
+
+const kVertex = /* glsl */ `
+precision highp float;
+uniform mat4 modelMatrix, viewMatrix, projectionMatrix;
+in vec3 position, facing, right, upward;
+in vec2 map;
+out vec3 place, normal, across, up;
+out vec2 uv;
+void main() {
+    place = position;
+    normal = facing;
+    across = right;
+    up = upward;
+    uv = map;
+    gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(position, 1.0);
+}`;
+
+/** The glass in the vehicle's frame: x to the right, y ahead, z up. */
+function glassOf(rain, { width, height }) {
+    const lists = { position: [], facing: [], right: [], upward: [], map: [] };
+    const index = [];
+    for (let k = 0; k <= kColumns; ++k) {
+        for (const up of [0, 1]) {
+            const { point, normal, across, up: upward } = rain.place(width * k / kColumns, height * up);
+            lists.position.push(...point);
+            lists.facing.push(...normal);
+            lists.right.push(...across);
+            lists.upward.push(...upward);
+            lists.map.push(k / kColumns, 1 - up);
+        }
+        if (k > 0) {
+            index.push(2 * k - 2, 2 * k, 2 * k + 1, 2 * k - 2, 2 * k + 1, 2 * k - 1);
+        }
+    }
+    const geometry = new BufferGeometry();
+    for (const [name, numbers] of Object.entries(lists)) {
+        geometry.setAttribute(name, new BufferAttribute(new Float32Array(numbers), name === 'map' ? 2 : 3));
+    }
+    return geometry.setIndex(index);
+}
+
+function textureOf(map, format, type) {
+    const texture = new DataTexture(map.pixels, map.width, map.height, format, type);
+    texture.minFilter = texture.magFilter = LinearFilter;
+    texture.unpackAlignment = 1;
+    return texture;
+}
+
+/**
+ * Makes a windshield with rain for a camera behind it that looks straight ahead.
+ * @param rain     windshield of 'droplet-shape/windshield'
+ * @param shader   text of src/rain/rain.glsl
+ * @param outside  texture that fills the frame, with mipmaps, `flipY` false and `colorSpace` SRGBColorSpace
+ * @param blur     mipmap level of it that bare glass shows
+ * @return         `mesh`, which is turned from the vehicle's frame to that of three.js, and `update`, a function of the time
+ *                 that has passed [s] and the camera
+ */
+export function rainyGlass(rain, shader, outside, blur = 0) {
+    const figures = rain.figures();
+    const uniforms = {
+        water: { value: textureOf(rain.draw(), RGBAFormat, HalfFloatType) }, mist: { value: textureOf(rain.mist(), RedFormat, UnsignedByteType) },
+        outside: { value: outside }, dry: { value: outside }, blur: { value: blur }, mist_edge: { value: new Vector2(1, 1) },
+        glass: { value: new Vector2(figures.width, figures.height) }, eye: { value: new Vector3() }, tangent: { value: new Vector2() },
+        wide: { value: new Vector2() }, cabin: { value: new Vector3(0.01, 0.01, 0.012) }, border: { value: 0 },
+    };
+    const material = new RawShaderMaterial({
+        uniforms, glslVersion: GLSL3, vertexShader: kVertex,
+        // It gives light; the canvas takes levels.
+        fragmentShader: `precision highp float;\n${shader.replace('colour = vec4(light, 1.0)', 'colour = vec4(pow(light, vec3(1.0 / 2.2)), 1.0)')}`,
+    });
+    const mesh = new Mesh(glassOf(rain, figures), material);
+    mesh.rotation.x = -Math.PI / 2;
+    let behind = 0;
+    const update = (seconds, camera) => {
+        for (behind = Math.min(behind + seconds, kStepsAtOnce * kStep + 1e-9); behind >= kStep; behind -= kStep) {
+            rain.advance(kStep);
+        }
+        const mist = rain.mist();
+        uniforms.water.value.image.data = rain.draw().pixels;  // in memory that may have moved
+        uniforms.water.value.needsUpdate = true;
+        if (uniforms.mist.value.image.width !== mist.width) {
+            uniforms.mist.value.dispose();
+            uniforms.mist.value = textureOf(mist, RedFormat, UnsignedByteType);
+        }
+        uniforms.mist.value.image.data = mist.pixels;
+        uniforms.mist.value.needsUpdate = true;
+        uniforms.mist_edge.value.set(mist.right, mist.top);
+        const { x, y, z } = camera.position;
+        uniforms.eye.value.set(x, -z, y);
+        const tangent = Math.tan(camera.fov * Math.PI / 360);
+        uniforms.tangent.value.set(tangent * camera.aspect, tangent);
+        uniforms.wide.value.copy(uniforms.tangent.value);
+    };
+    return { mesh, update };
+}
