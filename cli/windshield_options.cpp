@@ -43,7 +43,7 @@ constexpr Range kEye{Dimension::Length, 0.01, 100.0, "from 10mm to 100m"};
 const CommandText& commandText()
 {
     static const CommandText text{"droplet-shape windshield", "show rain on a moving car's windshield",
-                                  "[OPTIONS] OUTPUT | --live PAGE",
+                                  "[OPTIONS] OUTPUT | --live FILE",
                                   "Quantities carry a unit:\n"
                                   "  rainfall mm/h in/h; speed mm/s m/s km/h mph; durations ms s min h;\n"
                                   "  lengths nm um mm cm m in; angles deg rad; surface tension mN/m N/m dyn/cm;\n"
@@ -170,7 +170,7 @@ void declare(CommandLine& line, WindshieldOptions& options)
              into(options.model_animation,
                   {{"nodes", droplet::AnimationMethod::Nodes}, {"texture", droplet::AnimationMethod::Texture}}));
     declareCompression(line, kOut);
-    line.add(kOut, "--live", "PAGE",
+    line.add(kOut, "--live", "FILE",
              "Instead of OUTPUT, write a page, .html, that shows the rain as it falls, with controls and without a "
              "server; most options are where it begins");
     line.add(kOut, "--json", "FILE", "Write a report, with the water's balance every second; - is standard output",

@@ -274,7 +274,7 @@ output: frames such as out/%05d.png; a video, .mp4, .mkv, .mov or .webm, which n
 (3, ())
 """,
         "_reports.WindshieldReport.from_json(_core.windshield(output, {tokens}))",
-        leave_out={"json"},
+        leave_out={"json", "live"},
         run={"resume", "no_clobber", "threads"},
     ),
     Function(

@@ -287,5 +287,6 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l droplet
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l moving-only -d 'Leave droplets at rest out of the table'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l animation -r -F -d 'Write the droplets as an animated .glb, .gltf, .usda or .usdz'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l animation-method -x -a 'nodes texture' -d 'Form of the animation: nodes plays in every viewer; texture needs a shader and takes one draw call'
+complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l live -r -F -d 'Instead of OUTPUT, write a page, .html, that shows the rain as it falls, with controls and without a server; most options are where it begins'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l json -r -F -d 'Write a report, with the water\'s balance every second; - is standard output'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l config -r -F -d 'Read options from a TOML file with lines such as rain = "5mm/h"; the command line takes precedence'

@@ -81,7 +81,7 @@ class Rain {
         for (const name of kParameters) {
             this.values[name] ??= this.windshield.get(name);
         }
-        this.backdrop = new Backdrop(this.view, root, (name) => this.panel?.showBackdrop(name));
+        this.backdrop = new Backdrop(this.view, root, (name, trouble) => this.panel?.showBackdrop(name, trouble));
         this.recorder = new Recorder(canvas);
         this.panel = new Panel(root, this);
         if (given.background) {

@@ -31,8 +31,8 @@ test('the same parameters have the command’s droplets and water', async () => 
     const last = report.balance.at(-1);
     const figures = rain.figures();
     assert.ok(Math.abs(figures.time - last.time_s) < 1e-6);
-    assert.equal(figures.running, last.running);
-    assert.equal(figures.still, last.still);
+    assert.equal(figures.running, last.running_droplets);
+    assert.equal(figures.still, last.still_droplets);
     const water = last.on_glass_still_m3 + last.on_glass_running_m3;
     assert.ok(Math.abs(figures.water - water) < 1e-6 * water, `${figures.water} m³, not ${water} m³`);
 });

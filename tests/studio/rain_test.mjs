@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page of `droplet-shape windshield --live` in a real browser: node --test rain_test.mjs
+// RAIN is the page, made with --warm-up 2s --glass-width 0.4m --glass-height 0.25m; CHROMIUM the browser.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const { RAIN, CHROMIUM = '/usr/bin/chromium' } = process.env;
+const kPage = pathToFileURL(resolve(RAIN)).href;
+const kSize = { width: 400, height: 225 };  // small, since rendering is in software
+
+let browser;
+let folder;
+before(async () => {
+    folder = mkdtempSync(join(tmpdir(), 'rain-'));
+    browser = await chromium.launch({
+        executablePath: CHROMIUM, args: ['--headless=new', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+            '--ignore-gpu-blocklist', '--disable-background-networking'],
+    });
+});
+after(async () => {
+    await browser.close();
+    rmSync(folder, { recursive: true });
+});
+
+const state = (page, name) => page.evaluate((key) => document.documentElement.dataset[key], name);
+
+async function frames(page, count) {
+    const now = Number(await state(page, 'frames'));
+    await page.waitForFunction((until) => Number(document.documentElement.dataset.frames) >= until, now + count);
+}
+
+const setValue = (page, name, value) => page.locator(`#rain-${name}`).evaluate((slider, to) => {
+    slider.value = to;
+    slider.dispatchEvent(new Event('input', { bubbles: true }));
+}, String(value));
+
+/** Red, green and blue of all pixels of a part of the page. */
+async function pixels(page, clip) {
+    const png = await page.screenshot({ clip });
+    return page.evaluate(async (base64) => {
+        const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
+        const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+        context.drawImage(image, 0, 0);
+        return [...context.getImageData(0, 0, image.width, image.height).data].filter((_, k) => k % 4 < 3);
+    }, png.toString('base64'));
+}
+
+const difference = (a, b) => a.reduce((sum, value, k) => sum + Math.abs(value - b[k]), 0) / a.length;
+const mean = (all, channel) => all.filter((_, k) => k % 3 === channel).reduce((a, b) => a + b) / (all.length / 3);
+
+/** Runs a test in a page of its own, in which nothing may complain and nothing may be fetched. */
+function rain(name, run, options = { viewport: kSize }) {
+    test(name, async () => {
+        const context = await browser.newContext({ acceptDownloads: true, ...options });
+        const complaints = [];
+        await context.route('**', (route) => {
+            const asked = route.request().url();
+            if (asked.split('#')[0] === kPage || /^(data|blob):/.test(asked)) {
+                return route.continue();
+            }
+            complaints.push(`request of ${asked}`);
+            return route.abort();
+        });
+        context.setDefaultTimeout(120_000);  // enough when many tests share the processor
+        context.on('console', (message) => {
+            if (['error', 'warning', 'assert'].includes(message.type()) && !/GPU stall due to ReadPixels|swiftshader/i.test(message.text())) {
+                complaints.push(message.text());
+            }
+        });
+        context.on('weberror', (error) => complaints.push(error.error().message));
+        const page = await context.newPage();
+        await page.goto(kPage);
+        await page.waitForFunction(() => document.documentElement.dataset.state === 'running');
+        // Neither the bar nor its fading is part of the picture.
+        await page.addStyleTag({ content: '.rain .bar, .rain .hint { visibility: hidden } .rain canvas { transition: none !important }' }).catch(() => {});
+        await run(page);
+        assert.deepEqual(complaints.filter((text) => !/Content Security Policy/.test(text)), []);
+        await context.close();
+    });
+}
+
+rain('it rains, and a pause holds the rain', async (page) => {
+    await frames(page, 2);
+    const first = await pixels(page);
+    await frames(page, 6);
+    const later = await pixels(page);
+    assert.ok(difference(first, later) > 0.2);
+    await frames(page, 46);
+    console.log(`simulation and maps: ${await state(page, 'busy')} ms a frame, maps ${await state(page, 'map')} px wide`);
+    await page.keyboard.press(' ');
+    await page.waitForFunction(() => document.documentElement.dataset.state === 'paused');
+    const held = await pixels(page);
+    await page.waitForTimeout(300);
+    assert.equal(difference(held, await pixels(page)), 0);
+});
+
+rain('a finger wipes mist and droplets', async (page) => {
+    await setValue(page, 'mist', 1);
+    await setValue(page, 'noise', 0);
+    for (const _ of [1, 2, 3]) {
+        await frames(page, 40);
+    }
+    await page.keyboard.press(' ');
+    await page.waitForFunction(() => document.documentElement.dataset.state === 'paused');
+    const wiped = { x: 120, y: 95, width: 160, height: 30 };
+    const elsewhere = { x: 120, y: 20, width: 160, height: 30 };
+    const before = [await pixels(page, wiped), await pixels(page, elsewhere)];
+    await page.mouse.move(100, 110);
+    await page.mouse.down();
+    await page.mouse.move(300, 110, { steps: 8 });
+    await page.mouse.up();
+    await frames(page, 2);
+    const changes = [difference(before[0], await pixels(page, wiped)), difference(before[1], await pixels(page, elsewhere))];
+    assert.ok(changes[0] > 3 && changes[1] < 0.5 * changes[0], `${changes}`);
+});
+
+rain('a picture that is dropped is behind the glass', async (page) => {
+    await setValue(page, 'rain', 0);
+    await page.evaluate(async () => {
+        const canvas = new OffscreenCanvas(320, 180);
+        const context = canvas.getContext('2d');
+        context.fillStyle = '#20c040';
+        context.fillRect(0, 0, 320, 180);
+        const data = new DataTransfer();
+        data.items.add(new File([await canvas.convertToBlob()], 'green.png', { type: 'image/png' }));
+        document.querySelector('.rain').dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+    });
+    await page.waitForFunction(() => document.documentElement.dataset.backdrop === 'own');
+    await frames(page, 3);
+    const seen = await pixels(page, { x: 150, y: 80, width: 100, height: 60 });
+    const [red, green, blue] = [0, 1, 2].map((channel) => mean(seen, channel));
+    assert.ok(green > 130 && red < 0.5 * green && blue < 0.6 * green, `${[red, green, blue]}`);
+    await page.evaluate(() => {
+        const data = new DataTransfer();
+        data.items.add(new File(['no picture'], 'notes.txt', { type: 'text/plain' }));
+        document.querySelector('.rain').dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+    });
+    await page.waitForFunction(() => document.documentElement.dataset.backdrop === 'failed');
+});
+
+rain('a recording is a video, and a saved picture has the frame’s size', async (page) => {
+    await page.keyboard.press('r');
+    await frames(page, 12);
+    const [video] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('r')]);
+    const path = join(folder, video.suggestedFilename());
+    await video.saveAs(path);
+    const about = JSON.parse(execFileSync('ffprobe', ['-v', 'error', '-show_streams', '-count_frames', '-of', 'json', path]));
+    assert.equal(about.streams[0].codec_type, 'video');
+    assert.ok(Number(about.streams[0].nb_read_frames) > 2);
+    const [picture] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('s')]);
+    await picture.saveAs(join(folder, 'rain.png'));
+    const { streams } = JSON.parse(execFileSync('ffprobe', ['-v', 'error', '-show_streams', '-of', 'json', join(folder, 'rain.png')]));
+    assert.ok(streams[0].width > 100 && Math.abs(streams[0].width / streams[0].height - kSize.width / kSize.height) < 0.02);
+});
+
+rain('figures of the thesis and coatings set the sliders; slope begins again', async (page) => {
+    const text = (name) => page.locator(`output[for=rain-${name}]`).evaluate((output) => output.textContent);
+    await page.keyboard.press('h');
+    await page.locator('[id="rain-figure-3.11"]').click();
+    assert.deepEqual([await text('hysteresis'), await text('speed')], ['0.05', '41 km/h']);
+    await page.getByRole('button', { name: 'Rain repellent' }).click();
+    assert.deepEqual([await text('contactAngle'), await text('hysteresis'), await text('kineticFraction')], ['108°', '0.12', '0.80']);
+    await setValue(page, 'slope', 70);
+    await page.waitForTimeout(600);
+    await frames(page, 2);
+    assert.equal(await text('slope'), '70°');
+});
+
+rain('on a phone the panel is reachable and nothing overflows', async (page) => {
+    await page.keyboard.press('h');
+    await page.waitForFunction(() => {
+        const { left, right, top, bottom } = document.querySelector('.rain .panel').getBoundingClientRect();
+        return left >= 0 && right <= innerWidth && top > 200 && bottom <= innerHeight + 1;
+    });
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    const bar = await page.locator('.rain .bar').boundingBox();
+    assert.ok(bar.x >= 0 && bar.x + bar.width <= 390, `${JSON.stringify(bar)}`);
+}, { viewport: { width: 390, height: 844 }, deviceScaleFactor: 0.5, hasTouch: true, isMobile: true });
