@@ -314,6 +314,24 @@ TEST_F(WindshieldCommand, DamagedCheckpointsAreRefused)
     }
 }
 
+TEST_F(WindshieldCommand, TheLivePageRefusesWhatItHasNoUseFor)
+{
+    const auto live = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"windshield", "--live", path("rain.html")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return testing::runInProcess(arguments);
+    };
+    testing::expectOneLine(live({path("out.mp4")}), 2, {"--live and OUTPUT exclude each other"});
+    for (const std::vector<std::string>& more : std::initializer_list<std::vector<std::string>>{
+             {"--time", "3s"}, {"--drive-cycle", "drive.csv"}, {"--shape", "capsule"}, {"--json", "-"}, {"--resume"}}) {
+        testing::expectOneLine(live(more), 2, {"--live and " + more.front() + " exclude each other"});
+    }
+    testing::expectOneLine(live({"--speed", "500m/s"}), 2, {"--speed", "from 0m/s to 150m/s"});
+    testing::expectOneLine(testing::runInProcess({"windshield", "--live", path("rain.mp4")}), 2, {".html"});
+    testing::expectOneLine(testing::runInProcess({"windshield"}), 2, {"OUTPUT is missing"});
+    EXPECT_THAT(scratch_.names(), IsEmpty());
+}
+
 TEST_F(WindshieldCommand, BackgroundsFillTheFrame)
 {
     std::ostringstream bytes;

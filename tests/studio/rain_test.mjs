@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page of `droplet-shape windshield --live` in a real browser: node --test rain_test.mjs
-// RAIN is the page, made with --warm-up 2s --glass-width 0.4m --glass-height 0.25m; CHROMIUM the browser.
+// RAIN is the page, made with --warm-up 2s --glass-width 0.4m --glass-height 0.25m; CHROMIUM the browser; DROPLET_SHAPE the
+// command.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { chromium } from 'playwright-core';
 
-const { RAIN, CHROMIUM = '/usr/bin/chromium' } = process.env;
+const { RAIN, DROPLET_SHAPE, CHROMIUM = '/usr/bin/chromium' } = process.env;
 const kPage = pathToFileURL(resolve(RAIN)).href;
 const kSize = { width: 400, height: 225 };  // small, since rendering is in software
 
@@ -84,6 +85,22 @@ function rain(name, run, options = { viewport: kSize }) {
         await context.close();
     });
 }
+
+test('the command puts its options and a picture into the page', () => {
+    const png = Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==', 'base64');
+    writeFileSync(join(folder, 'road.png'), png);
+    const write = (...words) => execFileSync(DROPLET_SHAPE, ['windshield', '--live', join(folder, 'rain.html'), ...words], { stdio: 'pipe' });
+    write('--rain', '36mm/h', '--speed', '36km/h', '--wiper-period', '2s', '--preset', 'figure-3.11', '--warm-up', '4s', '--eye-distance', '0.4m',
+        '--background', join(folder, 'road.png'));
+    const page = readFileSync(join(folder, 'rain.html'), 'utf8');
+    const { parameters, ...values } = JSON.parse(page.match(/id="rain-values" type="application\/json">(.*)<\/script>/)[1]);
+    assert.deepEqual(values, { preset: 'figure-3.11', warm_up: 4, eye_distance: 0.4, background: `data:image/png;base64,${png.toString('base64')}` });
+    assert.ok(Math.abs(parameters.rain - 1e-5) < 1e-12);
+    assert.deepEqual([parameters.speed, parameters.wiperPeriod, parameters.hysteresis, parameters.glassWidth], [10, 2, 0.05, 1.4]);
+    writeFileSync(join(folder, 'road.mp4'), 'no picture');
+    assert.throws(() => write('--background', join(folder, 'road.mp4')), /a PNG, JPEG, WebP or GIF with --live/);
+    assert.throws(() => write('--no-clobber'), /rain.html/);
+});
 
 rain('it rains, and a pause holds the rain', async (page) => {
     await frames(page, 2);
