@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Studio as one page: its parts with the solver of this package.
+// Studio as one page: its parts with the modules of this package.
 import fs from 'node:fs';
 import { deflateRawSync } from 'node:zlib';
 
@@ -8,7 +8,9 @@ let page;
 
 /** Bytes of the page. */
 export function studioPage() {
-    page ??= Buffer.from(fs.readFileSync(here('./studio.html'), 'utf8').replace('{{solver}}', () =>
-        `<script id="solver" type="text/plain">${deflateRawSync(fs.readFileSync(here('./droplet_shape.wasm')), { level: 9 }).toString('base64')}</script>\n`));
+    const module = (id, file) => () =>
+        `<script id="${id}" type="text/plain">${deflateRawSync(fs.readFileSync(here(file)), { level: 9 }).toString('base64')}</script>\n`;
+    page ??= Buffer.from(fs.readFileSync(here('./studio.html'), 'utf8').replace('{{solver}}', module('solver', './droplet_shape.wasm'))
+        .replace('{{rain}}', module('rain-module', './droplet_rain.wasm')));
     return page;
 }

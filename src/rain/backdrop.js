@@ -9,9 +9,10 @@ export class Backdrop {
     /**
      * @param view   of view.js
      * @param root   element on which files are dropped
+     * @param signal ends it
      * @param shown  called with `street` or `own`, and why a file is not shown
      */
-    constructor(view, root, shown) {
+    constructor(view, root, signal, shown) {
         this.view = view;
         this.shown = shown;
         const drop = document.createElement('div');
@@ -28,6 +29,7 @@ export class Backdrop {
         });
         root.addEventListener('drop', (event) => {
             event.preventDefault();
+            event.stopPropagation();
             drop.hidden = true;
             const [file] = event.dataTransfer.files;
             if (file) {
@@ -39,7 +41,7 @@ export class Backdrop {
             if (file) {
                 this.open(file);
             }
-        });
+        }, { signal });
     }
 
     /** Whether it changes by itself. */

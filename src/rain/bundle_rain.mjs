@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { bundleScript, bundleStyle, fill, moduleElement, policyOf } from '../html/bundling.mjs';
 
 const [sources, output, wasm] = process.argv.slice(2);
-const script = await bundleScript(join(sources, 'alone.js'), { loader: { '.glsl': 'text' } });
+const script = await bundleScript(join(sources, 'alone.js'));
 const style = await bundleStyle([join(sources, 'rain.css')]);
 writeFileSync(output, fill(readFileSync(join(sources, 'rain.html'), 'utf8'), {
     script, style, policy: policyOf(script, style, { compiles: true, plays: true }), module: moduleElement('rain-module', wasm),

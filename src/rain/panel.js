@@ -8,6 +8,7 @@ const kIcons = {
     wipers: '<path d="M4 19 13 7M10 20l8-10M3 21h18"/>',
     pause: '<path d="M9 5v14M15 5v14"/>', play: '<path d="M8 5v14l11-7z"/>',
     again: '<path d="M20 11a8 8 0 1 0-2.3 6.3M20 5v6h-6"/>',
+    close: '<path d="M6 6l12 12M18 6 6 18"/>',
     whole: '<path d="M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5"/>',
     record: '<circle cx="12" cy="12" r="5.5" fill="currentcolor" stroke="none"/>',
     picture: '<rect x="4" y="6" width="16" height="13" rx="2"/><circle cx="12" cy="12.5" r="3.3"/><path d="M9 6l1-2h4l1 2"/>',
@@ -20,6 +21,7 @@ const kBar = [
     { icon: 'again', label: 'Begin again (B)', key: 'b' },
     { icon: 'picture', label: 'Save a picture (S)', key: 's', gap: true }, { icon: 'record', label: 'Record a video (R)', key: 'r' },
     { icon: 'whole', label: 'Full screen (F)', key: 'f', gap: true }, { icon: 'panel', label: 'Settings (H)', key: 'h' },
+    { icon: 'close', label: 'Close (Escape)', key: 'escape', gap: true },
 ];
 
 function element(kind, values = {}, ...content) {
@@ -47,11 +49,12 @@ export class Panel {
         root.append(this.hint);
         setTimeout(() => this.hint.classList.add('shown'), 2500);
         for (const gone of ['pointerdown', 'keydown']) {
-            addEventListener(gone, () => this.hint.classList.remove('shown'), { once: true });
+            addEventListener(gone, () => this.hint.classList.remove('shown'), { once: true, signal: rain.ends.signal, capture: true });
         }
         setTimeout(() => this.hint.classList.remove('shown'), 9000);
-        addEventListener('keydown', (event) => this.#press(event));
-        for (const kind of ['pointermove', 'pointerdown', 'keydown']) {
+        // Before what lies below, if anything does.
+        addEventListener('keydown', (event) => this.#press(event), { signal: rain.ends.signal, capture: true });
+        for (const kind of ['pointermove', 'pointerdown']) {
             root.addEventListener(kind, () => this.wake());
         }
         this.wake();
@@ -61,7 +64,7 @@ export class Panel {
     #makeBar() {
         const bar = element('div', { class: 'bar', role: 'toolbar', 'aria-label': 'Rain' });
         for (const { icon, label, gap } of kBar) {
-            if (icon === 'record' && !this.rain.recorder.works) {
+            if (icon === 'record' && !this.rain.recorder.works || icon === 'close' && !this.rain.leave) {
                 continue;
             }
             if (gap) {
@@ -198,6 +201,8 @@ export class Panel {
     }
 
     #press(event) {
+        event.stopPropagation();
+        this.wake();
         const chosen = kBar.find(({ key }) => key !== undefined && key === event.key?.toLowerCase?.());
         const is_typed = event.target instanceof HTMLElement && event.target.matches('button, input:not([type=range])') && event.key === ' ';
         if (chosen && !is_typed && !event.ctrlKey && !event.metaKey && !event.altKey && !event.repeat) {
@@ -238,6 +243,9 @@ export class Panel {
                 break;
             case 'whole':
                 document.fullscreenElement ? document.exitFullscreen() : this.root.requestFullscreen?.();
+                break;
+            case 'close':
+                rain.leave?.();
                 break;
             case 'panel':
                 button.setAttribute('aria-pressed', !this.panel.classList.toggle('away'));

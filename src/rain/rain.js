@@ -30,15 +30,18 @@ const kParameters = ['speed', 'rain', 'noise', 'wiperPeriod', 'seed', 'gravity',
  * @param parent  element, empty or not
  * @param wasm    droplet_rain.wasm, as bytes or compiled
  * @param given   what the command wrote: `parameters` by the names of windshield.d.ts, `preset`, `warm_up` [s], `map_width`,
- *                `eye_distance` [m], `field_of_view` [rad], `background`, the URL of a picture
+ *                `eye_distance` [m], `field_of_view` [rad], `background_blur` [rad], `background`, the URL of a picture
+ * @param leave   called when the user closes the rain; without it nothing closes it
+ * @return        `close`, a function that ends the rain and removes it
  */
-export async function openRain(parent, wasm, given = {}) {
+export async function openRain(parent, wasm, given = {}, leave = undefined) {
     const root = document.createElement('div');
     root.className = 'rain';
     parent.append(root);
     const state = document.documentElement.dataset;
     try {
-        await Rain.open(root, wasm, given);
+        const rain = await Rain.open(root, wasm, given, leave);
+        return { close: () => rain.close() };
     } catch (error) {
         const trouble = document.createElement('div');
         trouble.className = 'trouble';
@@ -51,15 +54,16 @@ export async function openRain(parent, wasm, given = {}) {
 }
 
 class Rain {
-    static async open(root, wasm, given) {
+    static async open(root, wasm, given, leave) {
         const canvas = document.createElement('canvas');
         canvas.setAttribute('aria-label', 'Rain on a windshield, from inside. Draw on it with a finger.');
         canvas.setAttribute('role', 'img');
         root.append(canvas);
-        return new Rain(root, canvas, await loadRain(wasm), given);
+        return new Rain(root, canvas, await loadRain(wasm), given, leave);
     }
 
-    constructor(root, canvas, windshield, given) {
+    constructor(root, canvas, windshield, given, leave) {
+        this.leave = leave;
         this.root = root;
         this.canvas = canvas;
         this.make = windshield;
@@ -76,22 +80,33 @@ class Rain {
         this.map_width = given.map_width ?? kMapWidths[0];
         this.scale = 0;
         this.tool = 'finger';
+        this.ends = new AbortController();
         this.view = new View(canvas);
         this.restart();
         for (const name of kParameters) {
             this.values[name] ??= this.windshield.get(name);
         }
-        this.backdrop = new Backdrop(this.view, root, (name, trouble) => this.panel?.showBackdrop(name, trouble));
+        this.backdrop = new Backdrop(this.view, root, this.ends.signal, (name, trouble) => this.panel?.showBackdrop(name, trouble));
         this.recorder = new Recorder(canvas);
         this.panel = new Panel(root, this);
         if (given.background) {
             this.backdrop.load(given.background, 'own');
         }
         this.#followPointer();
-        addEventListener('resize', () => this.#fit());
+        addEventListener('resize', () => this.#fit(), { signal: this.ends.signal });
         this.#fit();
         this.last = performance.now();
         requestAnimationFrame((now) => this.#frame(now));
+    }
+
+    /** Ends the rain, and takes it out of the page. */
+    close() {
+        this.ends.abort();
+        this.recorder.stop();
+        this.backdrop.street();
+        this.view.close();
+        this.windshield.free();
+        this.root.remove();
     }
 
     /** A dry glass, and the rain on it until now. */
@@ -125,7 +140,7 @@ class Rain {
         this.values[name] = value;
         if (again) {
             clearTimeout(this.soon);
-            this.soon = setTimeout(() => this.restart(), 250);
+            this.soon = setTimeout(() => this.ends.signal.aborted || this.restart(), 250);
         } else if (name === 'speed' || name === 'wind') {
             this.#setSpeed();
         } else if (kParameters.includes(name)) {
@@ -192,6 +207,9 @@ class Rain {
     }
 
     #frame(now) {
+        if (this.ends.signal.aborted) {
+            return;
+        }
         requestAnimationFrame((next) => this.#frame(next));
         const state = document.documentElement.dataset;
         const passed = Math.min((now - this.last) / 1000, 0.25);

@@ -111,7 +111,7 @@ void main() {
     float roof = skyline(p.x);
     vec3 houses = mix(vec3(0.030, 0.025, 0.027), vec3(0.012, 0.013, 0.017), smoothstep(0.0, 0.2, p.y));
     vec3 above = mix(houses, sky(p), smoothstep(-0.7 * spread - 0.004, 0.7 * spread + 0.004, p.y - roof));
-    colour = vec4(mix(ground, above, smoothstep(-0.5 * spread - 0.002, 0.5 * spread + 0.002, p.y + 0.002)), 1.0);
+    colour = vec4(0.72 * mix(ground, above, smoothstep(-0.5 * spread - 0.002, 0.5 * spread + 0.002, p.y + 0.002)), 1.0);
 }`;
 
 /** Lights as discs of a lens out of focus, or as small spots. */

@@ -111,6 +111,11 @@ export class View {
     #deep;
     #empty;
 
+    /** Gives the graphics' memory back. */
+    close() {
+        this.#gl.getExtension('WEBGL_lose_context')?.loseContext();
+    }
+
     /** Attributes of these sizes, one after another. */
     #mesh(sizes, numbers) {
         const gl = this.#gl;

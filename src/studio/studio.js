@@ -15,6 +15,7 @@ import { commandOf, kLayerFields, kSceneFields, optionsOf } from './physics.js';
 import { buildForm } from './physics_form.js';
 import { fitted } from './pictures.js';
 import { newLayer, newProject, projectOf, selectedLayer, withLayer } from './project.js';
+import { hasRain, showRain } from './rain_part.js';
 import { save } from './save.js';
 import { Sheet } from './sheet.js';
 import { Solver } from './solver.js';
@@ -483,6 +484,8 @@ class Studio {
         for (const button of find('saves').querySelectorAll('[data-save]')) {
             button.addEventListener('click', () => this.#save(button.dataset.save));
         }
+        find('rain').hidden = !hasRain();
+        find('rain').addEventListener('click', showRain);
         for (const button of [find('new'), find('afresh')]) {
             button.addEventListener('click', () => {
                 if (this.dew.is_shown) {
