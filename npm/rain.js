@@ -185,7 +185,7 @@ export async function loadRain(wasm) {
             const pixels = view().getUint32(room, true);
             const [width, height] = [4, 8].map((at) => view().getInt32(room + at, true));
             const [right, top] = numbers(2, room + 16);
-            return { width, height, right, top, pixels: new Uint8Array(rain.memory.buffer, pixels, width * height) };
+            return { width, height, right, top, pixels: new Uint8Array(rain.memory.buffer, pixels, width * height).slice() };
         }
 
         /** Gives its memory back at once. */

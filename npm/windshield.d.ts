@@ -114,7 +114,7 @@ export interface MistMap {
     right: number;
     /** Where its upper edge is, over the glass's height: 1 or a little more */
     top: number;
-    /** 0 where the glass is clear to 255, row by row from the upper left. Valid until the next call. */
+    /** 0 where the glass is clear to 255, row by row from the upper left */
     pixels: Uint8Array;
 }
 

@@ -6,8 +6,8 @@ import { pathToFileURL } from 'node:url';
 
 const [executablePath, playwright, rain, picture] = process.argv.slice(2);
 const { chromium } = createRequire(import.meta.url)(playwright);
-const kWidth = 1120;
-const kHeight = 630;
+const kWidth = 960;
+const kHeight = 540;
 
 const browser = await chromium.launch({
     executablePath,
