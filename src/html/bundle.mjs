@@ -11,8 +11,8 @@ const script = await bundleScript(join(sources, 'page.js'), {
     ...wasm ? await withWorker(studio) : {},
     alias: { studio: wasm ? join(studio, 'from_page.js') : join(sources, 'no_studio.js') },
 });
-const parts = [join(studio, 'studio.css'), join(studio, 'dew.css'), join(studio, '../rain/rain.css')];
-const style = await bundleStyle([join(sources, 'page.css'), ...wasm ? parts : []]);
+const styles = [join(studio, 'studio.css'), join(studio, 'dew.css'), join(studio, '../rain/rain.css')];
+const style = await bundleStyle([join(sources, 'page.css'), ...wasm ? styles : []]);
 const filled = {
     style,
     script,
