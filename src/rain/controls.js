@@ -4,6 +4,7 @@
 
 const kDegree = Math.PI / 180;
 const kMillimetrePerHour = 1e-3 / 3600;
+const kDenseMist = 10e-6;  // thickness at which mist grows no more [m]
 const scaled = (factor) => ({ to: (value) => value / factor, from: (shown) => shown * factor });
 /** Small values of a slider are finer: its square is the value. */
 const squared = (factor) => ({ to: (value) => Math.sqrt(value / factor), from: (shown) => shown * shown * factor });
@@ -11,7 +12,7 @@ const squared = (factor) => ({ to: (value) => Math.sqrt(value / factor), from: (
 export const kSliders = [
     { group: 'Weather', name: 'rain', label: 'Rain', min: 0, max: 10, step: 0.1, ...squared(kMillimetrePerHour), show: (v) => `${(v / kMillimetrePerHour).toFixed(0)} mm/h` },
     { group: 'Weather', name: 'wind', label: 'Head wind', min: 0, max: 30, step: 0.5, ...scaled(1), show: (v) => `${v.toFixed(0)} m/s` },
-    { group: 'Weather', name: 'mist', label: 'Mist', min: 0, max: 1, step: 0.01, ...squared(1e-6), show: (v) => (v > 0 ? `${(v / 1e-9).toFixed(0)} nm/s` : 'none') },
+    { group: 'Weather', name: 'mist', label: 'Mist', min: 0, max: 1, step: 0.01, ...squared(1e-6), show: (v) => (v > 0 ? `dense in ${(kDenseMist / v).toFixed(0)} s` : 'none') },
     { group: 'Car', name: 'speed', label: 'Speed', min: 0, max: 200, step: 1, ...scaled(1 / 3.6), show: (v) => `${(3.6 * v).toFixed(0)} km/h` },
     { group: 'Car', name: 'wiperPeriod', label: 'Wipers every', min: 0, max: 10, step: 0.2, to: (v) => v, from: (s) => (s < 1.2 ? 0 : s), show: (v) => (v > 0 ? `${v.toFixed(1)} s` : 'off') },
     { group: 'Car', name: 'noise', label: 'Vibration', min: 0, max: 5, step: 0.1, ...scaled(1), show: (v) => `${v.toFixed(1)} m/s²` },

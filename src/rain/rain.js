@@ -29,7 +29,7 @@ const kParameters = ['speed', 'rain', 'noise', 'wiperPeriod', 'seed', 'gravity',
  * Fills an element with the rain.
  * @param parent  element, empty or not
  * @param wasm    droplet_rain.wasm, as bytes or compiled
- * @param given   what the command wrote: `parameters` by the names of windshield.d.ts, `preset`, `warm_up` [s], `map_width`,
+ * @param given   what the command wrote: `parameters` by the names of windshield.d.ts, `preset`, `warm_up` [s],
  *                `eye_distance` [m], `field_of_view` [rad], `background_blur` [rad], `background`, the URL of a picture
  * @param leave   called when the user closes the rain; without it nothing closes it
  * @return        `close`, a function that ends the rain and removes it
@@ -76,9 +76,9 @@ class Rain {
         };
         this.fieldOfView = given.field_of_view;
         this.full = location.hash === '#full';  // sizes stay, for pictures of the page
-        this.map = given.map_width ? kMapWidths.length : 0;
-        this.map_width = given.map_width ?? kMapWidths[0];
-        this.scale = 0;
+        this.map = 0;  // of kMapWidths
+        this.map_width = kMapWidths[0];
+        this.scale = 0;  // of kScales
         this.tool = 'finger';
         this.ends = new AbortController();
         this.view = new View(canvas);

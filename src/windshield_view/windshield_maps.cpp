@@ -23,8 +23,7 @@ struct WindshieldMaps::Content {
     /// Running droplet as it is drawn.
     struct Drawn {
         RunningDroplet droplet;
-        std::size_t begin = 0;  ///< of its water
-        std::size_t count = 0;
+        std::vector<WaterStamp> water;
     };
 
     WaterRaster raster;
@@ -32,8 +31,7 @@ struct WindshieldMaps::Content {
     std::vector<WaterPixel> sums = {};  ///< of every pixel
     StillCells still = {};              ///< as drawn
     std::vector<Drawn> running = {};
-    std::vector<WaterStamp> running_water = {};  ///< of all running droplets
-    std::vector<std::uint32_t> changed = {};     ///< pixels since the last update
+    std::vector<std::uint32_t> changed = {};  ///< pixels since the last update
     std::vector<std::uint8_t> is_changed = {};
     std::vector<std::uint8_t> is_stale = {};  ///< for every tile
     std::vector<MapTile> tiles = {};
@@ -94,40 +92,36 @@ struct WindshieldMaps::Content {
         }
     }
 
-    /// Both lists are in the order of ids. Most droplets that run have changed; what they were is kept.
+    /// Both lists are in the order of ids. What has not changed keeps its water where it is.
     void update(const std::vector<RunningDroplet>& now)
     {
         std::vector<Drawn> drawn;
         drawn.reserve(now.size());
-        std::vector<WaterStamp> water;
-        water.reserve(running_water.size());
-        const auto stamps_of = [&](const Drawn& of) { return std::span(running_water).subspan(of.begin, of.count); };
-        auto old = running.cbegin();
+        auto old = running.begin();
         for (const RunningDroplet& droplet : now) {
-            for (; old != running.cend() && old->droplet.id < droplet.id; ++old) {
-                add(stamps_of(*old), -1);
+            for (; old != running.end() && old->droplet.id < droplet.id; ++old) {
+                add(old->water, -1);
             }
-            const std::size_t begin = water.size();
-            const bool was_there = old != running.cend() && old->droplet.id == droplet.id;
+            const bool was_there = old != running.end() && old->droplet.id == droplet.id;
             if (was_there && looksAs(old->droplet, droplet)) {
-                const auto kept = stamps_of(*old);
-                water.insert(water.end(), kept.begin(), kept.end());
+                drawn.push_back(std::move(*old));
             } else {
+                Drawn& fresh = drawn.emplace_back(Drawn{droplet, {}});
                 if (was_there) {
-                    add(stamps_of(*old), -1);
+                    add(old->water, -1);
+                    fresh.water = std::move(old->water);
+                    fresh.water.clear();
                 }
                 const RunningShape shaped = runningShape(droplet.volume, length(droplet.velocity), shape);
-                raster.draw({droplet.position, droplet.velocity, droplet.volume, shaped, true}, water);
-                add(std::span(water).subspan(begin), 1);
+                raster.draw({droplet.position, droplet.velocity, droplet.volume, shaped, true}, fresh.water);
+                add(fresh.water, 1);
             }
-            drawn.push_back({droplet, begin, water.size() - begin});
             old += was_there ? 1 : 0;
         }
-        for (; old != running.cend(); ++old) {
-            add(stamps_of(*old), -1);
+        for (; old != running.end(); ++old) {
+            add(old->water, -1);
         }
         running = std::move(drawn);
-        running_water = std::move(water);
     }
 
     static bool looksAs(const RunningDroplet& a, const RunningDroplet& b)
