@@ -4,4 +4,4 @@ import { openRain } from './rain.js';
 import { unpackRain } from './unpack.js';
 
 const text = document.getElementById('rain-values').textContent.trim();
-unpackRain().then((wasm) => openRain(document.body, wasm, text.startsWith('{') && !text.startsWith('{{') ? JSON.parse(text) : {}));
+unpackRain(document.getElementById('rain-module')).then((wasm) => openRain(document.body, wasm, text.startsWith('{') && !text.startsWith('{{') ? JSON.parse(text) : {}));

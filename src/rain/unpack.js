@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The module in the document: WebAssembly in #rain-module.
+// The module in the document, as bundling.mjs writes it.
 
-export async function unpackRain() {
-    const text = document.getElementById('rain-module').textContent.trim();
+/** @param element  of moduleElement() */
+export async function unpackRain(element) {
+    const text = element.textContent.trim();
     const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
     const bytes = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate-raw'))).arrayBuffer();
     return WebAssembly.compile(bytes);

@@ -3,13 +3,16 @@
 import { openRain } from '../rain/rain.js';
 import { unpackRain } from '../rain/unpack.js';
 
+// Studio takes the document's place, with this element.
+const held = document.getElementById('rain-module');
+
 /** Whether the document holds the rain's module. */
-export const hasRain = () => document.getElementById('rain-module') !== null;
+export const hasRain = () => held !== null;
 
 /** Shows the rain until the user closes it. */
 export async function showRain() {
     const { state, frames } = document.documentElement.dataset;
-    const rain = await openRain(document.body, await unpackRain(), {}, () => {
+    const rain = await openRain(document.body, await unpackRain(held), {}, () => {
         rain.close();
         Object.assign(document.documentElement.dataset, { state, frames });
     });

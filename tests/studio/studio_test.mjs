@@ -473,6 +473,21 @@ studio('the policy lets nothing else run', kDesktop, async (page) => {
     assert.deepEqual(Object.keys(rules).sort(), ['base-uri', 'default-src', 'form-action', 'img-src', 'script-src', 'style-src', 'worker-src']);
 });
 
+studio('rain is shown over the drawing until Escape, and keys are its own', kDesktop, async (page) => {
+    const tool = () => page.locator('#tools input:checked').inputValue();
+    await started(page);
+    const before = [await tool(), await page.evaluate(() => document.documentElement.dataset.state)];
+    await page.locator('#rain').click();
+    await page.waitForFunction(() => document.querySelector('.rain.ready') !== null);
+    for (const key of ['b', 'e', 'h']) {
+        await page.keyboard.press(key);
+    }
+    assert.equal(await page.locator('.rain .panel.away').count(), 0);
+    await page.keyboard.press('Escape');
+    await page.waitForFunction(() => document.querySelector('.rain') === null);
+    assert.deepEqual([await tool(), await page.evaluate(() => document.documentElement.dataset.state)], before);
+});
+
 studio('times from the hand to the eye', { viewport: { width: 1440, height: 900 }, deviceScaleFactor: 1 }, async (page) => {
     const box = await page.locator('#sheet').boundingBox();
     const at = (t) => [box.x + box.width * (0.2 + 0.6 * t), box.y + box.height * (0.5 - 0.25 * Math.sin(6 * t))];
