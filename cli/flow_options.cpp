@@ -94,7 +94,8 @@ void declare(CommandLine& line, FlowOptions& options)
     line.add(kObject, "--object-animation", "NAME",
              "Animation of the object's file that moves or deforms it [the first]", into(options.animation));
     line.addFlag(kObject, "--no-animation", "Ignore the animation of the object's file");
-    line.exclude({"--object-animation", "--no-animation", "--spin"});
+    line.exclude({"--object-animation", "--no-animation"});
+    line.exclude({"--object-animation", "--spin"});
     line.exclude({"--object-animation", "--motion"});
     constexpr const char* kSources = "Droplets";
     line.add(kSources, "--drops", "N", "Scatter droplets over the object at the start",

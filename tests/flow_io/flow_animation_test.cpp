@@ -491,6 +491,7 @@ TEST(FlowAnimation, AnObjectThatDeformsCarriesItsDroplets)
         EXPECT_LT(farthest, 5.1e-5 * length(sizeOf(object))) << k;
     }
     const AnimatedScene scene(out.str());
+    const std::vector<AnimatedScene::Shape> seats = scene.shapes();
     EXPECT_LT(scene.model().at("meshes").at(0).at("primitives").at(0).at("targets").size(), 12U);
     for (int k = 0; k < kFrames; ++k) {
         const std::vector<Shown> shown = scene.at((k + 1e-3) / kRate);
@@ -505,6 +506,12 @@ TEST(FlowAnimation, AnObjectThatDeformsCarriesItsDroplets)
             EXPECT_LT(length(nearest->place - place), 0.11 * nearest->scale.z) << k;
             EXPECT_GT(dot(nearest->y, inFile(sample.normal)), std::cos(2.0 * kDegree)) << k;
         }
+        const auto terrain = shapes.at(static_cast<std::size_t>(k));
+        double gaps = 0.0;
+        for (const Shown& one : shown) {
+            gaps += gapOf(*terrain, one, seats[one.slot]) / static_cast<double>(shown.size());
+        }
+        EXPECT_LT(gaps, 0.12) << k << ": the ground stretches by a fifth";
     }
 }
 
