@@ -248,7 +248,8 @@ export class Panel {
                 rain.leave?.();
                 break;
             case 'panel':
-                button.setAttribute('aria-pressed', !this.panel.classList.toggle('away'));
+                this.root.classList.toggle('open', !this.panel.classList.toggle('away'));
+                button.setAttribute('aria-pressed', this.root.classList.contains('open'));
                 this.wake();
                 break;
         }
