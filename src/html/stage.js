@@ -90,7 +90,7 @@ export class Stage {
     /**
      * Shows something else in place of the droplet.
      * @param droplet  as of the constructor; `casters` are the meshes that light on the ground knows, if not all; the others
-     *                 are on kUnlit
+     *                 are on kUnlit; `tilt` is that of the camera off the vertical [°]
      */
     swap(droplet, flat, space, extent) {
         this.flat = flat;
@@ -255,7 +255,7 @@ export class Stage {
         const upright = this.canvas.clientHeight > free;
         const box = this.box;
         const target = box.getCenter(new Vector3());
-        const direction = new Vector3().setFromSphericalCoords(1, MathUtils.degToRad(upright ? 40 : 47), MathUtils.degToRad(10));
+        const direction = new Vector3().setFromSphericalCoords(1, MathUtils.degToRad(this.droplet.tilt ?? (upright ? 40 : 47)), MathUtils.degToRad(10));
         const forward = direction.clone().negate();
         const right = new Vector3().crossVectors(forward, new Vector3(0, 1, 0)).normalize();
         const up = new Vector3().crossVectors(right, forward);

@@ -21,7 +21,7 @@ const kManyTriangles = 3e5;
 const kMostHistory = 256 << 20;
 const kTypes = { glb: 'model/gltf-binary', usdz: 'model/vnd.usdz+zip', obj: 'model/obj', stl: 'model/stl', ply: 'model/ply', csv: 'text/csv' };
 // Droplets of the bottle to try: few enough for a phone, and none so large that it runs off.
-const kBottle = { coverage: 45, smallest: 0.5, largest: 1.6 };
+const kBottle = { coverage: 45, smallest: 0.5, largest: 1.2 };
 const root = document.documentElement;
 
 const counted = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, '\u2009');

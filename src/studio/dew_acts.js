@@ -23,10 +23,12 @@ export function dewActs(solver) {
             const began = performance.now();
             giveBack();
             covered = solver().dew(object, options);
-            const bytes = covered.file('glb', { instancing: 'gpu', compress: 'none' });
+            // One mesh, as long as these are not too many: graphics in software draw each instance by itself.
+            const bytes = covered.file('glb', { instancing: 'auto', compress: 'none' });
             return [{ report: covered.report, bytes, solve_ms: performance.now() - began }, [bytes.buffer]];
         },
         dewFile({ format, form }) {
+            // One mesh, as long as these are not too many: graphics in software draw each instance by itself.
             const bytes = covered.file(format, form);
             return [{ bytes }, [bytes.buffer]];
         },

@@ -19,6 +19,8 @@ export class NoObject {
 }
 
 export class CoveredObject {
+    tilt = 68;  // objects are seen from the side, droplets from above
+
     /** Reads a file of `droplet-shape dew`, whose first mesh is the object. */
     static async load(bytes) {
         const { scene, parser } = await loadGlb(bytes);

@@ -4,12 +4,11 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { join, resolve } from 'node:path';
+import { join } from 'node:path';
 import { dropFiles, folder, jsonOf, kDesktop, kPhone, saved as savedBy, started, studio } from './browser.mjs';
 import { setValue, stateOfDew } from './controls.mjs';
 
-const { DROPLET_SHAPE, VALIDATOR, SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
-const can = readFileSync(resolve(SOURCES, '../data/can.glb'));
+const { DROPLET_SHAPE, VALIDATOR } = process.env;
 
 const saved = (page, kind) => savedBy(page, `[data-dew-save=${kind}]`);
 const result = async (page) => (await page.locator('#result').textContent()).replaceAll(/\s/g, ' ');
@@ -17,13 +16,13 @@ const result = async (page) => (await page.locator('#result').textContent()).rep
 /** Words of the command that Studio shows, after the object and the output. */
 const words = async (page) => (await page.locator('#command').textContent()).match(/'([^']*)' '([^']*)' ?(.*)/)[3].split(' ').filter(Boolean);
 
-/** A lump with bumps and colours, as .ply: its vertices by rings and columns. */
-function lump(rings = 40, columns = 80) {
+/** A lump of 2 cm with bumps [m], few droplets of which browsers draw fast: vertices by rings and columns, and triangles. */
+function lump(rings = 30, columns = 60) {
     const [vertices, faces] = [[], []];
     for (let i = 0; i <= rings; ++i) {
         for (let k = 0; k < columns; ++k) {
             const [polar, angle] = [Math.PI * (i + 0.5) / (rings + 1), 2 * Math.PI * k / columns];
-            const radius = 20 + 1.5 * Math.sin(5 * angle) * Math.sin(4 * polar);
+            const radius = 0.01 + 0.0007 * Math.sin(5 * angle) * Math.sin(4 * polar);
             vertices.push([radius * Math.sin(polar) * Math.cos(angle), radius * Math.sin(polar) * Math.sin(angle), radius * Math.cos(polar)]);
             if (i < rings) {
                 const [a, b] = [i * columns + k, i * columns + (k + 1) % columns];
@@ -36,31 +35,40 @@ function lump(rings = 40, columns = 80) {
             faces.push(flip ? [ring, ring + k + 1, ring + k] : [ring, ring + k, ring + k + 1]);
         }
     }
-    return Buffer.from(['ply', 'format ascii 1.0', `element vertex ${vertices.length}`, 'property float x', 'property float y', 'property float z',
-        `element face ${faces.length}`, 'property list uchar int vertex_indices', 'end_header',
-        ...vertices.map((v) => v.map((x) => (x / 1000).toFixed(7)).join(' ')), ...faces.map((face) => `3 ${face.join(' ')}`), ''].join('\n'));
+    return { vertices, faces };
 }
 
+const { vertices, faces } = lump();
+const ply = Buffer.from(['ply', 'format ascii 1.0', `element vertex ${vertices.length}`, 'property float x', 'property float y', 'property float z',
+    `element face ${faces.length}`, 'property list uchar int vertex_indices', 'end_header',
+    ...vertices.map((v) => v.map((x) => x.toFixed(7)).join(' ')), ...faces.map((face) => `3 ${face.join(' ')}`), ''].join('\n'));
+/** The lump in blue. */
+const blue = [
+    ['blue.obj', '', Buffer.from(['mtllib blue.mtl', 'usemtl blue', ...vertices.map((v) => `v ${v.map((x) => (1000 * x).toFixed(4)).join(' ')}`),
+        ...faces.map((face) => `f ${face.map((corner) => corner + 1).join(' ')}`), ''].join('\n'))],
+    ['blue.mtl', '', Buffer.from('newmtl blue\nKd 0.02 0.05 0.7\n')],
+];
+
 /** Opens the part and drops an object onto it. */
-async function cover(page, name, bytes) {
-    await dropFiles(page, '#view', [name, '', bytes]);
+async function cover(page, ...files) {
+    await dropFiles(page, '#view', ...files);
     await stateOfDew(page, 'ready');
 }
 
 if (DROPLET_SHAPE) {
     studio('droplets of a dropped object are those of the command, and its files are valid', kDesktop, async (page) => {
-        await cover(page, 'lump.ply', lump());
+        await cover(page, ['lump.ply', '', ply]);
         await page.locator('#dew-kinds [value=rain]').check({ force: true });
-        await setValue(page, 'dew-objectSize', 60);
+        await setValue(page, 'dew-objectSize', 24);
         await setValue(page, 'dew-coverage', 30);
         await setValue(page, 'dew-smallest', 0.4);
         await setValue(page, 'dew-seed', 5);
         await stateOfDew(page, 'ready');
         const object = join(folder, 'lump.ply');
-        writeFileSync(object, lump());
+        writeFileSync(object, ply);
         const made = join(folder, 'made.glb');
         const given = await words(page);
-        assert.deepEqual(given, ['--preset', 'rain', '--object-size', '60mm', '--coverage', '0.3', '--smallest', '0.4mm', '--seed', '5']);
+        assert.deepEqual(given, ['--preset', 'rain', '--object-size', '24mm', '--coverage', '0.3', '--smallest', '0.4mm', '--seed', '5']);
         const { droplets } = JSON.parse(execFileSync(DROPLET_SHAPE, ['dew', object, made, ...given, '--json', '-', '--quiet']));
         const figures = await page.locator('#figures table').innerText();
         assert.match(figures.replaceAll('\u2009', ''), new RegExp(`Droplets\\s+${droplets.count}\\n`));
@@ -93,7 +101,7 @@ if (DROPLET_SHAPE) {
 }
 
 studio('the object has its colours, and droplets are seen on it', kDesktop, async (page) => {
-    await cover(page, 'can.glb', can);
+    await cover(page, ...blue);
     const colourful = async () => {
         await page.waitForFunction(() => document.documentElement.dataset.state === 'resting');
         const png = await page.locator('#view').screenshot();
@@ -104,7 +112,7 @@ studio('the object has its colours, and droplets are seen on it', kDesktop, asyn
             const { data } = context.getImageData(0, 0, image.width, image.height);
             let count = 0;
             for (let i = 0; i < data.length; i += 4) {
-                count += data[i + 2] > data[i] + 40;  // the can's blue
+                count += data[i + 2] > data[i] + 40;  // the object's blue
             }
             return 4 * count / data.length;
         }, png.toString('base64'));
@@ -123,10 +131,10 @@ studio('the object has its colours, and droplets are seen on it', kDesktop, asyn
     await stateOfDew(page, 'ready');
     assert.equal(await result(page), changed);
     // A kind of wetness has its own values.
-    await page.locator('#dew-kinds [value=mist]').check({ force: true });
+    await page.locator('#dew-kinds [value=shower]').check({ force: true });
     await stateOfDew(page, 'ready');
-    assert.equal(Number(await page.locator('#dew-coverage').inputValue()), 20);
-    assert.equal(Number(await page.locator('#dew-smallest').inputValue()), 0.08);
+    assert.equal(Number(await page.locator('#dew-coverage').inputValue()), 35);
+    assert.equal(Number(await page.locator('#dew-smallest').inputValue()), 0.3);
 });
 
 studio('drawing and dew do not disturb each other', kDesktop, async (page) => {
@@ -161,8 +169,8 @@ studio('what is no mesh, or has no place for droplets, is said, and the next obj
     assert.equal(await page.locator('#result').evaluate(({ classList }) => classList.contains('refused')), true);
     await dropFiles(page, '#view', ['empty.obj', '', Buffer.from('v 0 0 0\n')]);
     await stateOfDew(page, 'refused');
-    await cover(page, 'can.glb', can);
-    await setValue(page, 'dew-objectSize', 0.5);
+    await cover(page, ...blue);
+    await setValue(page, 'dew-objectSize', 0.1);
     await stateOfDew(page, 'refused');
     await page.locator('#undo').click();
     await stateOfDew(page, 'ready');
@@ -182,7 +190,7 @@ studio('what is no mesh, or has no place for droplets, is said, and the next obj
 });
 
 studio('the object comes back when the page is loaded again', kDesktop, async (page) => {
-    await cover(page, 'can.glb', can);
+    await cover(page, ...blue);
     await page.locator('#dew-kinds [value=shower]').check({ force: true });
     await stateOfDew(page, 'ready');
     const before = await result(page);
