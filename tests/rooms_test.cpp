@@ -97,14 +97,14 @@ std::vector<Include> includesOfSources()
 {
     std::vector<Include> includes;
     const std::regex include("#include [<\"]([^>\"]+)[>\"]");
-    for (const std::string top : {"include/droplet", "src", "cli"}) {
+    for (const std::string top : {"include/droplet", "src", "cli", "c/src"}) {
         const fs::path root = inSource(top);
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root)) {
             const fs::path below = fs::relative(entry.path(), root);
             if (below.extension() != ".h" && below.extension() != ".cpp") {
                 continue;
             }
-            const std::string from = top == "cli" ? "cli" : roomOf(below);
+            const std::string from = top == "cli" ? "cli" : top == "c/src" ? "c" : roomOf(below);
             std::istringstream lines(testing::readFile(entry.path()));
             for (std::string line; std::getline(lines, line);) {
                 std::smatch found;

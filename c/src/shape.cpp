@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "droplet/error.h"
-#include "droplet/io/gltf.h"
 #include "droplet/io/report.h"
 #include "droplet/mask/mask.h"
 #include "droplet_report.h"
