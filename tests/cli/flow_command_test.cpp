@@ -572,6 +572,7 @@ TEST_F(FlowCommand, AnObjectDeformsByAMeshForEveryFrame)
         EXPECT_EQ(readFile(path(fmt::format("again/{}.png", k))), readFile(path(fmt::format("whole/{}.png", k)))) << k;
     }
 
+    expectRefused({"--drops", "3", "--ground", "Wax:hysteresis=2"}, 2, "droplet-shape: --ground: material is Wax");
     // In an animation the slope moves with its droplets.
     ASSERT_EQ(flow("moved.glb", {"--drops", "3", "--fps", "20"}, "s%d.obj").exit_code, 0);
     const droplet::DeformingObject back = droplet::readAnimatedObject(path("moved.glb"), {20.0, 6});
