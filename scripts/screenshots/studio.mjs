@@ -74,12 +74,16 @@ await stroke(loops, curve(160, (t) => {
 await take(loops, phone);
 
 // A cold bottle.
-const bottle = await opened({ viewport: { width: 1280, height: 760 }, colorScheme: 'dark' });
+const bottle = await opened({ viewport: { width: 1280, height: 760 }, colorScheme: 'light' });
 await bottle.locator('#modes [value=dew]').check({ force: true });
 await stateOfDew(bottle, 'empty');
 await bottle.locator('#dew-bottle').click();
 await stateOfDew(bottle, 'ready');
-await bottle.locator('#dew-open').blur();
+await bottle.locator('#view').focus();
+for (const key of ['ArrowUp', '+', '+', '+']) {
+    await bottle.keyboard.press(key);
+}
+await bottle.locator('#view').blur();
 await bottle.waitForFunction(() => document.documentElement.dataset.state === 'resting');
 await bottle.screenshot({ path: dew });
 await bottle.close();

@@ -20,6 +20,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -286,29 +287,29 @@ struct DewModel::Content {
         return kinds[i]->second.mesh.triangles;
     }
 
-    /// One mesh of all droplets.
-    [[nodiscard]] DropletMesh merged() const
+    /// One mesh of droplets.
+    [[nodiscard]] DropletMesh merged(std::span<const std::size_t> droplets) const
     {
         DropletMesh mesh;
-        for (const std::size_t i : shown) {
+        for (const std::size_t i : droplets) {
             append(shapeOf(i), trianglesOf(i), mesh);
         }
         return mesh;
     }
 
     /// Droplets that share no mesh.
-    [[nodiscard]] std::vector<std::size_t> alone(bool all) const
+    [[nodiscard]] std::vector<std::size_t> alone() const
     {
         std::vector<std::size_t> droplets;
         std::copy_if(shown.begin(), shown.end(), std::back_inserter(droplets),
-                     [&](std::size_t i) { return all || !own[i].vertices.empty(); });
+                     [&](std::size_t i) { return !own[i].vertices.empty(); });
         return droplets;
     }
 
-    /// A mesh of droplets. A part has those with the same number of vertices, as many as indices of 16 bits reach, so
-    /// that parts have the same triangles.
-    [[nodiscard]] SceneMesh meshOf(const std::vector<std::size_t>& droplets, const char* name,
-                                   std::size_t material) const
+    /// A mesh of droplets with the same number of vertices in each of its parts, as many as indices of 16 bits reach,
+    /// so that parts have the same triangles.
+    [[nodiscard]] SceneMesh meshInParts(const std::vector<std::size_t>& droplets, const char* name,
+                                        std::size_t material) const
     {
         std::map<std::size_t, std::vector<std::size_t>> alike;  // by vertices
         for (const std::size_t i : droplets) {
@@ -318,11 +319,8 @@ struct DewModel::Content {
         for (const auto& [vertices, some] : alike) {
             const std::size_t count = kMostVertices / vertices;
             for (std::size_t begin = 0; begin < some.size(); begin += count) {
-                DropletMesh part;
-                for (std::size_t k = begin; k < std::min(begin + count, some.size()); ++k) {
-                    append(shapeOf(some[k]), trianglesOf(some[k]), part);
-                }
-                mesh.geometries.push_back(std::move(sceneMesh(part, name, material).geometries.front()));
+                const std::span part = std::span(some).subspan(begin, std::min(count, some.size() - begin));
+                mesh.geometries.push_back(std::move(sceneMesh(merged(part), name, material).geometries.front()));
             }
         }
         return mesh;
@@ -435,7 +433,7 @@ const std::vector<std::size_t>& DewModel::shown() const
 
 Surface DewModel::surface() const
 {
-    DropletMesh mesh = content_->merged();
+    DropletMesh mesh = content_->merged(content_->shown);
     Surface surface;
     surface.vertices = std::move(mesh.vertices);
     surface.normals = std::move(mesh.normals);
@@ -469,11 +467,12 @@ std::uint64_t DewModel::write(const FlowObject& object, std::ostream& out, const
     const std::size_t root = form.has_object ? addObject(object, scene) : scene.addNode({"droplets"});
     const double radius = content.meanRadius();
     const auto liquid = [&] { return scene.addMaterial(liquidMaterial(lookOf(form.material), radius)); };
-    const bool all = instancing == Instancing::None;
-    const std::vector<std::size_t> alone = content.alone(all);
-    if (!alone.empty()) {
-        const char* const name = all ? "droplets" : "droplets on bends";
-        scene.addNode({name, scene.addMesh(content.meshOf(alone, name, liquid()))}, root);
+    if (instancing == Instancing::None && !content.shown.empty()) {
+        SceneMesh mesh = sceneMesh(content.merged(content.shown), "droplets", liquid());
+        scene.addNode({"droplets", scene.addMesh(std::move(mesh))}, root);
+    } else if (const std::vector<std::size_t> alone = content.alone(); !alone.empty()) {
+        const char* const name = "droplets on bends";
+        scene.addNode({name, scene.addMesh(content.meshInParts(alone, name, liquid()))}, root);
     }
     if (instancing != Instancing::None && !content.shown.empty()) {
         scene.gpu_instancing = instancing == Instancing::Gpu;

@@ -299,9 +299,9 @@ export class Stage {
             ArrowRight: (controls) => controls.rotateLeft(-turn),
             ArrowUp: (controls) => controls.rotateUp(turn),
             ArrowDown: (controls) => controls.rotateUp(-turn),
-            '+': (controls) => controls.dollyIn(1.12),
-            '=': (controls) => controls.dollyIn(1.12),
-            '-': (controls) => controls.dollyOut(1.12),
+            '+': (controls) => controls.dollyIn(1 / 1.12),
+            '=': (controls) => controls.dollyIn(1 / 1.12),
+            '-': (controls) => controls.dollyOut(1 / 1.12),
         };
         if (event.key === 'Home') {
             this.reset();

@@ -20,8 +20,8 @@ const kMostKept = 64 << 20; // of an object that the browser keeps [bytes]
 const kManyTriangles = 3e5;
 const kMostHistory = 256 << 20;
 const kTypes = { glb: 'model/gltf-binary', usdz: 'model/vnd.usdz+zip', obj: 'model/obj', stl: 'model/stl', ply: 'model/ply', csv: 'text/csv' };
-// Droplets of the bottle to try: few enough for a phone, and none so large that it runs off.
-const kBottle = { coverage: 45, smallest: 0.5, largest: 1.2 };
+// The bottle to try is a small one: few droplets are quick on a phone, and large enough to be seen.
+const kBottle = { objectSize: 90, coverage: 45, smallest: 0.4, largest: 1.4 };
 const root = document.documentElement;
 
 const counted = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, '\u2009');

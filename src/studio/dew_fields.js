@@ -25,8 +25,8 @@ const kFields = [
     { name: 'liquid', label: 'Liquid', labels: {}, more: true },
     { name: 'material', label: 'Look', labels: { water: 'Clear water', ink: 'Blue ink' }, more: true },
     { name: 'detail', label: 'Triangles', labels: { low: 'few', medium: 'usual', high: 'many' }, more: true },
-    { name: 'instancing', label: 'Droplets are', labels: { auto: 'as their number asks', none: 'one mesh', nodes: 'a node each', gpu: 'GPU instances' }, file: true },
-    { name: 'compress', label: 'Compression', labels: { none: 'none', quantize: '16 bits', meshopt: 'meshopt' }, file: true },
+    { name: 'instancing', label: 'Droplets', labels: { auto: 'automatic', none: 'one mesh', nodes: 'a node each', gpu: 'instances' }, file: true },
+    { name: 'compress', label: 'Compress', labels: { none: 'none', quantize: '16 bits', meshopt: 'meshopt' }, file: true },
 ];
 
 /** Where droplets are, as options. */

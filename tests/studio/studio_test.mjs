@@ -401,7 +401,7 @@ if (DROPLET_SHAPE) {
         const table = await page.locator('#figures table tr').evaluateAll((list) => list.map(({ cells }) => [cells[0].textContent, cells[1].textContent]));
         assert.deepEqual(table.slice(0, -1), rows(report));
         // The exact models call functions that C libraries round differently in the last digit; the linear one does not.
-        await page.locator('#panel details summary', { hasText: 'More' }).click();
+        await page.locator('[data-tab=liquid] summary').click();
         await setValue(page, 'liquid-model', 'linear');
         await settle(page);
         await command();
