@@ -57,8 +57,8 @@ droplet::Dimension dimensionOf(std::string_view name)
         std::pair{std::string_view("mist"), Dimension::Rainfall},
         std::pair{std::string_view("slope"), Dimension::Angle},
     };
-    const auto* const found = std::find_if(kDimensions.begin(), kDimensions.end(),
-                                           [&](const auto& entry) { return entry.first == name; });
+    const auto* const found =
+        std::find_if(kDimensions.begin(), kDimensions.end(), [&](const auto& entry) { return entry.first == name; });
     return found != kDimensions.end() ? found->second : Dimension::Length;
 }
 
@@ -74,11 +74,10 @@ public:
     {
         for (const auto& [key, value] : parameters) {
             const std::string name = named(py::str(key));
-            check(droplet_windshield_set(
-                made_, name.c_str(),
-                py::isinstance<py::str>(value)
-                    ? droplet::parseQuantity(std::string(py::str(value)), dimensionOf(name))
-                    : value.cast<double>()));
+            check(droplet_windshield_set(made_, name.c_str(),
+                                         py::isinstance<py::str>(value)
+                                             ? droplet::parseQuantity(std::string(py::str(value)), dimensionOf(name))
+                                             : value.cast<double>()));
         }
     }
 
@@ -198,8 +197,8 @@ glass_height, glass_radius, slope: docs/engines.md has their ranges.)")
         .def("get", &Windshield::get, py::arg("name"), "Value of a parameter of set().")
         .def("advance", &Windshield::advance, py::arg("seconds"),
              "Advances the rain by a time [s]; at most 1/30 is advised.")
-        .def("spray", &Windshield::spray, py::arg("x"), py::arg("y"), py::arg("radius") = 0.1,
-             py::arg("volume") = 5e-7, "Sprays water [m³] onto a place; it meets the glass in the next step.")
+        .def("spray", &Windshield::spray, py::arg("x"), py::arg("y"), py::arg("radius") = 0.1, py::arg("volume") = 5e-7,
+             "Sprays water [m³] onto a place; it meets the glass in the next step.")
         .def("finger", &Windshield::finger, py::arg("start"), py::arg("end"), py::arg("width") = 0.014,
              "Moves a finger over the glass: it takes mist and droplets, and leaves beads beside its path.")
         .def_property_readonly("figures", &Windshield::figures, "Time, speed, size of the glass, water and counts.")
