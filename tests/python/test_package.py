@@ -214,7 +214,7 @@ class SourceArchive(unittest.TestCase):
             found = {path.relative_to(root) for path in (root / part).rglob("*") if path.is_file()}
             return {path for path in found if not re.search(r"__pycache__|\.egg-info", str(path))}
 
-        for part in ("cli", "include", "python", "src"):
+        for part in ("c", "cli", "include", "python", "src"):
             self.assertEqual(files(self.sources, part), files(ROOT, part))
         for part in ("LICENSE", "pyproject.toml", "docs/python.md", "scripts/setup"):
             self.assertEqual((self.sources / part).read_bytes(), (ROOT / part).read_bytes())

@@ -53,8 +53,7 @@ typedef struct DropletShape DropletShape;
 /// @param options  words of the command line of `droplet-shape`, such as "--volume" and "20uL"; NULL if count is 0
 /// @param count    number of words
 /// @param made     receives the droplets; droplet_shape_delete() ends them
-/// @return         DROPLET_INVALID_ARGUMENT, also for options about files that the command writes;
-/// DROPLET_INVALID_INPUT,
+/// @return         DROPLET_INVALID_ARGUMENT, also for options of files that the command writes; DROPLET_INVALID_INPUT;
 ///                 DROPLET_NO_SUCH_DROPLET
 DROPLET_API DropletCode droplet_shape_of_file(const char* path, const char* const* options, size_t count,
                                               DropletShape** made);
@@ -92,15 +91,18 @@ typedef struct DropletMesh {
 } DropletMesh;
 
 /// The mesh.
-/// @param mesh  receives arrays that stay until the droplets are ended
+/// @param shape  valid
+/// @param mesh   receives arrays that stay until the droplets are ended
 DROPLET_API DropletCode droplet_shape_mesh(const DropletShape* shape, DropletMesh* mesh);
 
 /// The report: options, results and warnings, as `--json` writes them, without a file's path and size.
-/// @param json  receives a text that stays until the droplets are ended
+/// @param shape  valid
+/// @param json   receives a text that stays until the droplets are ended
 DROPLET_API DropletCode droplet_shape_report(const DropletShape* shape, const char** json);
 
 /// Writes a file, completely or not at all.
-/// @param path  ends in .glb, .gltf, .obj, .ply, .stl, .usda, .usdz or .3mf
+/// @param shape  valid
+/// @param path   ends in .glb, .gltf, .obj, .ply, .stl, .usda, .usdz or .3mf
 /// @return      DROPLET_INVALID_ARGUMENT, DROPLET_OUTPUT_FAILED
 DROPLET_API DropletCode droplet_shape_write(const DropletShape* shape, const char* path);
 
@@ -142,17 +144,20 @@ DROPLET_API void droplet_windshield_delete(DropletWindshield* windshield);
 /// | glass-height | m | 0.05 to 5 | the glass |
 /// | glass-radius | m | 0.1 to 1e6 | the glass, bend across |
 /// | slope | rad | 0 to 90 degrees | the glass, from horizontal |
-/// @param name   in the table
-/// @param value  in the table
+/// @param windshield  valid
+/// @param name        in the table
+/// @param value       in the table
 DROPLET_API DropletCode droplet_windshield_set(DropletWindshield* windshield, const char* name, double value);
 
 /// Value of a parameter of droplet_windshield_set().
-/// @param name   in its table
-/// @param value  receives the value
+/// @param windshield  valid
+/// @param name        in its table
+/// @param value       receives the value
 DROPLET_API DropletCode droplet_windshield_get(const DropletWindshield* windshield, const char* name, double* value);
 
 /// Advances the rain: it arrives, droplets run, meet and break up, wipers sweep.
-/// @param seconds  > 0; at most 1/30 is advised
+/// @param windshield  valid
+/// @param seconds     > 0; at most 1/30 is advised
 DROPLET_API DropletCode droplet_windshield_advance(DropletWindshield* windshield, double seconds);
 
 /// Water from a sprayer.
@@ -164,7 +169,8 @@ typedef struct DropletSpray {
 } DropletSpray;
 
 /// Sprays water, as droplets with diameters from 0.3 to 2 mm, which meet the glass in the next step.
-/// @param spray  place and amount
+/// @param windshield  valid
+/// @param spray       place and amount
 DROPLET_API DropletCode droplet_windshield_spray(DropletWindshield* windshield, const DropletSpray* spray);
 
 /// Straight movement of a finger over the glass.
@@ -178,7 +184,8 @@ typedef struct DropletStroke {
 
 /// Moves a finger: it takes mist and droplets along and leaves their water as beads beside its path and ahead of it,
 /// which meet the glass in the next step.
-/// @param stroke  of the finger
+/// @param windshield  valid
+/// @param stroke      of the finger
 DROPLET_API DropletCode droplet_windshield_finger(DropletWindshield* windshield, const DropletStroke* stroke);
 
 /// Figures of a windshield.
@@ -195,7 +202,8 @@ typedef struct DropletWindshieldFigures {
 } DropletWindshieldFigures;
 
 /// Figures of the state.
-/// @param figures  receives them
+/// @param windshield  valid
+/// @param figures     receives them
 DROPLET_API DropletCode droplet_windshield_figures(const DropletWindshield* windshield,
                                                    DropletWindshieldFigures* figures);
 
@@ -211,8 +219,9 @@ typedef struct DropletRunning {
 } DropletRunning;
 
 /// Droplets that are large enough to run, in the order of their ids.
-/// @param droplets  receives at most `room` of them; NULL if room is 0
-/// @param room      length of the array
+/// @param windshield  valid
+/// @param droplets    receives at most `room` of them; NULL if room is 0
+/// @param room        length of the array
 /// @return          number of all such droplets
 DROPLET_API size_t droplet_windshield_running(const DropletWindshield* windshield, DropletRunning* droplets,
                                               size_t room);
@@ -227,9 +236,10 @@ typedef struct DropletPlace {
 } DropletPlace;
 
 /// Place of a position on the glass.
-/// @param x      [m]
-/// @param y      [m]
-/// @param place  receives it
+/// @param windshield  valid
+/// @param x           [m]
+/// @param y           [m]
+/// @param place       receives it
 DROPLET_API DropletCode droplet_windshield_place(const DropletWindshield* windshield, double x, double y,
                                                  DropletPlace* place);
 
@@ -242,8 +252,9 @@ typedef struct DropletBlade {
 } DropletBlade;
 
 /// Blades where they are now.
-/// @param blades  receives at most `room` of them; NULL if room is 0
-/// @param room    length of the array
+/// @param windshield  valid
+/// @param blades      receives at most `room` of them; NULL if room is 0
+/// @param room        length of the array
 /// @return        number of all blades
 DROPLET_API size_t droplet_windshield_blades(const DropletWindshield* windshield, DropletBlade* blades, size_t room);
 
@@ -256,8 +267,9 @@ typedef struct DropletTile {
 } DropletTile;
 
 /// Height of maps.
-/// @param width   [px], 16 to 8192
-/// @param height  receives the height [px]; pixels are nearly square
+/// @param windshield  valid
+/// @param width       [px], 16 to 8192
+/// @param height      receives the height [px]; pixels are nearly square
 DROPLET_API DropletCode droplet_windshield_map_height(DropletWindshield* windshield, int32_t width, int32_t* height);
 
 /// Tiles that were drawn.
@@ -274,9 +286,10 @@ typedef struct DropletTiles {
 /// driver's right and up the glass, both times the wetness; the mean thickness of the water [mm]; and the wetness, the
 /// share that water covers, above 1 where droplets overlap. Bare glass is 0. All are means over the pixel, so that they
 /// may be interpolated; over the wetness the first two are the normal of the water alone.
-/// @param width   [px], as in droplet_windshield_map_height()
-/// @param pixels  width · height · 4 numbers, row by row from the upper left, as the last call left them
-/// @param tiles   receives the tiles with pixels that were written
+/// @param windshield  valid
+/// @param width       [px], as in droplet_windshield_map_height()
+/// @param pixels      width · height · 4 numbers, row by row from the upper left, as the last call left them
+/// @param tiles       receives the tiles with pixels that were written
 DROPLET_API DropletCode droplet_windshield_draw(DropletWindshield* windshield, int32_t width, uint16_t* pixels,
                                                 DropletTiles* tiles);
 
@@ -291,7 +304,8 @@ typedef struct DropletMistMap {
 } DropletMistMap;
 
 /// Brings the texture of the mist up to the state.
-/// @param map  receives it
+/// @param windshield  valid
+/// @param map         receives it
 DROPLET_API DropletCode droplet_windshield_mist(DropletWindshield* windshield, DropletMistMap* map);
 
 #ifdef __cplusplus

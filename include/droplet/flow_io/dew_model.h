@@ -44,9 +44,9 @@ struct DewFile {
 
 /// Meshes of droplets at rest on an object.
 ///
-/// Droplets of about the same size, slope and bend of the ground share a mesh of the capillary body; small ones have few
-/// triangles. Where a shared mesh would stand off the object by over a twentieth of the contact radius, the droplet gets
-/// a mesh of its own, which sits on it as seatedDroplets() does it. All are closed, and have their volume to 1 %.
+/// Droplets of about the same size, slope and bend of the ground share a mesh of the capillary body; small ones have
+/// few triangles. Where a shared mesh would stand off the object by over a twentieth of the contact radius, the droplet
+/// gets a mesh of its own, which sits on it as seatedDroplets() does it. All are closed, and have their volume to 1 %.
 /// Droplets that would have to grow to over 1.6 times their height, or lose volume, because the object bends too much
 /// below them, are left out.
 class DewModel {
