@@ -18,6 +18,7 @@
 #elif defined(__EMSCRIPTEN__)
 #define DROPLET_API __attribute__((used, visibility("default")))
 #else
+/// Marks the functions of the interface.
 #define DROPLET_API __attribute__((visibility("default")))
 #endif
 
