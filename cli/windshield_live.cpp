@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <system_error>
 
+#include "droplet/io/base64.h"
 #include "files.h"
 #include "option_values.h"
 #include "run_files.h"
@@ -52,25 +51,6 @@ constexpr std::array<std::string_view, 28> kKnown{"--live",
                                                   "--threads",
                                                   "--quiet"};
 
-/// RFC 4648, section 4.
-std::string base64(std::string_view bytes)
-{
-    constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t k = 0; k < bytes.size(); k += 3) {
-        const std::size_t count = std::min<std::size_t>(bytes.size() - k, 3);
-        std::uint32_t bits = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            bits = bits << 8U | (i < count ? static_cast<unsigned char>(bytes[k + i]) : 0U);
-        }
-        for (std::size_t i = 0; i < 4; ++i) {
-            text += i <= count ? kLetters[bits >> (18 - 6 * i) & 63U] : '=';
-        }
-    }
-    return text;
-}
-
 /// Picture as a URL of data.
 std::string urlOf(const std::string& path)
 {
@@ -84,7 +64,7 @@ std::string urlOf(const std::string& path)
     if (type == nullptr) {
         refuse(Given{path, "--background"}, "a PNG, JPEG, WebP or GIF with --live; drop videos on the page");
     }
-    return fmt::format("data:image/{};base64,{}", type, base64(bytes));
+    return fmt::format("data:image/{};base64,{}", type, droplet::base64(bytes));
 }
 
 /// The page with a gap for its values, where it was installed or built, relative to this program.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // WHATWG, "HTML Living Standard", sections 13.1.2 (the end of raw text and title elements) and 4.12.1.3 (script
-// elements that hold data); RFC 4648, section 4 (base64).
+// elements that hold data).
 #include "droplet/io/page.h"
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 
 #include "byte_stream.h"
 #include "droplet/error.h"
+#include "droplet/io/base64.h"
 #include "io/page_parts.h"
 #include "xml_text.h"
 
@@ -91,19 +92,6 @@ std::string forTitle(const std::string& text)
     return safe;
 }
 
-void base64(ByteStream& out, std::string_view bytes)
-{
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const auto octet = [&](std::size_t i) -> std::uint32_t {
-        return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U;
-    };
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::uint32_t group = octet(i) << 16 | octet(i + 1) << 8 | octet(i + 2);
-        out.u8(kDigits[group >> 18], kDigits[group >> 12 & 63], i + 1 < bytes.size() ? kDigits[group >> 6 & 63] : '=',
-               i + 2 < bytes.size() ? kDigits[group & 63] : '=');
-    }
-}
-
 }  // namespace
 
 bool hasPage() noexcept
@@ -129,7 +117,10 @@ std::uint64_t writePage(std::ostream& out, const PageContent& content)
     page.text(kPageParts[1]);
     page.text(forScript(dump(data)));
     page.text(kPageParts[2]);
-    base64(page, content.glb);
+    constexpr std::size_t kPart = std::size_t{3} << 16;
+    for (std::size_t at = 0; at < content.glb.size(); at += kPart) {
+        page.text(base64(std::string_view(content.glb).substr(at, kPart)));
+    }
     page.text(kPageParts[3]);
     return page.finish();
 }
