@@ -9,6 +9,7 @@
 
 #include "checkpoint.h"
 #include "content_hash.h"
+#include "droplet/error.h"
 #include "flow_plan.h"
 
 namespace cli {
@@ -28,6 +29,18 @@ void addInputs(RunFiles& files, const FlowOptions& options)
     files.reads("--environment", options.view.environment);
 }
 
+/// Number of frames. What is wrong with an object is told by its reader, once the files are known to be different ones;
+/// until then it counts as one that keeps its shape.
+std::size_t framesToWrite(FlowOptions options)
+{
+    try {
+        return frameCount(options);
+    } catch (const droplet::Error&) {
+        options.keeps_animation = false;
+        return frameCount(options);
+    }
+}
+
 }  // namespace
 
 RunFiles filesOf(const FlowOptions& options)
@@ -35,7 +48,7 @@ RunFiles filesOf(const FlowOptions& options)
     RunFiles files;
     addInputs(files, options);
     files.reads("--config", options.run.config);
-    const FrameNumbers numbers{1, frameCount(options)};
+    const FrameNumbers numbers{1, framesToWrite(options)};
     if (options.files) {
         files.writesFrames("OUTPUT", *options.files, numbers);
         files.writes("OUTPUT's checkpoint", checkpointPath(*options.files));

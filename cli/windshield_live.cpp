@@ -67,16 +67,15 @@ std::string urlOf(const std::string& path)
     return fmt::format("data:image/{};base64,{}", type, droplet::base64(bytes));
 }
 
-/// The page with a gap for its values, where it was installed or built, relative to this program.
-fs::path pageTemplate()
+/// The page with a gap for its values.
+std::string templateFrom(const fs::path& page)
 {
-    fs::path page = (programFile().parent_path() / DROPLET_RAIN_PAGE).lexically_normal();
     std::error_code unknown;
     if (!fs::exists(page, unknown)) {
         refuse("--live is not available: " + page.string() +
                " does not exist, because the program was built without DROPLET_STUDIO");
     }
-    return page;
+    return textOf(page.string());
 }
 
 std::string valuesOf(const WindshieldOptions& options)
@@ -122,7 +121,8 @@ void checkLive(const CommandLine& line)
 
 void writeLive(const WindshieldOptions& options)
 {
-    const fs::path page = pageTemplate();
+    // Where it was installed or built, relative to this program.
+    const fs::path page = (programFile().parent_path() / DROPLET_RAIN_PAGE).lexically_normal();
     const std::string& path = options.live->path;
     RunFiles files;
     files.reads("the page of the rain", page.string());
@@ -131,7 +131,7 @@ void writeLive(const WindshieldOptions& options)
     files.writes("--live", path);
     checkFiles(files, options.run.files);
     constexpr std::string_view kGap = "{{values}}";
-    std::string text = textOf(page.string());
+    std::string text = templateFrom(page);
     text.replace(text.find(kGap), kGap.size(), valuesOf(options));
     writeTogether({{path, [&](std::ostream& out) { out << text; }}}, options.run.files);
 }

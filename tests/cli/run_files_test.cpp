@@ -258,6 +258,12 @@ const std::vector<CommandFiles>& all()
           {"--droplets", "droplets.csv"},
           {"--animation", "model.glb"},
           {"--json", "out.json"}}},
+        {"windshield",
+         "live",
+         {{"--live", "new.html"}},
+         {},
+         {kConfig, {"--background", "road.png"}},
+         {{"--live", "out.html"}}},
     };
     return commands;
 }
