@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <iterator>
 #include <map>
 #include <numbers>
@@ -51,7 +50,7 @@ struct Bend {
     int saddle = 0;  ///< ahead and behind; as far down on both sides
     int twist = 0;   ///< the same, between these directions
 
-    friend auto operator<=>(const Bend&, const Bend&) = default;
+    friend bool operator==(const Bend&, const Bend&) = default;
 };
 
 /// Class of droplets; round ones look the same at every slope.
@@ -64,7 +63,8 @@ struct Kind {
     friend bool operator<(const Kind& a, const Kind& b)
     {
         const auto key = [](const Kind& kind) {
-            return std::tuple(kind.volume, kind.slope, kind.detail.around, kind.bend);
+            return std::tuple(kind.volume, kind.slope, kind.detail.around, kind.bend.dome, kind.bend.saddle,
+                              kind.bend.twist);
         };
         return key(a) < key(b);
     }
@@ -377,7 +377,7 @@ DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> sampl
             bent[i] = bentOn(terrain, mesh, kind->first, pose);
         }
     });
-    const auto kindOn = [&](std::size_t i) {
+    const auto kind_on = [&](std::size_t i) {
         Kind kind = content.kinds[i]->first;
         kind.bend = bent[i]->bend;
         return kind;
@@ -385,7 +385,7 @@ DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> sampl
     std::map<Kind, int> alike;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (bent[i]) {
-            ++alike[kindOn(i)];
+            ++alike[kind_on(i)];
         }
     }
     for (const auto& [kind, count] : alike) {
@@ -403,7 +403,7 @@ DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> sampl
             return;
         }
         const std::size_t rim = content.kinds[i]->first.detail.around;
-        if (const auto shared = bent[i] ? content.shared.find(kindOn(i)) : content.shared.end();
+        if (const auto shared = bent[i] ? content.shared.find(kind_on(i)) : content.shared.end();
             shared != content.shared.end() &&
             rimGap(terrain, shared->second.mesh.vertices, rim, bent[i]->pose) <= kGap) {
             content.kinds[i] = &*shared;
