@@ -304,10 +304,9 @@ private:
 
     static std::vector<std::string> namesOf(const std::vector<GltfAnimation>& animations)
     {
-        std::vector<std::string> names;
-        for (const GltfAnimation& animation : animations) {
-            names.push_back(animation.name);
-        }
+        std::vector<std::string> names(animations.size());
+        std::transform(animations.begin(), animations.end(), names.begin(),
+                       [](const GltfAnimation& animation) { return animation.name; });
         return names;
     }
 
