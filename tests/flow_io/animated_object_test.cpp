@@ -110,7 +110,7 @@ Draft strip()
     Draft draft;
     draft.addFloats({0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 2, 0, 0, 2, 1, 0}, "VEC3");
     std::string indices;
-    for (const std::uint32_t i : {0, 2, 3, 0, 3, 1, 2, 4, 5, 2, 5, 3}) {
+    for (const std::uint32_t i : {0U, 2U, 3U, 0U, 3U, 1U, 2U, 4U, 5U, 2U, 5U, 3U}) {
         indices += testing::littleEndian(i, 2);
     }
     draft.add(indices, 5123, "SCALAR", 12);
@@ -126,7 +126,7 @@ Draft slope()
     const auto high = static_cast<float>(0.2 * std::tan(30.0 * kDegree));
     draft.addFloats({0, 0, 0.2F, 0.2F, 0, 0.2F, 0.2F, high, 0, 0, high, 0}, "VEC3");
     std::string indices;
-    for (const std::uint32_t i : {0, 1, 2, 0, 2, 3}) {
+    for (const std::uint32_t i : {0U, 1U, 2U, 0U, 2U, 3U}) {
         indices += testing::littleEndian(i, 2);
     }
     draft.add(indices, 5123, "SCALAR", 6);
