@@ -483,7 +483,7 @@ TEST(FlowAnimation, AnObjectThatDeformsCarriesItsDroplets)
     testing::writeFile(scratch.path() / "a.glb", out.str());
     const DeformingObject back = readAnimatedObject(scratch.path() / "a.glb", {kRate, kFrames});
     ASSERT_EQ(back.vertices.size(), static_cast<std::size_t>(kFrames));
-    for (int k = 0; k < kFrames; ++k) {
+    for (std::size_t k = 0; k < back.vertices.size(); ++k) {
         double farthest = 0.0;
         for (std::size_t v = 0; v < object.vertices.size(); ++v) {
             farthest = std::max(farthest, length(back.vertices[k][v] - vertices[k][v]));
@@ -493,8 +493,8 @@ TEST(FlowAnimation, AnObjectThatDeformsCarriesItsDroplets)
     const AnimatedScene scene(out.str());
     const std::vector<AnimatedScene::Shape> seats = scene.shapes();
     EXPECT_LT(scene.model().at("meshes").at(0).at("primitives").at(0).at("targets").size(), 12U);
-    for (int k = 0; k < kFrames; ++k) {
-        const std::vector<Shown> shown = scene.at((k + 1e-3) / kRate);
+    for (std::size_t k = 0; k < back.vertices.size(); ++k) {
+        const std::vector<Shown> shown = scene.at((static_cast<double>(k) + 1e-3) / kRate);
         EXPECT_EQ(shown.size(), frames[k].size()) << k;
         for (const FlowSample& sample : frames[k]) {
             ASSERT_NE(sample.contact, FlowContact::Air);
