@@ -190,7 +190,7 @@ export interface Dew {
     readonly report: Record<string, any>;
     /**
      * Bytes of a file: object and droplets; in obj, ply and stl the droplets alone; in csv a table of them.
-     * `form`: other options for this file.
+     * @param form  other options for this file
      */
     file(format?: 'glb' | 'gltf' | 'usda' | 'usdz' | 'obj' | 'ply' | 'stl' | 'csv',
         form?: Pick<DewOptions, 'material' | 'instancing' | 'dropletsOnly' | 'compress'>): Uint8Array;

@@ -164,15 +164,17 @@ void bindWindshield(py::module_& module)
 {
     PYBIND11_NUMPY_DTYPE(DropletRunning, id, x, y, vx, vy, volume, radius);
     py::class_<DropletWindshieldFigures>(module, "WindshieldFigures", "Figures of a Windshield, in SI units.")
-        .def_readonly("time", &DropletWindshieldFigures::time)
-        .def_readonly("speed", &DropletWindshieldFigures::speed)
-        .def_readonly("width", &DropletWindshieldFigures::width)
-        .def_readonly("height", &DropletWindshieldFigures::height)
-        .def_readonly("water", &DropletWindshieldFigures::water)
-        .def_readonly("balance_error", &DropletWindshieldFigures::balance_error)
-        .def_readonly("running", &DropletWindshieldFigures::running)
-        .def_readonly("still", &DropletWindshieldFigures::still)
-        .def_readonly("raindrops", &DropletWindshieldFigures::raindrops);
+        .def_readonly("time", &DropletWindshieldFigures::time, "Time since the start [s].")
+        .def_readonly("speed", &DropletWindshieldFigures::speed, "Speed of the car now [m/s].")
+        .def_readonly("width", &DropletWindshieldFigures::width, "Width of the unrolled glass [m].")
+        .def_readonly("height", &DropletWindshieldFigures::height, "Height of the unrolled glass [m].")
+        .def_readonly("water", &DropletWindshieldFigures::water, "Volume on the glass [m³].")
+        .def_readonly("balance_error", &DropletWindshieldFigures::balance_error,
+                      "Water that appeared or vanished, over all that has come.")
+        .def_readonly("running", &DropletWindshieldFigures::running, "Number of droplets that are large enough to run.")
+        .def_readonly("still", &DropletWindshieldFigures::still, "Number of droplets that are not.")
+        .def_readonly("raindrops", &DropletWindshieldFigures::raindrops,
+                      "Number of raindrops that have met the glass.");
     py::class_<Windshield>(module, "Windshield",
                            R"(Rain on a windshield that advances with your frames.
 
