@@ -121,9 +121,15 @@ export async function loadRain(wasm) {
 
         figures() {
             check(rain.droplet_windshield_figures(this.#kept(), room));
-            const [time, speed, width, height, water, balanceError] = numbers(6);
-            const [running, still, raindrops] = [48, 56, 64].map((at) => count64(room + at));
-            return { time, speed, width, height, water, balanceError, running, still, raindrops };
+            const [time, speed, width, height] = numbers(4);
+            const [running, still, raindrops] = [32, 40, 48].map((at) => count64(room + at));
+            return { time, speed, width, height, running, still, raindrops };
+        }
+
+        water() {
+            check(rain.droplet_windshield_water(this.#kept(), room));
+            const [volume, balanceError] = numbers(2);
+            return { volume, balanceError };
         }
 
         running() {

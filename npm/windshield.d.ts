@@ -61,10 +61,6 @@ export interface WindshieldFigures {
     width: number;
     /** Of the unrolled glass [m] */
     height: number;
-    /** Volume of all water on the glass [m³] */
-    water: number;
-    /** Water that appeared or vanished, over all that has come */
-    balanceError: number;
     /** Number of droplets that are large enough to run */
     running: number;
     /** Number of droplets that are not */
@@ -130,6 +126,8 @@ export interface Windshield {
     /** Moves a finger, 14 mm wide unless given otherwise [m]: it takes mist and droplets along. */
     finger(stroke: { from: Position; to: Position; width?: number }): void;
     figures(): WindshieldFigures;
+    /** Volume of all water on the glass [m³], and what appeared or vanished, over all that has come; sums up all droplets */
+    water(): { volume: number; balanceError: number };
     /** Droplets that are large enough to run, in the order of their ids. */
     running(): RunningDroplet[];
     place(x: number, y: number): GlassPlace;

@@ -296,7 +296,7 @@ DropletCode droplet_windshield_advance(DropletWindshield* windshield, double sec
                         fmt::format("seconds is {}; it must be finite and more than 0", seconds));
         }
         windshield->parameters.vehicle = driveTowards(*windshield, seconds);
-        windshield->parameters.validate();
+        windshield->parameters.validate();  // before the state is given away
         windshield->state = droplet::step(std::move(windshield->state), windshield->parameters, seconds);
         if (windshield->wiper_period == 0.0 && !windshield->parameters.wipers.empty() && nextStart(*windshield).rests) {
             windshield->parameters.wipers.clear();
@@ -333,16 +333,23 @@ DropletCode droplet_windshield_figures(const DropletWindshield* windshield, Drop
         required("windshield", windshield);
         required("figures", figures);
         const droplet::WindshieldState& state = windshield->state;
-        const droplet::WaterBalance balance = balanceOf(state);
         *figures = {.time = state.time,
                     .speed = windshield->parameters.vehicle.speedAt(state.time),
                     .width = windshield->parameters.glass.width(),
                     .height = windshield->parameters.glass.height(),
-                    .water = balance.on_glass_mist + balance.on_glass_still + balance.on_glass_running,
-                    .balance_error = balance.residual(),
                     .running = state.droplets.size(),
                     .still = state.still.count(),
                     .raindrops = state.counts.raindrops};
+    });
+}
+
+DropletCode droplet_windshield_water(const DropletWindshield* windshield, DropletWater* water)
+{
+    return guarded([&] {
+        required("windshield", windshield);
+        const droplet::WaterBalance balance = balanceOf(windshield->state);
+        *required("water", water) = {balance.on_glass_mist + balance.on_glass_still + balance.on_glass_running,
+                                     balance.residual()};
     });
 }
 

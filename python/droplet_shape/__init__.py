@@ -11,7 +11,7 @@
 Each function does what a command of droplet-shape does, with the same options and results. A quantity is a number in SI
 units (metres, radians, cubic metres, …), or a text with a number and a unit such as "20mm".
 """
-from ._core import Animation, Droplet, Mask, Surface, Windshield, WindshieldFigures
+from ._core import Animation, Droplet, Mask, Surface, Windshield, WindshieldFigures, WindshieldWater
 from ._core import version as __version__
 from ._errors import Error, InputNotFound, InvalidArgument, InvalidInput, NoSuchDroplet, OutputFailed
 from ._functions import animate, compare, dew, flow, glyphs, make_droplet, read_mask, wind_tunnel, windshield
@@ -38,6 +38,7 @@ __all__ = [
     "Windshield",
     "WindshieldFigures",
     "WindshieldReport",
+    "WindshieldWater",
     "animate",
     "compare",
     "dew",

@@ -5,6 +5,7 @@ from ._core import Mask as Mask
 from ._core import Surface as Surface
 from ._core import Windshield as Windshield
 from ._core import WindshieldFigures as WindshieldFigures
+from ._core import WindshieldWater as WindshieldWater
 from ._errors import Error as Error
 from ._errors import InputNotFound as InputNotFound
 from ._errors import InvalidArgument as InvalidArgument
@@ -48,6 +49,7 @@ __all__ = [
     "Windshield",
     "WindshieldFigures",
     "WindshieldReport",
+    "WindshieldWater",
     "animate",
     "compare",
     "dew",

@@ -113,6 +113,13 @@ public:
         return figures;
     }
 
+    [[nodiscard]] DropletWater water() const
+    {
+        DropletWater water{};
+        check(droplet_windshield_water(made_, &water));
+        return water;
+    }
+
     [[nodiscard]] py::array_t<DropletRunning> running() const
     {
         const std::size_t count = droplet_windshield_running(made_, nullptr, 0);
@@ -168,13 +175,14 @@ void bindWindshield(py::module_& module)
         .def_readonly("speed", &DropletWindshieldFigures::speed, "Speed of the car now [m/s].")
         .def_readonly("width", &DropletWindshieldFigures::width, "Width of the unrolled glass [m].")
         .def_readonly("height", &DropletWindshieldFigures::height, "Height of the unrolled glass [m].")
-        .def_readonly("water", &DropletWindshieldFigures::water, "Volume on the glass [m³].")
-        .def_readonly("balance_error", &DropletWindshieldFigures::balance_error,
-                      "Water that appeared or vanished, over all that has come.")
         .def_readonly("running", &DropletWindshieldFigures::running, "Number of droplets that are large enough to run.")
         .def_readonly("still", &DropletWindshieldFigures::still, "Number of droplets that are not.")
         .def_readonly("raindrops", &DropletWindshieldFigures::raindrops,
                       "Number of raindrops that have met the glass.");
+    py::class_<DropletWater>(module, "WindshieldWater", "Water of a Windshield, in SI units.")
+        .def_readonly("volume", &DropletWater::volume, "Volume on the glass [m³].")
+        .def_readonly("balance_error", &DropletWater::balance_error,
+                      "Water that appeared or vanished, over all that has come.");
     py::class_<Windshield>(module, "Windshield",
                            R"(Rain on a windshield that advances with your frames.
 
@@ -203,7 +211,9 @@ glass_height, glass_radius, slope: docs/engines.md has their ranges.)")
              "Sprays water [m³] onto a place; it meets the glass in the next step.")
         .def("finger", &Windshield::finger, py::arg("start"), py::arg("end"), py::arg("width") = 0.014,
              "Moves a finger over the glass: it takes mist and droplets, and leaves beads beside its path.")
-        .def_property_readonly("figures", &Windshield::figures, "Time, speed, size of the glass, water and counts.")
+        .def_property_readonly("figures", &Windshield::figures, "Time, speed, size of the glass and counts.")
+        .def_property_readonly("water", &Windshield::water,
+                               "Volume of the water, and its balance; sums up all droplets.")
         .def_property_readonly("running", &Windshield::running,
                                "Droplets that are large enough to run: an array with id, x, y, vx, vy, volume, radius.")
         .def_property_readonly("mist", &Windshield::mist, "Mist as bytes, upper row first; 1 x 1 without mist.")

@@ -20,8 +20,12 @@ class Mesh(Structure):
 
 
 class Figures(Structure):
-    _fields_ = [(name, c_double) for name in ("time", "speed", "width", "height", "water", "balance_error")] + [
+    _fields_ = [(name, c_double) for name in ("time", "speed", "width", "height")] + [
         (name, c_uint64) for name in ("running", "still", "raindrops")]
+
+
+class Water(Structure):
+    _fields_ = [("volume", c_double), ("balance_error", c_double)]
 
 
 class Tile(Structure):
@@ -69,6 +73,7 @@ advance = function("droplet_windshield_advance", c_void_p, c_double)
 map_height = function("droplet_windshield_map_height", c_void_p, c_int32, POINTER(c_int32))
 draw = function("droplet_windshield_draw", c_void_p, c_int32, POINTER(c_uint16), POINTER(Tiles))
 figures_of = function("droplet_windshield_figures", c_void_p, POINTER(Figures))
+water_of = function("droplet_windshield_water", c_void_p, POINTER(Water))
 delete = function("droplet_windshield_delete", c_void_p, result=None)
 rain = c_void_p()
 check(new(b"figure-3.10", byref(rain)))
@@ -85,6 +90,8 @@ for _ in range(30):
 assert changed[0] == math.ceil(height.value / 32) * 32 and 0 < changed[1] < changed[0], changed
 figures = Figures()
 check(figures_of(rain, byref(figures)))
-assert abs(figures.time - 0.5) < 1e-12 and figures.raindrops > 100 and abs(figures.balance_error) < 1e-12
+water = Water()
+check(water_of(rain, byref(water)))
+assert abs(figures.time - 0.5) < 1e-12 and figures.raindrops > 100 and abs(water.balance_error) < 1e-12
 assert any(pixels)
 delete(rain)

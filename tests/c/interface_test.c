@@ -144,7 +144,9 @@ static void rain(void)
     DropletWindshieldFigures figures;
     HOLDS(droplet_windshield_figures(windshield, &figures) == DROPLET_OK);
     HOLDS(fabs(figures.time - 1.5) < 1e-12 && figures.width == 0.7 && figures.raindrops > 0 && figures.still > 0);
-    HOLDS(fabs(figures.balance_error) < 1e-12);
+    DropletWater water;
+    HOLDS(droplet_windshield_water(windshield, &water) == DROPLET_OK);
+    HOLDS(water.volume > 0.0 && fabs(water.balance_error) < 1e-12);
     DropletRunning first[2];
     HOLDS(droplet_windshield_running(windshield, first, 2) == figures.running && figures.running > 2);
     HOLDS(first[0].id < first[1].id && first[0].volume > 0.0 && first[0].radius > 1e-4);

@@ -247,7 +247,7 @@ class LiveWindshield(unittest.TestCase):
         self.assertEqual(len(rain.running), rain.figures.running)
         self.assertGreater(rain.running["volume"].min(), 0)
         self.assertAlmostEqual(rain.figures.time, 0.5)
-        self.assertLess(abs(rain.figures.balance_error), 1e-12)
+        self.assertLess(abs(rain.water.balance_error), 1e-12)
 
     def test_mist_is_wiped_by_a_finger(self):
         rain = ds.Windshield(rain=0, mist=1e-6, speed=0)

@@ -191,15 +191,13 @@ DROPLET_API DropletCode droplet_windshield_finger(DropletWindshield* windshield,
 
 /// Figures of a windshield.
 typedef struct DropletWindshieldFigures {
-    double time;           ///< since the start [s]
-    double speed;          ///< of the car now [m/s]
-    double width;          ///< of the unrolled glass [m]
-    double height;         ///< of the unrolled glass [m]
-    double water;          ///< volume on the glass [m³]
-    double balance_error;  ///< water that appeared or vanished, over all that has come
-    uint64_t running;      ///< number of droplets that are large enough to run
-    uint64_t still;        ///< number of droplets that are not
-    uint64_t raindrops;    ///< number of raindrops that have met the glass
+    double time;         ///< since the start [s]
+    double speed;        ///< of the car now [m/s]
+    double width;        ///< of the unrolled glass [m]
+    double height;       ///< of the unrolled glass [m]
+    uint64_t running;    ///< number of droplets that are large enough to run
+    uint64_t still;      ///< number of droplets that are not
+    uint64_t raindrops;  ///< number of raindrops that have met the glass
 } DropletWindshieldFigures;
 
 /// Figures of the state.
@@ -207,6 +205,17 @@ typedef struct DropletWindshieldFigures {
 /// @param figures     receives them
 DROPLET_API DropletCode droplet_windshield_figures(const DropletWindshield* windshield,
                                                    DropletWindshieldFigures* figures);
+
+/// Water of a windshield.
+typedef struct DropletWater {
+    double volume;         ///< on the glass [m³]
+    double balance_error;  ///< water that appeared or vanished, over all that has come
+} DropletWater;
+
+/// Water of the state. All droplets are summed up, which takes milliseconds if there are many.
+/// @param windshield  valid
+/// @param water       receives it
+DROPLET_API DropletCode droplet_windshield_water(const DropletWindshield* windshield, DropletWater* water);
 
 /// Droplet that is large enough to run.
 typedef struct DropletRunning {
