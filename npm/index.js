@@ -1,23 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 import { loadSolver } from './droplet_shape.js';
+import { bytesOf } from './module_bytes.js';
 
-const place = new URL('./droplet_shape.wasm', import.meta.url);
-
-async function bytesOf() {
-    // Node fetches no files; other systems have no node:fs, which bundlers must not look for.
-    if (place.protocol === 'file:') {
-        const files = 'node:fs/promises';
-        const { readFile } = await import(/* @vite-ignore */ /* webpackIgnore: true */ files);
-        return readFile(place);
-    }
-    const answer = await fetch(place);
-    if (!answer.ok) {
-        throw new Error(`${place} was not found`);
-    }
-    return answer.arrayBuffer();
-}
-
-const solver = await loadSolver(await bytesOf());
+const solver = await loadSolver(await bytesOf(new URL('./droplet_shape.wasm', import.meta.url)));
 
 /** Options of makeDroplet and shapeDroplet: the command's, with the texts and defaults of its help. */
 export const options = solver.options;
