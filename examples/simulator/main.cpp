@@ -39,31 +39,6 @@ constexpr double kStep = 1.0 / 60.0;
 constexpr int kWidth = 1280;
 constexpr int kHeight = 720;
 
-constexpr const char* kVertexShader = R"(
-uniform vec3 eye;
-uniform vec2 tangent;
-layout(location = 0) in vec3 at;
-layout(location = 1) in vec3 facing;
-layout(location = 2) in vec3 right;
-layout(location = 3) in vec3 upward;
-layout(location = 4) in vec2 map;
-out vec3 place;
-out vec3 normal;
-out vec3 across;
-out vec3 up;
-out vec2 uv;
-void main()
-{
-    place = at;
-    normal = facing;
-    across = right;
-    up = upward;
-    uv = map;
-    vec3 from = at - eye;
-    gl_Position = vec4(from.xz / tangent, 0.0, from.y);
-}
-)";
-
 constexpr const char* kBladeShader = "out vec4 colour;\nvoid main() { colour = vec4(0.012, 0.012, 0.014, 1.0); }\n";
 
 GLuint shaderOf(GLenum kind, const std::string& text)
@@ -83,15 +58,6 @@ GLuint shaderOf(GLenum kind, const std::string& text)
     return shader;
 }
 
-GLuint programOf(const std::string& fragment)
-{
-    const GLuint program = glCreateProgram();
-    glAttachShader(program, shaderOf(GL_VERTEX_SHADER, kVertexShader));
-    glAttachShader(program, shaderOf(GL_FRAGMENT_SHADER, fragment));
-    glLinkProgram(program);
-    return program;
-}
-
 std::string textOf(const char* path)
 {
     std::ifstream file(path);
@@ -101,6 +67,15 @@ std::string textOf(const char* path)
         throw std::runtime_error(std::string(path) + " cannot be read");
     }
     return text.str();
+}
+
+GLuint programOf(const std::string& fragment)
+{
+    const GLuint program = glCreateProgram();
+    glAttachShader(program, shaderOf(GL_VERTEX_SHADER, textOf(SIMULATOR_SHADERS "glass.glsl")));
+    glAttachShader(program, shaderOf(GL_FRAGMENT_SHADER, fragment));
+    glLinkProgram(program);
+    return program;
 }
 
 /// Vertices of a part of the glass: place, normal, tangents, place in the map.
@@ -282,7 +257,7 @@ void run(const Arguments& arguments, GLFWwindow* window)
     const auto middle = glass.place({0.5 * glass.width(), 0.5 * glass.height()});
     const Vec3 eye = middle->point - Vec3{0.0, view.eye_distance, 0.0};
     const float tangent = static_cast<float>(std::tan(0.5 * view.field_of_view));
-    const GLuint rain = programOf(textOf(SIMULATOR_SHADER));
+    const GLuint rain = programOf(textOf(SIMULATOR_SHADERS "rain.glsl"));
     const GLuint blade = programOf(kBladeShader);
     for (const GLuint program : {rain, blade}) {
         glUseProgram(program);

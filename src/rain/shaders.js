@@ -18,23 +18,8 @@ void main() {
     gl_Position = vec4(2.0 * at - 1.0, 0.0, 1.0);
 }`;
 
-/** The glass: as in examples/simulator. */
-export const kGlass = `${kHead}uniform vec3 eye;
-uniform vec2 tangent;
-layout(location = 0) in vec3 at;
-layout(location = 1) in vec3 facing;
-layout(location = 2) in vec3 right;
-layout(location = 3) in vec3 upward;
-layout(location = 4) in vec2 map;
-out vec3 place, normal, across, up;
-out vec2 uv;
-void main() {
-    place = at; normal = facing; across = right; up = upward; uv = map;
-    vec3 from = at - eye;
-    gl_Position = vec4(from.xz / tangent, 0.0, from.y);
-}`;
-
-export const rainShader = (source) => kHead + source;
+/** A shader of a file, for WebGL 2. */
+export const shaderOf = (source) => kHead + source;
 
 /** Dark parts of the car: wipers and the dashboard. side is 0 in the middle of a part and 1 at its edges. */
 export const kPart = `${kHead}uniform vec3 eye;

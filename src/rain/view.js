@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Draws a windshield by WebGL 2: what lies behind it, the water, the mist, wipers and the car's dark parts, and the film.
+import glass from './glass.glsl';
 import rain from './rain.glsl';
 import { Road, kNumbers } from './road.js';
 import {
-    kAhead, kDefocus, kDevelop, kDevelopFrame, kDouble, kGlass, kHalve, kLights, kPaint, kPart, kScenery, kShine, kWhole, rainShader,
+    kAhead, kDefocus, kDevelop, kDevelopFrame, kDouble, kHalve, kLights, kPaint, kPart, kScenery, kShine, kWhole, shaderOf,
 } from './shaders.js';
 
 const kColumns = 64;
@@ -87,7 +88,7 @@ export class View {
         this.#gl = gl;
         this.#deep = Boolean(gl.getExtension('EXT_color_buffer_float') ?? gl.getExtension('EXT_color_buffer_half_float'));
         this.#programs = Object.fromEntries(Object.entries({
-            rain: [kGlass, rainShader(rain)], part: [kPart, kPaint], scenery: [kWhole, kScenery], lights: [kLights, kShine],
+            rain: [shaderOf(glass), shaderOf(rain)], part: [kPart, kPaint], scenery: [kWhole, kScenery], lights: [kLights, kShine],
             develop: [kWhole, kDevelop], ahead: [kWhole, kAhead], defocus: [kWhole, kDefocus], halve: [kWhole, kHalve],
             double: [kWhole, kDouble], film: [kWhole, kDevelopFrame],
         }).map(([name, [vertex, fragment]]) => [name, new Program(gl, vertex, fragment)]));
