@@ -30,27 +30,33 @@ after(async () => {
 /** Waits until Studio runs in a page. */
 export const started = (page) => page.waitForFunction(() => document.documentElement.dataset.solver === 'ready');
 
+/** A context for one page, in which nothing may be fetched; lists what it complains of. */
+export async function watched(options, url) {
+    const context = await browser.newContext({ acceptDownloads: true, ...options });
+    const complaints = [];
+    await context.route('**', (route) => {
+        const asked = route.request().url();
+        if (asked.split('#')[0] === url || /^(data|blob):/.test(asked)) {
+            return route.continue();
+        }
+        complaints.push(`request of ${asked}`);
+        return route.abort();
+    });
+    context.setDefaultTimeout(120_000);  // enough when many tests share the processor
+    context.on('console', (message) => {
+        // Chromium's messages about software rendering are expected, no others.
+        if (['error', 'warning', 'assert'].includes(message.type()) && !/GPU stall due to ReadPixels|swiftshader/i.test(message.text())) {
+            complaints.push(message.text());
+        }
+    });
+    context.on('weberror', (error) => complaints.push(error.error().message));
+    return { context, complaints };
+}
+
 /** Runs a test in a page of its own, in which nothing may complain and nothing may be fetched. */
 export function studio(name, options, run, url = kStudio) {
     test(name, async () => {
-        const context = await browser.newContext({ acceptDownloads: true, deviceScaleFactor: 0.5, colorScheme: 'light', ...options });
-        const complaints = [];
-        await context.route('**', (route) => {
-            const asked = route.request().url();
-            if (asked.split('#')[0] === url || /^(data|blob):/.test(asked)) {
-                return route.continue();
-            }
-            complaints.push(`request of ${asked}`);
-            return route.abort();
-        });
-        context.setDefaultTimeout(120_000);  // enough when many tests share the processor
-        context.on('console', (message) => {
-            // Chromium's messages about software rendering are expected, no others.
-            if (['error', 'warning', 'assert'].includes(message.type()) && !/GPU stall due to ReadPixels|swiftshader/i.test(message.text())) {
-                complaints.push(message.text());
-            }
-        });
-        context.on('weberror', (error) => complaints.push(error.error().message));
+        const { context, complaints } = await watched({ deviceScaleFactor: 0.5, colorScheme: 'light', ...options }, url);
         context.on('dialog', (dialog) => {
             if (dialog.type() === 'beforeunload') {
                 return dialog.accept();

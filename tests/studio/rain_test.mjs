@@ -1,33 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page of `droplet-shape windshield --live` in a real browser: node --test rain_test.mjs
-// RAIN is the page, made with --warm-up 2s --glass-width 0.4m --glass-height 0.25m; CHROMIUM the browser; DROPLET_SHAPE the
-// command.
+// RAIN is the page, made with --warm-up 2s --glass-width 0.4m --glass-height 0.25m; DROPLET_SHAPE the command; for the rest see
+// browser.mjs.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { chromium } from 'playwright-core';
+import { folder, watched } from './browser.mjs';
 
-const { RAIN, DROPLET_SHAPE, CHROMIUM = '/usr/bin/chromium' } = process.env;
+const { RAIN, DROPLET_SHAPE } = process.env;
 const kPage = pathToFileURL(resolve(RAIN)).href;
 const kSize = { width: 400, height: 225 };  // small, since rendering is in software
-
-let browser;
-let folder;
-before(async () => {
-    folder = mkdtempSync(join(tmpdir(), 'rain-'));
-    browser = await chromium.launch({
-        executablePath: CHROMIUM, args: ['--headless=new', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-            '--ignore-gpu-blocklist', '--disable-background-networking'],
-    });
-});
-after(async () => {
-    await browser.close();
-    rmSync(folder, { recursive: true });
-});
 
 const state = (page, name) => page.evaluate((key) => document.documentElement.dataset[key], name);
 
@@ -58,30 +43,17 @@ const mean = (all, channel) => all.filter((_, k) => k % 3 === channel).reduce((a
 /** Runs a test in a page of its own, in which nothing may complain and nothing may be fetched. */
 function rain(name, run, options = { viewport: kSize }) {
     test(name, async () => {
-        const context = await browser.newContext({ acceptDownloads: true, ...options });
-        const complaints = [];
-        await context.route('**', (route) => {
-            const asked = route.request().url();
-            if (asked.split('#')[0] === kPage || /^(data|blob):/.test(asked)) {
-                return route.continue();
-            }
-            complaints.push(`request of ${asked}`);
-            return route.abort();
-        });
-        context.setDefaultTimeout(120_000);  // enough when many tests share the processor
-        context.on('console', (message) => {
-            if (['error', 'warning', 'assert'].includes(message.type()) && !/GPU stall due to ReadPixels|swiftshader/i.test(message.text())) {
-                complaints.push(message.text());
-            }
-        });
-        context.on('weberror', (error) => complaints.push(error.error().message));
+        const { context, complaints } = await watched(options, kPage);
         const page = await context.newPage();
         await page.goto(kPage);
         await page.waitForFunction(() => document.documentElement.dataset.state === 'running');
         // Neither the bar nor its fading is part of the picture.
-        await page.addStyleTag({ content: '.rain .bar, .rain .hint { visibility: hidden } .rain canvas { transition: none !important }' }).catch(() => {});
+        await page.evaluate(() => {
+            document.querySelectorAll('.rain .bar, .rain .hint').forEach((part) => { part.style.visibility = 'hidden'; });
+            document.querySelectorAll('.rain canvas').forEach((part) => { part.style.transition = 'none'; });
+        });
         await run(page);
-        assert.deepEqual(complaints.filter((text) => !/Content Security Policy/.test(text)), []);
+        assert.deepEqual(complaints, []);
         await context.close();
     });
 }
