@@ -98,10 +98,9 @@ double longestEdge(const FlowOptions& options, const droplet::FlowSurface& surfa
 }
 
 /// Files of the shapes that the frames show.
-std::vector<std::string> shapesOf(const FlowOptions& options)
+std::vector<std::string> shapesOf(const FlowOptions& options, std::size_t frames)
 {
     std::vector<std::string> files = objectFiles(options);
-    const std::size_t frames = frameCount(options);
     if (options.shapes && frames > files.size()) {
         throw droplet::Error(
             droplet::ErrorCode::InvalidArgument,
@@ -118,16 +117,16 @@ droplet::ObjectSampling samplingOf(const FlowOptions& options)
 }
 
 /// The object in its shapes: one, or one for every frame.
-droplet::DeformingObject readShapes(const FlowOptions& options)
+droplet::DeformingObject readShapes(const FlowOptions& options, std::size_t frames)
 {
     if (options.preset) {
         return {droplet::presetObject(options.preset->object), {}};
     }
     if (options.shapes || !options.keeps_animation) {
-        return droplet::readDeformingObject(shapesOf(options), options.reading);
+        return droplet::readDeformingObject(shapesOf(options, frames), options.reading);
     }
     droplet::ObjectSampling sampling = samplingOf(options);
-    sampling.frames = frameCount(options);
+    sampling.frames = frames;
     return droplet::readAnimatedObject(*options.object, sampling, options.reading);
 }
 
@@ -211,7 +210,8 @@ std::size_t frameCount(const FlowOptions& options)
 FlowPlan planOf(const FlowOptions& options)
 {
     const std::string name = nameOfObject(options);
-    droplet::DeformingObject read = readShapes(options);
+    const std::size_t frames = frameCount(options);
+    droplet::DeformingObject read = readShapes(options, frames);
     const bool deforms = options.shapes || read.vertices.size() > 1;
     if (deforms) {
         refuseForShapes(options);
@@ -257,7 +257,7 @@ FlowPlan planOf(const FlowOptions& options)
     }
     plan.parameters.ground = groundOf(options, plan);
     plan.starts = startsOf(options, plan, plan.warnings);
-    plan.frames = frameCount(options);
+    plan.frames = frames;
     return plan;
 }
 
