@@ -27,7 +27,8 @@ PYBIND11_MODULE(_core, module)
     binding::bindComparison(module);
     binding::bindWind(module);
     binding::bindWindshield(module);
-    for (const char* name : {"Animation", "Droplet", "Mask", "Surface", "Windshield", "WindshieldFigures", "WindshieldWater"}) {
+    for (const char* name :
+         {"Animation", "Droplet", "Mask", "Surface", "Windshield", "WindshieldFigures", "WindshieldWater"}) {
         module.attr(name).attr("__module__") = "droplet_shape";
     }
 }
