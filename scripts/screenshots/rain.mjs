@@ -43,7 +43,7 @@ for (let k = 1; k <= 20; ++k) {
 }
 await page.mouse.up();
 await page.keyboard.press(' ');
-await frames(24);
+await frames(6);
 await page.evaluate(() => document.querySelectorAll('.rain .bar, .rain .hint').forEach((part) => part.remove()));
 await frames(2);
 await page.screenshot({ path: picture });
