@@ -296,8 +296,7 @@ struct DriversView::Content {
         return moments;
     }
 
-    /// Calls work(pixel of the tile, its ray's direction if it is asked for, place on the glass) for all pixels that
-    /// see the glass.
+    /// Calls work(x, y, place on the glass) for all pixels of a tile that see the glass.
     template <typename Work>
     void forTile(std::size_t tile, const Work& work) const
     {
@@ -308,8 +307,7 @@ struct DriversView::Content {
             for (int x = left; x < std::min(left + kTile, scene.eye.width()); ++x) {
                 const Vec2f place = scene.eye.place(x, y);
                 if (!std::isnan(place.x)) {
-                    work(
-                        pixelInTile(x, y), [&] { return scene.eye.ray(x, y); }, place);
+                    work(x, y, place);
                 }
             }
         }
@@ -334,34 +332,63 @@ struct DriversView::Content {
         return float4(water.cover) * seen(outside, 1.0F - out.reflected);
     }
 
-    /// Light through a film, premultiplied: the bare picture, slightly displaced.
-    [[nodiscard]] Float4 throughFilm(const WaterMet& water, const ViewTile& tile, Vec3f ray) const
+    /// What films of a tile do to its light. A film is so thin that its slope displaces the picture in proportion; the
+    /// second order is a hundredth of that for the steepest films.
+    struct FilmOptics {
+        Vec2f by_x;              ///< displacement for a unit slope along the glass's x [px]
+        Vec2f by_y;              ///< likewise along its y
+        float reflected = 0.0F;  ///< share
+        Float4 cabin{};          ///< what is reflected
+    };
+
+    [[nodiscard]] FilmOptics filmOpticsOf(std::size_t number) const
     {
-        const Interface out = beyond(water, tile, ray);
-        if (out.reflected >= 1.0F || out.transmitted.y <= 0.0F) {
-            Float4 dark = pane * cabin;
-            dark[3] = 1.0F;
-            return float4(water.cover) * dark;
-        }
-        const auto index = [](float place, int count) {
-            return std::clamp(place - 0.5F, 0.0F, static_cast<float>(count - 1));
-        };
         const Eye& eye = scene.eye;
-        const float scale = 1.0F / (out.transmitted.y * eye.tangent());
-        const float x = index(scale * out.transmitted.x + 0.5F * static_cast<float>(eye.width()), eye.width());
-        const float y = index(0.5F * static_cast<float>(eye.height()) - scale * out.transmitted.z, eye.height());
-        const int column = std::min(static_cast<int>(x), eye.width() - 2);
-        const int row = std::min(static_cast<int>(y), eye.height() - 2);
-        const auto at = [&](int i, int j) {
-            const std::uint8_t* const from = bare.rgb.data() + 3 * eye.at(column + i, row + j);
-            return lightOf(from[0], from[1], from[2]);
+        const ViewTile& tile = scene.tiles[number];
+        const auto columns = static_cast<std::size_t>(scene.tiles.columns());
+        const float half = 0.5F * kTile;
+        const Vec3f ray = unit(eye.rayAt(static_cast<float>(number % columns) * kTile + half,
+                                         static_cast<float>(number / columns) * kTile + half));
+        const auto through = [&](Vec2f slope) {
+            const Interface out = beyond({1.0F, slope}, tile, ray);
+            const float scale = 1.0F / (std::max(out.transmitted.y, 1e-3F) * eye.tangent());
+            return std::pair(Vec2f{scale * out.transmitted.x, -scale * out.transmitted.z}, out.reflected);
         };
-        const float right = x - static_cast<float>(column);
-        const float below = y - static_cast<float>(row);
-        const Float4 above = at(0, 0) + float4(right) * (at(1, 0) - at(0, 0));
-        const Float4 under = at(0, 1) + float4(right) * (at(1, 1) - at(0, 1));
-        Float4 light = (above + float4(below) * (under - above)) * float4(1.0F - out.reflected) +
-                       float4(out.reflected) * (pane * cabin);
+        constexpr float kSlope = 0.01F;  // of usual films
+        const auto by = [&](Vec2f slope) {
+            const Vec2f more = through(slope).first;
+            const Vec2f less = through({-slope.x, -slope.y}).first;
+            return Vec2f{(more.x - less.x) / (2.0F * kSlope), (more.y - less.y) / (2.0F * kSlope)};
+        };
+        const float reflected = through({}).second;
+        return {by({kSlope, 0.0F}), by({0.0F, kSlope}), reflected, float4(reflected) * (pane * cabin)};
+    }
+
+    /// Light through a film, premultiplied: the bare picture, slightly displaced.
+    /// @param column, row  the pixel
+    [[nodiscard]] Float4 throughFilm(const WaterMet& water, const FilmOptics& film, float column, float row) const
+    {
+        const Eye& eye = scene.eye;
+        const float x = std::clamp(column + film.by_x.x * water.slope.x + film.by_y.x * water.slope.y, 0.0F,
+                                   static_cast<float>(eye.width() - 1));
+        const float y = std::clamp(row + film.by_x.y * water.slope.x + film.by_y.y * water.slope.y, 0.0F,
+                                   static_cast<float>(eye.height() - 1));
+        const int left = std::min(static_cast<int>(x), eye.width() - 2);
+        const int top = std::min(static_cast<int>(y), eye.height() - 2);
+        const std::uint8_t* const above = bare.rgb.data() + 3 * eye.at(left, top);
+        const std::uint8_t* const below = above + 3 * static_cast<std::size_t>(eye.width());
+        const Float4 right = float4(x - static_cast<float>(left));
+        // Levels, not light, are interpolated: a part of a pixel makes no difference that is seen.
+        const auto levels = [](const std::uint8_t* at) {
+            return Float4{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2]), 0.0F};
+        };
+        const Float4 upper = levels(above) + right * (levels(above + 3) - levels(above));
+        const Float4 lower = levels(below) + right * (levels(below + 3) - levels(below));
+        const Float4 level = upper + float4(y - static_cast<float>(top)) * (lower - upper) + float4(0.5F);
+        Float4 light = float4(1.0F - film.reflected) * lightOf(static_cast<std::uint8_t>(level[0]),
+                                                               static_cast<std::uint8_t>(level[1]),
+                                                               static_cast<std::uint8_t>(level[2])) +
+                       film.cabin;
         light[3] = 1.0F;
         return float4(water.cover) * light;
     }
@@ -370,11 +397,15 @@ struct DriversView::Content {
     void drawWaterLeft(std::size_t number, TileLight& light) const
     {
         const ViewTile& tile = scene.tiles[number];
-        forTile(number, [&](std::size_t pixel, const auto& ray, Vec2f place) {
+        const FilmOptics film = filmOpticsOf(number);
+        forTile(number, [&](int x, int y, Vec2f place) {
+            const std::uint8_t pixel = pixelInTile(x, y);
             const WaterMet water = wipers.waterLeft({number, pixel}, place, tile.pixel);
             if (water.cover > 0.0F) {
-                light[pixel] += float4(1.0F - light[pixel][3]) *
-                                (water.is_bead ? throughBead(water, tile, ray()) : throughFilm(water, tile, ray()));
+                light[pixel] +=
+                    float4(1.0F - light[pixel][3]) *
+                    (water.is_bead ? throughBead(water, tile, scene.eye.ray(x, y))
+                                   : throughFilm(water, film, static_cast<float>(x), static_cast<float>(y)));
             }
         });
     }
@@ -384,7 +415,8 @@ struct DriversView::Content {
     void drawWipers(std::size_t number, int moment, TileLight& light, const Touch& touch) const
     {
         const ViewTile& tile = scene.tiles[number];
-        forTile(number, [&](std::size_t pixel, const auto& ray, Vec2f place) {
+        forTile(number, [&](int x, int y, Vec2f place) {
+            const std::uint8_t pixel = pixelInTile(x, y);
             const WiperMet met = wipers.at(place, tile.pixel, moment);
             if (met.cover > 0.0F) {
                 Float4 rubber = float4(met.cover * met.shine) * (pane * cabin);
@@ -392,7 +424,8 @@ struct DriversView::Content {
                 light[pixel] = rubber + float4(1.0F - met.cover) * light[pixel];
             }
             if (met.pushed.cover > 0.0F) {
-                light[pixel] = throughBead(met.pushed, tile, ray()) + float4(1.0F - met.pushed.cover) * light[pixel];
+                light[pixel] =
+                    throughBead(met.pushed, tile, scene.eye.ray(x, y)) + float4(1.0F - met.pushed.cover) * light[pixel];
             }
             if (met.cover > 0.0F || met.pushed.cover > 0.0F) {
                 touch(pixel);
