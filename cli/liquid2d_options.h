@@ -8,6 +8,7 @@
 
 #include "common_options.h"
 #include "droplet/expression/expression.h"
+#include "droplet/liquid2d/fluid.h"
 #include "droplet/liquid2d_io/liquid_drawing.h"
 #include "droplet/liquid2d_io/particle_file.h"
 #include "numbered_path.h"
@@ -36,6 +37,7 @@ struct Liquid2dOptions {
     std::optional<std::string> walls;            ///< path of a mask
     std::optional<double> gravity;               ///< [m/s²]
     std::optional<double> surface_tension;       ///< [N/m]
+    droplet::PressureSolver solver = droplet::FluidOptions{}.solver;
     std::optional<std::string> particles;        ///< path or pattern of another simulation instead of a scene
     std::optional<NumberedPath> particle_files;  ///< set if `particles` is a pattern
     droplet::ParticleFileOptions particle_reading;

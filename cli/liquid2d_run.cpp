@@ -103,6 +103,7 @@ class SimulatedParticles : public ParticleSource {
 public:
     explicit SimulatedParticles(const Liquid2dOptions& options) : fps_(options.frames_per_second)
     {
+        fluid_options_.solver = options.solver;
         scene_ = isSceneFile(options) ? droplet::readFluidScene(options.scene) : presetOf(options).scene;
         frames_ = frameCount(options);
         if (options.gravity) {
@@ -131,7 +132,7 @@ public:
     {
         const double time = static_cast<double>(done_) / fps_;
         if (time > state_.time) {
-            state_ = droplet::advanceFluid(std::move(state_), scene_, time);
+            state_ = droplet::advanceFluid(std::move(state_), scene_, time, fluid_options_);
         }
         ++done_;
         return frameOf(state_, scene_);
@@ -142,7 +143,7 @@ public:
                                           [&](const auto& emitter) { return emitter.end > state_.time; });
         return state_.position.empty() && state_.counts.removed > 0 && !may_come;
     }
-    [[nodiscard]] double stepsPerFrame() const override { return 1.0 / (fps_ * droplet::longestStep(state_, scene_)); }
+    [[nodiscard]] double stepsPerFrame() const override { return 1.0 / (fps_ * droplet::longestStep(state_, scene_, fluid_options_)); }
     [[nodiscard]] std::size_t frames() const override { return frames_; }
     [[nodiscard]] Vec2 size() const override { return scene_.size; }
     [[nodiscard]] std::vector<droplet::Region> walls() const override
@@ -177,6 +178,7 @@ private:
 
     FluidScene scene_;
     droplet::FluidState state_;
+    droplet::FluidOptions fluid_options_;
     double fps_;
     std::size_t frames_ = 1;
     std::size_t done_ = 0;

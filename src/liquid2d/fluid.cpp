@@ -1,78 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bender, Koschier: Divergence-free SPH for incompressible and viscous fluids. IEEE TVCG 23(3), 2017.
-// Departures: gaps and compression are mended by the positions (Cornelis, Bender, Gissler, Ihmsen, Teschner: An
-// optimized source term formulation for incompressible SPH. The Visual Computer 35, 2019), because velocities that mend
-// them shake liquid at rest.
+// What both solvers share: liquid at the start, emitters, steps, and the margin beyond which particles are removed.
 #include "droplet/liquid2d/fluid.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <optional>
+#include <memory>
 #include <utility>
 
-#include "blocks.h"
+#include "cell_grid.h"
+#include "dfsph.h"
 #include "droplet/error.h"
-#include "forces.h"
+#include "grid_liquid.h"
 #include "kernel.h"
-#include "neighbours.h"
 #include "number_text.h"
-#include "projection.h"
 #include "region.h"
+#include "reorder.h"
 #include "require.h"
 #include "wall_samples.h"
 
 namespace droplet {
 namespace {
 
-template <typename Value>
-void reorder(std::vector<Value>& values, const std::vector<std::uint32_t>& order)
-{
-    std::vector<Value> sorted(order.size());
-    forBlocks(order.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-            sorted[k] = values[order[k]];
-        }
-    });
-    values = std::move(sorted);
-}
-
-/// Part of an error of density that velocities mend in a step. More would shake the liquid; less would let the bottom
-/// of deep liquid be compressed.
-constexpr double kRestored = 0.05;
-
-/// Speed of a fall through one spacing counts so many times in the limit of the step, so that liquid at rest stays so.
-constexpr double kFall = 4.0;
-
-/// Longest way in a step, in spacings, so that no particle crosses another one's support unseen.
-constexpr double kMaxWay = 1.2;
-
-/// Lack of density beyond which liquid falls together freely.
-constexpr double kGap = 0.1;
-
-/// Iterations that push particles apart in a step; what is left then is mended in later steps.
-constexpr int kMaxSpreading = 3;
-
-/// Kinematic viscosity that damps disorder of the particles and leaves larger motion alone: for still water, and for a
-/// drop of 4000 particles that oscillates, half of it lets the noise grow [m²/s].
-double leastViscosity(const FluidScene& scene)
-{
-    const double fall = std::sqrt(length(scene.gravity) * scene.size.y);
-    return 0.02 * scene.spacing * fall + 0.04 * std::sqrt(scene.surface_tension * scene.spacing / scene.density);
-}
-
 /// What a run of steps needs of a scene.
 class Stepper {
 public:
     Stepper(const FluidScene& scene, const FluidOptions& options)
         : scene_(scene),
-          options_(options),
-          kernel_(scene.spacing),
-          walls_(scene, kernel_),
-          viscosity_(scene.viscosity.value_or(leastViscosity(scene)))
+          solver_(options.solver == PressureSolver::Grid ? gridLiquid(scene, options) : dfsph(scene, options))
     {
     }
 
@@ -86,26 +42,9 @@ public:
     /// Longest step that the state allows.
     [[nodiscard]] double longestStep(const FluidState& state) const
     {
-        double fastest = walls_.moves() ? walls_.maxSpeed() : 0.0;
-        for (const Vec2 v : state.velocity) {
-            fastest = std::max(fastest, length(v));
-        }
-        const double d = scene_.spacing;
-        const double fall = std::sqrt(length(scene_.gravity) * d);
-        constexpr double kLongest = std::numeric_limits<double>::max();
-        const auto time = [](double way, double speed) { return speed > 0.0 ? way / speed : kLongest; };
-        double dt = std::min(time(options_.courant * d, state.approach_speed + kFall * fall),
-                             time(kMaxWay * d, fastest + fall));
-        if (scene_.surface_tension > 0.0) {
-            // Period of the shortest capillary waves.
-            dt = std::min(
-                dt, 0.4 * std::sqrt(scene_.density * d * d * d / (2.0 * std::numbers::pi * scene_.surface_tension)));
-        }
-        if (viscosity_ > 0.0) {
-            dt = std::min(dt, 0.125 * d * d / viscosity_);
-        }
+        double dt = solver_->longestStep(state);
         for (const Emitter& emitter : scene_.emitters) {
-            dt = std::min(dt, options_.courant * d / length(emitter.velocity));
+            dt = std::min(dt, solver_->emitterCourant() * scene_.spacing / length(emitter.velocity));
         }
         return dt;
     }
@@ -125,141 +64,11 @@ private:
                                     numberText(state.time), numberText(dt), numberText(scene_.spacing)));
         }
         emit(state, dt);
-        const WallSamples walls = sortAndSample(state);
-        const CellGrid& cells = *cells_;
-        const Neighbourhood near({state.position, cells, walls, *wall_cells_}, kernel_);
-        state.density = near.density();
-
-        accelerate(state, near, dt);
-        keepDivergenceFree(state, near, walls, dt);
-        move(state, near, walls, dt);
+        solver_->step(state, dt);
         state.time = is_last ? until : state.time + dt;
         state.step = dt;
-        keepOutOfWalls(state, near, walls, dt);
         remove(state);
         ++state.counts.steps;
-    }
-
-    /// Sorts the particles by cells, and samples the walls near them.
-    WallSamples sortAndSample(FluidState& state)
-    {
-        Vec2 lower = scene_.size;
-        Vec2 upper{};
-        for (const Vec2 x : state.position) {
-            lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
-            upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
-        }
-        const double reach = kernel_.support();
-        if (state.position.empty()) {
-            lower = upper = {};
-        }
-        lower = lower - Vec2{reach, reach};
-        upper = upper + Vec2{reach, reach};
-        cells_.emplace(lower, upper, reach);
-        wall_cells_.emplace(lower, upper, reach);
-        const std::vector<std::uint32_t> order = cells_->sort(state.position);
-        reorder(state.position, order);
-        reorder(state.velocity, order);
-        reorder(state.id, order);
-        reorder(state.pressure, order);
-        WallSamples walls = walls_.at(state.time);
-        const std::vector<std::uint32_t> wall_order = wall_cells_->sort(walls.position);
-        reorder(walls.position, wall_order);
-        reorder(walls.normal, wall_order);
-        reorder(walls.velocity, wall_order);
-        reorder(walls.area, wall_order);
-        return walls;
-    }
-
-    /// Gravity, viscosity, surface tension and the caller's accelerations.
-    void accelerate(FluidState& state, const Neighbourhood& near, double dt)
-    {
-        std::vector<Vec2> acceleration(state.position.size(), scene_.gravity);
-        if (viscosity_ > 0.0) {
-            addViscosity(acceleration, state, near, viscosity_);
-        }
-        if (scene_.surface_tension > 0.0) {
-            addSurfaceTension(acceleration, state.position, *cells_,
-                              {scene_.surface_tension / scene_.density, scene_.spacing});
-        }
-        if (options_.control) {
-            options_.control(state, acceleration);
-        }
-        forBlocks(acceleration.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                state.velocity[i] = state.velocity[i] + dt * acceleration[i];
-            }
-        });
-    }
-
-    /// Takes from the velocities what would compress liquid, or close gaps in it too fast.
-    void keepDivergenceFree(FluidState& state, const Neighbourhood& near, const WallSamples& walls, double dt)
-    {
-        std::vector<float> rate = compressionRates(near, state.velocity, walls);
-        std::vector<float> pressure(rate.size());
-        for (std::size_t i = 0; i < rate.size(); ++i) {
-            const double error = state.density[i] - 1.0;
-            rate[i] += static_cast<float>((kRestored * std::max(error, -kGap) + std::min(error + kGap, 0.0)) / dt);
-            pressure[i] = static_cast<float>(state.pressure[i] * dt);
-        }
-        ProjectionOptions limits;
-        limits.tolerance = options_.divergence_error / dt;
-        limits.max_iterations = options_.max_iterations;
-        const Projection projection = project(near, rate, pressure, limits);
-        for (std::size_t i = 0; i < rate.size(); ++i) {
-            state.velocity[i] = state.velocity[i] + Vec2{projection.change[i].x, projection.change[i].y};
-            state.pressure[i] = double{pressure[i]} / dt;
-        }
-        state.counts.divergence_iterations += static_cast<std::uint64_t>(projection.iterations);
-    }
-
-    /// Moves the particles, and apart where they would be compressed; that leaves their velocities as they are.
-    void move(FluidState& state, const Neighbourhood& near, const WallSamples& walls, double dt)
-    {
-        state.approach_speed = approachSpeed(near, state.velocity, walls);
-        std::vector<float> rate = compressionRates(near, state.velocity, walls);
-        for (std::size_t i = 0; i < rate.size(); ++i) {
-            rate[i] += static_cast<float>((state.density[i] - 1.0) / dt);
-        }
-        ProjectionOptions limits;
-        limits.tolerance = options_.density_error / dt;
-        limits.min_iterations = 1;
-        limits.max_iterations = kMaxSpreading;
-        std::vector<float> pressure(rate.size());
-        const Projection projection = project(near, rate, pressure, limits);
-        for (std::size_t i = 0; i < rate.size(); ++i) {
-            const Vec2 apart{projection.change[i].x, projection.change[i].y};
-            state.position[i] = state.position[i] + dt * (state.velocity[i] + apart);
-        }
-        state.density_error = projection.residual * dt;
-        state.counts.density_iterations += static_cast<std::uint64_t>(projection.iterations);
-    }
-
-    /// Puts particles back that crossed the surface of a wall in this step.
-    void keepOutOfWalls(FluidState& state, const Neighbourhood& near, const WallSamples& walls, double dt)
-    {
-        const double patch = 0.7 * scene_.spacing;
-        state.counts.rescued += static_cast<std::uint64_t>(near.sum([&](std::size_t i, auto, auto samples) {
-            double rescued = 0.0;
-            // Twice, because out of one wall may lead into another one.
-            for (int round = 0; round < 2; ++round) {
-                for (const auto& n : samples) {
-                    const Vec2 normal = walls.normal[n.index];
-                    const Vec2 velocity = walls.velocity[n.index];
-                    const Vec2 arm = state.position[i] - (walls.position[n.index] + dt * velocity);
-                    const double height = dot(arm, normal) - walls.depth;
-                    if (height < 0.0 && height > -scene_.spacing && std::abs(cross(normal, arm)) < patch) {
-                        state.position[i] = state.position[i] - height * normal;
-                        const double inward = dot(state.velocity[i] - velocity, normal);
-                        if (inward < 0.0) {
-                            state.velocity[i] = state.velocity[i] - inward * normal;
-                        }
-                        rescued = 1.0;
-                    }
-                }
-            }
-            return rescued;
-        }));
     }
 
     void emit(FluidState& state, double dt) const
@@ -309,6 +118,9 @@ private:
             reorder(state.id, kept);
             reorder(state.density, kept);
             reorder(state.pressure, kept);
+            if (!state.affine.empty()) {
+                reorder(state.affine, kept);
+            }
         }
     }
 
@@ -324,17 +136,16 @@ public:
 
 private:
     const FluidScene& scene_;
-    const FluidOptions& options_;
-    Kernel kernel_;
-    WallSampler walls_;
-    double viscosity_;
-    std::optional<CellGrid> cells_;
-    std::optional<CellGrid> wall_cells_;
+    std::unique_ptr<FluidSolver> solver_;
 };
 
 void validate(const FluidOptions& options)
 {
-    require(options.courant > 0.0 && options.courant <= 1.0, "courant", options.courant, "more than 0 and at most 1");
+    if (options.courant) {
+        const bool is_grid = options.solver == PressureSolver::Grid;
+        require(*options.courant > 0.0 && *options.courant <= (is_grid ? 6.0 : 1.0), "courant", *options.courant,
+                is_grid ? "more than 0 and at most 6" : "more than 0 and at most 1");
+    }
     require(options.density_error > 0.0, "density_error", options.density_error, "more than 0");
     require(options.divergence_error > 0.0, "divergence_error", options.divergence_error, "more than 0");
     require(options.max_iterations >= 2, "max_iterations", options.max_iterations, "at least 2");

@@ -8,7 +8,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kHead = "droplet-shape fluid 1\n";
+constexpr std::string_view kHead = "droplet-shape fluid 2\n";
 
 }  // namespace
 
@@ -25,6 +25,10 @@ std::string bytesOf(const FluidState& state)
     out.put(std::uint64_t{state.position.size()});
     for (std::size_t i = 0; i < state.position.size(); ++i) {
         out.all(state.position[i], state.velocity[i], std::uint64_t{state.id[i]}, state.density[i], state.pressure[i]);
+    }
+    out.put(std::uint64_t{state.affine.size()});
+    for (const auto& [across, up] : state.affine) {
+        out.all(across, up);
     }
     return out.release();
 }
@@ -58,6 +62,12 @@ FluidState fluidStateFromBytes(std::string_view bytes, const std::string& name)
         in.all(state.position[i], state.velocity[i]);
         id(state.id[i]);
         in.all(state.density[i], state.pressure[i]);
+    }
+    const std::size_t affine = in.count(4 * sizeof(double));
+    in.require(affine == 0 || affine == count);
+    state.affine.resize(affine);
+    for (auto& [across, up] : state.affine) {
+        in.all(across, up);
     }
     in.require(in.ended());
     return state;

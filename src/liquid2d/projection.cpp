@@ -82,21 +82,21 @@ double approachSpeed(const Neighbourhood& near, std::span<const Vec2> velocity, 
     };
     return std::sqrt(near.sum([&](std::size_t i, auto groups, auto samples) {
                              Greatest greatest;
-                             // Written so that no division by zero counts.
-                             const auto add = [&](Vec2 v, float x, float y) {
-                                 const double along = v.x * x + v.y * y;
-                                 const double size = double{x} * x + double{y} * y;
-                                 if (along * along > greatest.square * size) {
-                                     greatest.square = along * along / size;
-                                 }
-                             };
                              for (const auto& g : groups) {
                                  for (std::size_t k = 0; k < 4; ++k) {
-                                     add(velocity[i] - velocity[g.index[k]], g.x[k], g.y[k]);
+                                     // Gradients point to the neighbour. Written so that no division by zero counts.
+                                     const Vec2 v = velocity[i] - velocity[g.index[k]];
+                                     const double along = v.x * g.x[k] + v.y * g.y[k];
+                                     const double size = double{g.x[k]} * g.x[k] + double{g.y[k]} * g.y[k];
+                                     if (along > 0.0 && along * along > greatest.square * size) {
+                                         greatest.square = along * along / size;
+                                     }
                                  }
                              }
                              for (const auto& n : samples) {
-                                 add(velocity[i] - walls.velocity[n.index], n.x, n.y);
+                                 // Liquid that slides along a wall does not approach it.
+                                 const double into = -dot(velocity[i] - walls.velocity[n.index], walls.normal[n.index]);
+                                 greatest.square = std::max(greatest.square, into > 0.0 ? into * into : 0.0);
                              }
                              return greatest;
                          })

@@ -11,6 +11,9 @@ namespace droplet {
 /// Whether a region contains a point.
 bool contains(const Region& region, Vec2 point);
 
+/// Abscissae at which a region's sides cross a horizontal line, in order.
+std::vector<double> crossings(const Region& region, double y);
+
 /// Signed area of a region's loops and the centroid of the region.
 struct RegionMoments {
     double area = 0.0;  ///< [m²], ≥ 0

@@ -18,8 +18,10 @@ namespace {
 
 using droplet::advanceFluid;
 using droplet::Error;
+using droplet::FluidOptions;
 using droplet::FluidScene;
 using droplet::FluidState;
+using droplet::PressureSolver;
 using droplet::startFluid;
 using droplet::Vec2;
 using testing::HasSubstr;
@@ -64,11 +66,25 @@ double angularMomentum(const FluidState& state)
     return sum;
 }
 
-TEST(Fluid, StillWaterHasHydrostaticPressure)
+/// What holds whichever way the pressure is found.
+class FluidOf : public testing::TestWithParam<PressureSolver> {
+protected:
+    static FluidOptions options()
+    {
+        FluidOptions options;
+        options.solver = GetParam();
+        return options;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Solvers, FluidOf, testing::Values(PressureSolver::Grid, PressureSolver::Dfsph),
+                         [](const auto& info) { return info.param == PressureSolver::Grid ? "Grid" : "Dfsph"; });
+
+TEST_P(FluidOf, StillWaterHasHydrostaticPressure)
 {
     FluidScene scene = tank(1.0, 0.5, 0.02);
     scene.liquid = {{droplet::rectangle({0.0, 0.0}, {1.0, 0.5}), {}, 0.0}};
-    const FluidState state = advanceFluid(startFluid(scene), scene, 1.0);
+    const FluidState state = advanceFluid(startFluid(scene), scene, 1.0, options());
     const std::vector<double> pressure = pressures(state, scene);
     // Least squares of the pressure over the height, below the rows next to the surface.
     double n = 0.0;
@@ -98,13 +114,13 @@ TEST(Fluid, StillWaterHasHydrostaticPressure)
     }
 }
 
-TEST(Fluid, FallingDropKeepsItsMomentumAndShape)
+TEST_P(FluidOf, FallingDropKeepsItsMomentumAndShape)
 {
     FluidScene scene = weightless(0.02);
     scene.gravity = {0.0, -kGravity};
     scene.liquid = {{droplet::circle({1.0, 1.5}, 0.2), {0.5, 2.0}, 0.0}};
     const FluidState start = startFluid(scene);
-    const FluidState state = advanceFluid(start, scene, 0.25);
+    const FluidState state = advanceFluid(start, scene, 0.25, options());
     const auto count = static_cast<double>(state.position.size());
     const Vec2 expected = momentum(start) + 0.25 * count * scene.gravity;
     EXPECT_NEAR(momentum(state).x, expected.x, 1e-6 * count);
@@ -114,19 +130,98 @@ TEST(Fluid, FallingDropKeepsItsMomentumAndShape)
     }
 }
 
-TEST(Fluid, SpinningDropKeepsItsAngularMomentum)
+TEST(Fluid, SpinningDropKeepsItsAngularMomentumWithDfsph)
 {
     FluidScene scene = weightless(0.02);
     scene.liquid = {{droplet::circle({1.0, 1.0}, 0.2), {}, 5.0}};
     const FluidState start = startFluid(scene);
-    const FluidState state = advanceFluid(start, scene, 0.3);
+    FluidOptions options;
+    options.solver = PressureSolver::Dfsph;
+    const FluidState state = advanceFluid(start, scene, 0.3, options);
     EXPECT_GT(state.counts.steps, 10U);
     EXPECT_NEAR(angularMomentum(state), angularMomentum(start), 1e-5 * angularMomentum(start));
 }
 
+/// In a step a rigid turn by the angle a leaves a rigid turn and a strain, which the pressure takes: cos a is left.
+TEST(Fluid, GridTakesAngularMomentumInProportionToTheStep)
+{
+    constexpr double kSpin = 5.0;
+    constexpr double kTime = 0.3;
+    FluidScene scene = weightless(0.01);
+    scene.liquid = {{droplet::circle({1.0, 1.0}, 0.2), {}, kSpin}};
+    const FluidState start = startFluid(scene);
+    std::vector<double> lost;
+    for (const double courant : {4.0, 2.0, 1.0}) {
+        FluidOptions options;
+        options.solver = PressureSolver::Grid;
+        options.courant = courant;
+        const FluidState state = advanceFluid(start, scene, kTime, options);
+        lost.push_back(1.0 - angularMomentum(state) / angularMomentum(start));
+        const double step = kTime / static_cast<double>(state.counts.steps);
+        EXPECT_LT(lost.back(), 1.2 * (1.0 - std::pow(std::cos(kSpin * step), kTime / step))) << courant;
+    }
+    EXPECT_LT(lost[1], 0.6 * lost[0]);
+    EXPECT_LT(lost[2], 0.6 * lost[1]);
+}
+
+TEST(Fluid, LiquidOnAGridKeepsItsArea)
+{
+    FluidScene scene = tank(1.0, 0.5, 0.02);
+    scene.liquid = {{droplet::rectangle({0.0, 0.0}, {0.3, 0.8}), {}, 0.0}};
+    scene.viscosity = 0.05;  // so that it is level in the end
+    FluidOptions options;
+    options.solver = PressureSolver::Grid;
+    FluidState state = startFluid(scene);
+    const auto count = static_cast<double>(state.position.size());
+    const auto height_at = [&](double time) {
+        state = advanceFluid(std::move(state), scene, time, options);
+        double height = 0.0;
+        for (const Vec2 x : state.position) {
+            height += x.y / count;
+        }
+        return height;
+    };
+    const double early = height_at(10.0);
+    const double late = height_at(20.0);
+    // Level liquid of that area has its middle at half its depth; the rows at the floor and at the surface are as high
+    // as a spacing.
+    const double level = 0.5 * count * scene.spacing * scene.spacing;
+    EXPECT_NEAR(late, level, 0.1 * scene.spacing);
+    EXPECT_NEAR(late, early, 0.005 * level);
+}
+
+TEST(Fluid, PlateThinnerThanACellOfTheGridHoldsLiquid)
+{
+    FluidScene scene = tank(1.0, 0.5, 0.02);
+    scene.walls.push_back({droplet::rectangle({-0.1, 0.295}, {1.1, 0.3}), {}, true});
+    scene.liquid = {{droplet::rectangle({0.0, 0.3}, {1.0, 0.6}), {}, 0.0}};
+    FluidOptions options;
+    options.solver = PressureSolver::Grid;
+    const FluidState state = advanceFluid(startFluid(scene), scene, 1.0, options);
+    for (const Vec2 x : state.position) {
+        EXPECT_GT(x.y, 0.3);
+    }
+}
+
+TEST(Fluid, LiquidDoesNotHangFromAGridsCeiling)
+{
+    FluidScene scene = tank(1.0, 1.0, 0.02);
+    scene.walls.push_back({droplet::rectangle({-0.2, 1.0}, {1.2, 1.2}), {}, true});
+    scene.liquid = {{droplet::rectangle({0.3, 0.8}, {0.7, 1.0}), {}, 0.0}};
+    FluidOptions options;
+    options.solver = PressureSolver::Grid;
+    const FluidState state = advanceFluid(startFluid(scene), scene, 0.3, options);
+    // It falls by g t²/2 = 0.44 m.
+    double height = 0.0;
+    for (const Vec2 x : state.position) {
+        height += x.y / static_cast<double>(state.position.size());
+    }
+    EXPECT_NEAR(height, 0.9 - 0.5 * kGravity * 0.3 * 0.3, 0.05);
+}
+
 /// Martin and Moyce 1952, for a column twice as high as wide: place of the front in widths, over the time in units of
 /// √(width/2g).
-TEST(Fluid, DamBreakFrontFollowsMartinAndMoyce)
+TEST_P(FluidOf, DamBreakFrontFollowsMartinAndMoyce)
 {
     constexpr double kWidth = 0.5;
     FluidScene scene = tank(2.5, 1.0, 0.02);
@@ -138,12 +233,14 @@ TEST(Fluid, DamBreakFrontFollowsMartinAndMoyce)
     };
     std::vector<double> ahead;
     for (const Point& point : {Point{1.19, 1.44}, Point{1.83, 2.11}, Point{2.51, 3.0}, Point{3.11, 3.89}}) {
-        state = advanceFluid(std::move(state), scene, point.time / std::sqrt(2.0 * kGravity / kWidth));
-        double front = 0.0;
+        state = advanceFluid(std::move(state), scene, point.time / std::sqrt(2.0 * kGravity / kWidth), options());
+        // Of what is thin as a particle each solver makes something else, so the last hundredth does not count.
+        std::vector<double> places;
         for (const Vec2 x : state.position) {
-            front = std::max(front, x.x);
+            places.push_back(x.x);
         }
-        ahead.push_back(front / kWidth - point.place);
+        std::sort(places.begin(), places.end());
+        ahead.push_back(places[places.size() - 1 - places.size() / 100] / kWidth - point.place);
     }
     // The experiment's membrane takes time to go, so the liquid is ahead by as much from then on.
     for (const double distance : ahead) {
@@ -154,7 +251,7 @@ TEST(Fluid, DamBreakFrontFollowsMartinAndMoyce)
 }
 
 /// Rayleigh's frequency in the plane: ω² = n(n² − 1)σ/(ρR³).
-TEST(Fluid, DropOscillatesAtRayleighsFrequency)
+TEST_P(FluidOf, DropOscillatesAtRayleighsFrequency)
 {
     constexpr double kRadius = 0.25;
     FluidScene scene = weightless(0.0125);
@@ -186,7 +283,7 @@ TEST(Fluid, DropOscillatesAtRayleighsFrequency)
     double before = stretch();
     constexpr int kSteps = 100;
     for (int k = 1; k <= kSteps; ++k) {
-        state = advanceFluid(std::move(state), scene, k * period / kSteps);
+        state = advanceFluid(std::move(state), scene, k * period / kSteps, options());
         const double now = stretch();
         if ((now > 0.0) != (before > 0.0)) {
             round.push_back((k - now / (now - before)) / kSteps);
@@ -198,7 +295,7 @@ TEST(Fluid, DropOscillatesAtRayleighsFrequency)
     EXPECT_NEAR(round[1] - round[0], 0.5, 0.035);
 }
 
-TEST(Fluid, BytesDoNotDependOnThreads)
+TEST_P(FluidOf, BytesDoNotDependOnThreads)
 {
     FluidScene scene = tank(1.0, 0.5, 0.02);
     scene.liquid = {{droplet::rectangle({0.0, 0.0}, {0.3, 0.8}), {}, 0.0}};
@@ -206,38 +303,38 @@ TEST(Fluid, BytesDoNotDependOnThreads)
     const FluidState start = startFluid(scene);
     const auto run = [&](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        return bytesOf(advanceFluid(start, scene, 0.15));
+        return bytesOf(advanceFluid(start, scene, 0.15, options()));
     };
     EXPECT_TRUE(run(1) == run(2));
 }
 
-TEST(Fluid, ResumesExactlyFromItsBytes)
+TEST_P(FluidOf, ResumesExactlyFromItsBytes)
 {
     FluidScene scene = tank(1.0, 0.5, 0.03);
     scene.liquid = {{droplet::rectangle({0.0, 0.0}, {0.3, 0.8}), {}, 0.0}};
     scene.emitters = {{{0.6, 0.8}, {0.5, -1.0}, 0.1, 0.0, 1.0}};
-    const FluidState half = advanceFluid(startFluid(scene), scene, 0.1);
-    const FluidState whole = advanceFluid(half, scene, 0.2);
-    const FluidState resumed = advanceFluid(droplet::fluidStateFromBytes(bytesOf(half), "half"), scene, 0.2);
+    const FluidState half = advanceFluid(startFluid(scene), scene, 0.1, options());
+    const FluidState whole = advanceFluid(half, scene, 0.2, options());
+    const FluidState resumed = advanceFluid(droplet::fluidStateFromBytes(bytesOf(half), "half"), scene, 0.2, options());
     EXPECT_TRUE(bytesOf(resumed) == bytesOf(whole));
     std::string cut = bytesOf(half);
     cut.pop_back();
     EXPECT_THAT([&] { droplet::fluidStateFromBytes(cut, "half"); }, ThrowsMessage<Error>(HasSubstr("half")));
 }
 
-TEST(Fluid, EmitterReleasesItsRate)
+TEST_P(FluidOf, EmitterReleasesItsRate)
 {
     FluidScene scene = weightless(0.02);
     scene.margin = 5.0;
     scene.emitters = {{{1.0, 1.0}, {2.0, 0.0}, 0.2, 0.1, 0.6}};
-    const FluidState state = advanceFluid(startFluid(scene), scene, 1.0);
+    const FluidState state = advanceFluid(startFluid(scene), scene, 1.0, options());
     const double area = static_cast<double>(state.position.size()) * scene.spacing * scene.spacing;
     // Whole rows and columns of particles.
     EXPECT_NEAR(area, 0.2 * 2.0 * 0.5, 0.1 * 0.2);
     EXPECT_EQ(state.counts.emitted, state.position.size());
 }
 
-TEST(Fluid, MovingWallPushesLiquidAndNoneLeaksThroughIt)
+TEST_P(FluidOf, MovingWallPushesLiquidAndNoneLeaksThroughIt)
 {
     FluidScene scene = tank(2.0, 0.5, 0.02);
     scene.liquid = {{droplet::rectangle({0.3, 0.0}, {2.0, 0.4}), {}, 0.0}};
@@ -247,7 +344,7 @@ TEST(Fluid, MovingWallPushesLiquidAndNoneLeaksThroughIt)
     FluidState state = startFluid(scene);
     double highest = 0.0;
     for (int frame = 1; frame <= 36; ++frame) {
-        state = advanceFluid(std::move(state), scene, frame / 24.0);
+        state = advanceFluid(std::move(state), scene, frame / 24.0, options());
         const double face = wallAt(scene.walls.back(), state.time).loops.front()[1].x;
         for (const Vec2 x : state.position) {
             EXPECT_GT(x.x, face - 0.5 * scene.spacing);
@@ -281,7 +378,7 @@ TEST(Fluid, BodiesThatOverlapHaveOneParticleInAPlace)
     EXPECT_NEAR(added * 0.04 * 0.04, 0.5 * std::numbers::pi * 0.4 * 0.4, 0.02);
 }
 
-TEST(Fluid, FarPartsOfWallsAndBodiesAreLeftOut)
+TEST_P(FluidOf, FarPartsOfWallsAndBodiesAreLeftOut)
 {
     FluidScene scene = tank(1.0, 0.5, 0.04);
     scene.liquid = {{droplet::rectangle({-1e7, 0.0}, {1e7, 1e7}), {}, 0.0}};
@@ -294,7 +391,7 @@ TEST(Fluid, FarPartsOfWallsAndBodiesAreLeftOut)
     FluidState state = startFluid(scene);
     // The margin of 0.1 m lies in the side walls; over the upper edge is room for another window.
     EXPECT_NEAR(static_cast<double>(state.position.size()) * 0.04 * 0.04, 2.1, 0.1);
-    state = advanceFluid(std::move(state), scene, 0.01);
+    state = advanceFluid(std::move(state), scene, 0.01, options());
     EXPECT_GT(state.position.size(), 1000U);
     scene.walls[0].region.loops[0][0].x = -1e300;
     EXPECT_THAT([&] { startFluid(scene); }, ThrowsMessage<Error>(HasSubstr("walls[0].region.loops is (-1e+300, ")));
@@ -306,16 +403,17 @@ TEST(Fluid, FarPartsOfWallsAndBodiesAreLeftOut)
     EXPECT_THAT([&] { startFluid(scene); }, ThrowsMessage<Error>(HasSubstr("walls[0].region has too long a rim")));
 }
 
-TEST(Fluid, RefusesStepsThatNeverAddUp)
+TEST_P(FluidOf, RefusesStepsThatNeverAddUp)
 {
     FluidScene scene = tank(1.0, 0.5, 0.04);
     scene.liquid = {{droplet::rectangle({0.0, 0.0}, {1.0, 0.5}), {}, 0.0}};
     const FluidState start = startFluid(scene);
-    const double usual = longestStep(start, scene);
+    const double usual = longestStep(start, scene, options());
     scene.gravity.y *= 1e6;
-    EXPECT_NEAR(longestStep(start, scene), 1e-3 * usual, 1e-5 * usual) << "the time of a fall by a spacing";
+    EXPECT_NEAR(longestStep(start, scene, options()), 1e-3 * usual, 1e-5 * usual) << "the time of a fall by a spacing";
     scene.gravity.y = -1e300;
-    EXPECT_THAT([&] { advanceFluid(start, scene, 0.01); }, ThrowsMessage<Error>(HasSubstr("is too short to add up")));
+    EXPECT_THAT([&] { advanceFluid(start, scene, 0.01, options()); },
+                ThrowsMessage<Error>(HasSubstr("is too short to add up")));
 }
 
 TEST(CellGrid, FindsWhatIsNear)

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,8 +18,8 @@ namespace droplet {
 /// Event counters since the start.
 struct FluidCounts {
     std::uint64_t steps = 0;                  ///< of time
-    std::uint64_t density_iterations = 0;     ///< of the solver that keeps the density
-    std::uint64_t divergence_iterations = 0;  ///< of the solver that keeps the velocity free of divergence
+    std::uint64_t density_iterations = 0;     ///< of the equations that keep the density
+    std::uint64_t divergence_iterations = 0;  ///< of the equations that keep the velocity free of divergence
     std::uint64_t emitted = 0;                ///< particles released by emitters
     std::uint64_t removed = 0;                ///< particles that left the window and its margin
     std::uint64_t rescued = 0;                ///< times that a particle was put back out of a wall
@@ -25,29 +27,39 @@ struct FluidCounts {
 
 /// State of a 2D liquid.
 struct FluidState {
-    double time = 0.0;              ///< [s]
-    std::vector<Vec2> position;     ///< [m], sorted by cells of the neighbour search
-    std::vector<Vec2> velocity;     ///< [m/s]
-    std::vector<std::uint32_t> id;  ///< of each particle, unique
-    std::vector<double> density;    ///< relative to that at rest
-    std::vector<double> pressure;   ///< over the density [m²/s²]
-    std::vector<double> emitted;    ///< length of liquid that each emitter has released [m]
-    std::uint32_t next_id = 0;      ///< of the next particle
-    double approach_speed = 0.0;    ///< greatest of two neighbours, at the end of the last step [m/s]
-    double density_error = 0.0;     ///< mean compression at the end of the last step
-    double step = 0.0;              ///< length of the last step [s]
-    FluidCounts counts;             ///< since the start
+    double time = 0.0;                        ///< [s]
+    std::vector<Vec2> position;               ///< [m], sorted by cells of the neighbour search
+    std::vector<Vec2> velocity;               ///< [m/s]
+    std::vector<std::uint32_t> id;            ///< of each particle, unique
+    std::vector<double> density;              ///< relative to that at rest
+    std::vector<double> pressure;             ///< over the density [m²/s²]
+    std::vector<std::array<Vec2, 2>> affine;  ///< gradients of the velocity's x and y [1/s]; DFSPH has none
+    std::vector<double> emitted;              ///< length of liquid that each emitter has released [m]
+    std::uint32_t next_id = 0;                ///< of the next particle
+    double approach_speed = 0.0;              ///< greatest of two neighbours, at the end of the last step [m/s]
+    double density_error = 0.0;               ///< mean compression at the end of the last step
+    double step = 0.0;                        ///< length of the last step [s]
+    FluidCounts counts;                       ///< since the start
 };
 
 /// Accelerations that a caller adds at every step [m/s²], for the particles of a state at its time.
 using FluidControl = std::function<void(const FluidState& state, std::span<Vec2> acceleration)>;
 
+/// How the pressure is found.
+enum class PressureSolver {
+    Grid,   ///< on a grid of two spacings, to which particles bring their velocities (Jiang et al. 2015)
+    Dfsph,  ///< from particle to particle, by divergence-free SPH (Bender and Koschier 2017)
+};
+
 /// Options of advanceFluid().
 struct FluidOptions {
-    double courant = 0.4;         ///< greatest way of two neighbours past each other in a step, in spacings, in (0, 1]
-    double density_error = 1e-3;  ///< mean compression at which iterations stop, > 0
-    double divergence_error = 1e-4;  ///< mean compression per step that is left in the velocity, > 0
-    int max_iterations = 100;        ///< of each solver in a step, ≥ 2
+    PressureSolver solver = PressureSolver::Grid;  ///< method
+    /// Longest way in a step, in spacings: on a grid of liquid, up to 6, 4 if empty; with DFSPH of two neighbours
+    /// towards each other, up to 1, 0.4 if empty.
+    std::optional<double> courant;
+    double density_error = 1e-3;     ///< DFSPH: mean compression at which iterations stop, > 0
+    double divergence_error = 1e-4;  ///< DFSPH: mean compression per step that is left in the velocity, > 0
+    int max_iterations = 100;        ///< DFSPH: of each solver in a step, ≥ 2
     FluidControl control = {};       ///< further accelerations; may be empty
 };
 
@@ -58,11 +70,11 @@ struct FluidOptions {
 ///               long walls
 FluidState startFluid(const FluidScene& scene);
 
-/// Advances a liquid by divergence-free SPH (Bender and Koschier 2017) in the plane, with steps as long as the fastest
-/// particle allows.
+/// Advances an incompressible liquid in the plane, with steps as long as the fastest liquid allows.
 ///
-/// Guarantees: without walls, gravity and control, momentum and angular momentum stay as they are up to rounding; no
-/// particle enters a wall; the same bytes at any number of threads.
+/// Guarantees: no particle enters a wall; the same bytes at any number of threads. With DFSPH, momentum and angular
+/// momentum stay as they are up to rounding if there are no walls, gravity and control; a grid takes from a turning
+/// body a part of its angular momentum that is proportional to the step.
 /// @param state    from startFluid() or this function, for the same scene
 /// @param scene    valid
 /// @param until    time to advance to [s]; the last step ends there

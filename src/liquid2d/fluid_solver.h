@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "droplet/liquid2d/fluid.h"
+
+namespace droplet {
+
+/// A method that moves a liquid's particles.
+class FluidSolver {
+public:
+    FluidSolver() = default;
+    FluidSolver(const FluidSolver&) = delete;
+    FluidSolver& operator=(const FluidSolver&) = delete;
+    virtual ~FluidSolver() = default;
+
+    /// Longest step that a state allows [s].
+    [[nodiscard]] virtual double longestStep(const FluidState& state) const = 0;
+    /// Greatest part of a spacing that an emitter's liquid moves in a step.
+    [[nodiscard]] virtual double emitterCourant() const = 0;
+    /// Moves the particles of a state on by dt, and counts iterations and rescues; the state's time stays.
+    virtual void step(FluidState& state, double dt) = 0;
+};
+
+}  // namespace droplet

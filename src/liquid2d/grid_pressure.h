@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grid_shape.h"
+
+namespace droplet {
+
+/// Symmetric five-point equations for the liquid cells of a grid, and their solution by conjugate gradients.
+class GridEquations {
+public:
+    /// @param grid  must outlive this
+    explicit GridEquations(const GridShape& grid);
+
+    /// Makes a cell one of the unknowns; cells are added in rising order.
+    void add(std::size_t cell) { cells_.push_back(static_cast<std::uint32_t>(cell)); }
+    /// Adds w (x_cell − x_right) to a cell's equation, and its negative to that of the cell on its right.
+    void joinRight(std::size_t cell, double w)
+    {
+        right_[cell] -= w;
+        diagonal_[cell] += w;
+        diagonal_[cell + 1] += w;
+    }
+    /// Likewise with the cell above.
+    void joinAbove(std::size_t cell, double w)
+    {
+        up_[cell] -= w;
+        diagonal_[cell] += w;
+        diagonal_[cell + columns_] += w;
+    }
+    /// Adds w x_cell to a cell's equation.
+    void hold(std::size_t cell, double w) { diagonal_[cell] += w; }
+
+    /// Factorises the equations after all have been joined.
+    void factorise();
+
+    struct Solved {
+        int iterations = 0;
+        double residual = 0.0;  ///< greatest of all equations
+    };
+    /// Solves the equations.
+    /// @param rhs        for every cell of the grid
+    /// @param x          first guess, and solution; 0 where there is no equation
+    /// @param tolerance  greatest residual
+    Solved solve(const std::vector<double>& rhs, std::vector<double>& x, double tolerance) const;
+
+private:
+    void precondition(const std::vector<double>& r, std::vector<double>& z) const;
+
+    std::size_t columns_;
+    std::size_t count_;
+    std::vector<std::uint32_t> cells_;
+    std::vector<double> diagonal_;
+    std::vector<double> right_;    ///< coefficient of the cell on the right
+    std::vector<double> up_;       ///< of the cell above
+    std::vector<double> inverse_;  ///< of the roots of the factor's diagonal
+};
+
+}  // namespace droplet

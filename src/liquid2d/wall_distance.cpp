@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Distances of grid corners from polygons: sides are drawn into the corners near them, and the sign comes from the
+// crossings of each row of corners, by the even-odd rule.
+#include "wall_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "droplet/liquid2d/fluid.h"
+#include "region.h"
+
+namespace droplet {
+namespace {
+
+/// Whether places lie in a region, for many places.
+class Inside {
+public:
+    explicit Inside(const Region& region)
+    {
+        for (const std::vector<Vec2>& loop : region.loops) {
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                sides_.push_back({loop[i], loop[(i + 1) % loop.size()]});
+                low_ = std::min(low_, loop[i].y);
+                high_ = std::max(high_, loop[i].y);
+            }
+        }
+        strips_.resize(std::max<std::size_t>(sides_.size() / 4, 1));
+        for (std::uint32_t k = 0; k < sides_.size(); ++k) {
+            const auto& [a, b] = sides_[k];
+            for (std::size_t s = strip(std::min(a.y, b.y)); s <= strip(std::max(a.y, b.y)); ++s) {
+                strips_[s].push_back(k);
+            }
+        }
+    }
+
+    [[nodiscard]] bool operator()(Vec2 place) const
+    {
+        if (!(place.y >= low_ && place.y <= high_)) {
+            return false;
+        }
+        bool is_inside = false;
+        for (const std::uint32_t k : strips_[strip(place.y)]) {
+            const auto& [a, b] = sides_[k];
+            if ((a.y <= place.y) != (b.y <= place.y) && place.x < a.x + (b.x - a.x) * (place.y - a.y) / (b.y - a.y)) {
+                is_inside = !is_inside;
+            }
+        }
+        return is_inside;
+    }
+
+private:
+    struct Side {
+        Vec2 a;
+        Vec2 b;
+    };
+    [[nodiscard]] std::size_t strip(double y) const
+    {
+        const double part = high_ > low_ ? (y - low_) / (high_ - low_) : 0.0;
+        return std::min(static_cast<std::size_t>(part * static_cast<double>(strips_.size())), strips_.size() - 1);
+    }
+
+    std::vector<Side> sides_;
+    double low_ = 1e300;
+    double high_ = -1e300;
+    std::vector<std::vector<std::uint32_t>> strips_;  ///< sides that meet each strip of equal height
+};
+
+/// Range of a lattice's points from `low` to `high`, clipped: [first, second).
+std::pair<std::size_t, std::size_t> pointsBetween(double low, double high, double step, std::size_t count)
+{
+    const double last = static_cast<double>(count);
+    return {static_cast<std::size_t>(std::clamp(std::ceil(low / step), 0.0, last)),
+            static_cast<std::size_t>(std::clamp(std::floor(high / step) + 1.0, 0.0, last))};
+}
+
+}  // namespace
+
+WallDistance::WallDistance(const FluidScene& scene, double cell) : scene_(scene)
+{
+    for (const Wall& wall : scene.walls) {
+        std::vector<std::uint8_t>& thin = thin_.emplace_back();
+        const Inside inside(wall.region);
+        for (const std::vector<Vec2>& loop : wall.region.loops) {
+            const double side = isInsideOnLeft(wall.region, loop) ? 1.0 : -1.0;
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const Vec2 along = loop[(i + 1) % loop.size()] - loop[i];
+                const double size = length(along);
+                const Vec2 into = size > 0.0 ? (side * cell / size) * Vec2{-along.y, along.x} : Vec2{};
+                thin.push_back(inside(loop[i] + 0.5 * along + into) ? 0 : 1);
+            }
+        }
+    }
+}
+
+WallField WallDistance::at(double time, const GridShape& grid) const
+{
+    const double reach = kReach * grid.cell;
+    const std::size_t columns = grid.cornerColumns();
+    const std::size_t rows = grid.rows + 1;
+    WallField field;
+    field.distance.assign(grid.corners(), reach);
+    field.wall.assign(grid.corners(), 0);
+    std::vector<double> near;
+    std::vector<double> crossed;
+    for (std::uint32_t w = 0; w < scene_.walls.size(); ++w) {
+        const Wall& wall = scene_.walls[w];
+        field.poses.push_back(wall.motion ? poseAt(*wall.motion, time) : WallPose{});
+        const Region region = wallAt(wall, time);
+        near.assign(grid.corners(), reach);
+        std::size_t number = 0;
+        for (const std::vector<Vec2>& loop : region.loops) {
+            for (std::size_t i = 0; i < loop.size(); ++i, ++number) {
+                const Vec2 a = loop[i] - grid.lower;
+                const Vec2 along = loop[(i + 1) % loop.size()] - loop[i];
+                const double square = dot(along, along);
+                const double thickened = thin_[w][number] != 0 ? 0.5 * grid.cell : 0.0;
+                const auto [low, high] = pointsBetween(std::min(a.y, a.y + along.y) - reach,
+                                                       std::max(a.y, a.y + along.y) + reach, grid.cell, rows);
+                for (std::size_t row = low; row < high; ++row) {
+                    const double y = static_cast<double>(row) * grid.cell;
+                    // Part of the side within reach of the row.
+                    double from = 0.0;
+                    double to = 1.0;
+                    if (along.y != 0.0) {
+                        const double first = (y - reach - a.y) / along.y;
+                        const double second = (y + reach - a.y) / along.y;
+                        from = std::clamp(std::min(first, second), 0.0, 1.0);
+                        to = std::clamp(std::max(first, second), 0.0, 1.0);
+                    }
+                    const double begin = a.x + from * along.x;
+                    const double end = a.x + to * along.x;
+                    const auto [left, right] =
+                        pointsBetween(std::min(begin, end) - reach, std::max(begin, end) + reach, grid.cell, columns);
+                    for (std::size_t column = left; column < right; ++column) {
+                        const Vec2 arm = Vec2{static_cast<double>(column) * grid.cell, y} - a;
+                        const double at = square > 0.0 ? std::clamp(dot(arm, along) / square, 0.0, 1.0) : 0.0;
+                        const Vec2 way = arm - at * along;
+                        double& least = near[row * columns + column];
+                        // Written so that few roots are taken.
+                        const double beyond = least + thickened;
+                        if (const double far = dot(way, way); far < beyond * beyond) {
+                            least = std::sqrt(far) - thickened;
+                        }
+                    }
+                }
+            }
+        }
+        for (std::size_t row = 0; row < rows; ++row) {
+            crossed = crossings(region, grid.lower.y + static_cast<double>(row) * grid.cell);
+            std::size_t passed = 0;
+            for (std::size_t column = 0; column < columns; ++column) {
+                const double x = grid.lower.x + static_cast<double>(column) * grid.cell;
+                while (passed < crossed.size() && crossed[passed] <= x) {
+                    ++passed;
+                }
+                const std::size_t k = row * columns + column;
+                const double distance = passed % 2 == 1 ? -std::abs(near[k]) : near[k];
+                if (distance < field.distance[k]) {
+                    field.distance[k] = distance;
+                    field.wall[k] = w;
+                }
+            }
+        }
+    }
+    // Corners amid walls that adjoin one another lie on a side, but not on the surface of the solid.
+    const std::vector<double> alone = field.distance;
+    constexpr double kOnSide = 1e-6;
+    for (std::size_t row = 1; row + 1 < rows; ++row) {
+        for (std::size_t k = row * columns + 1; k + 1 < (row + 1) * columns; ++k) {
+            double most = -reach;
+            for (const std::size_t other : {k - columns, k, k + columns}) {
+                most = std::max({most, alone[other - 1], alone[other], alone[other + 1]});
+            }
+            if (most <= kOnSide * grid.cell) {
+                field.distance[k] = std::min(field.distance[k], -grid.cell * std::numbers::sqrt2 / 2.0);
+            }
+        }
+    }
+    return field;
+}
+
+Vec2 WallDistance::velocity(const WallField& field, std::uint32_t wall, Vec2 place) const
+{
+    if (wall >= scene_.walls.size() || !scene_.walls[wall].motion) {
+        return {};
+    }
+    const WallPose& pose = field.poses[wall];
+    const Vec2 arm = place - (scene_.walls[wall].motion->pivot + pose.shift);
+    return pose.shift_velocity + pose.angle_velocity * Vec2{-arm.y, arm.x};
+}
+
+}  // namespace droplet
