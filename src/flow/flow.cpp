@@ -24,6 +24,7 @@
 #include "flow/following.h"
 #include "flow/hollow.h"
 #include "flow/joined_faces.h"
+#include "flow/ponds.h"
 #include "flow/touching.h"
 #include "flow/walk.h"
 #include "number_text.h"
@@ -449,6 +450,7 @@ private:
             members.push_back(i);
             members.push_back(j);
         }
+        joinPonds(sets, members);
         std::sort(members.begin(), members.end());
         members.erase(std::unique(members.begin(), members.end()), members.end());
         std::vector<Pair> grouped;
@@ -703,12 +705,75 @@ private:
 
     // ---- hollows
 
-    /// Height of a large puddle on a face.
-    [[nodiscard]] double puddleOn(std::uint32_t face) const
+    /// Field for what lies at the end of the step.
+    [[nodiscard]] PondField pondField() const { return {c_, p_, field_, end()}; }
+
+    /// Ponds take up what they cover, and one another where both stand over the edge between them.
+    void joinPonds(UnionFind& sets, std::vector<std::uint32_t>& members)
     {
-        const Liquid& liquid = p_.forces.liquid;
-        return 2.0 * std::sqrt(liquid.surface_tension / (liquid.density * length(field_.gravity))) *
-               std::sin(0.5 * p_.contactAngleOn(face));
+        const std::size_t count = s_.droplets.size();
+        const PondField field = pondField();
+        std::vector<Pair> on_faces;  // faces of droplets, with their indices
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if (s_.droplets[i].contact != FlowContact::Air && s_.droplets[i].volume > 0.0) {
+                on_faces.emplace_back(s_.droplets[i].face, i);
+            }
+        }
+        if (on_faces.size() < 2) {
+            return;
+        }
+        std::sort(on_faces.begin(), on_faces.end());
+        using Ponds = std::vector<std::pair<std::uint32_t, FilledHollow>>;
+        const auto blocks = mapBlocks<Ponds>(
+            on_faces.size(),
+            [&](std::size_t first, std::size_t last) {
+                Ponds found;
+                for (std::size_t k = first; k < last; ++k) {
+                    const std::uint32_t i = on_faces[k].second;
+                    if (auto filled = pondOf(field, s_.droplets[i])) {
+                        found.emplace_back(i, *std::move(filled));
+                    }
+                }
+                return found;
+            },
+            kDropletsPerBlock);
+        const auto join = [&](std::uint32_t i, std::uint32_t j) {
+            if (i != j) {
+                sets.join(i, j);
+                members.push_back(i);
+                members.push_back(j);
+            }
+        };
+        std::vector<Pair> full;  // faces beyond the brims of ponds that stand over them, with these ponds
+        for (const Ponds& block : blocks) {
+            for (const auto& [i, filled] : block) {
+                if (filled.beyond) {
+                    full.emplace_back(*filled.beyond, i);
+                }
+            }
+        }
+        for (const Ponds& block : blocks) {
+            for (const auto& [i, filled] : block) {
+                const Pond& pond = filled.pond;
+                const auto first = std::lower_bound(on_faces.begin(), on_faces.end(), Pair(pond.faces.front(), 0));
+                for (auto at = first; at != on_faces.end() && at->first <= pond.faces.back(); ++at) {
+                    const auto& [face, j] = *at;
+                    if (dot(pond.up, s_.droplets[j].leg.placeAt(end())) < pond.level && wets(pond, face)) {
+                        join(i, j);
+                    }
+                }
+                for (const auto& [face, j] : full) {
+                    if (pond.dome > 0.0 && wets(pond, face)) {
+                        join(i, j);
+                    }
+                }
+            }
+        }
+    }
+
+    static bool wets(const Pond& pond, std::uint32_t face)
+    {
+        return std::binary_search(pond.faces.begin(), pond.faces.end(), face);
     }
 
     /// Where liquid runs over, for droplets at rest and those that have grown in the step.
@@ -719,6 +784,7 @@ private:
             return {};
         }
         const Vec3 up = (-1.0 / gravity) * field_.gravity;
+        const PondField field = pondField();
         using Brims = std::vector<std::pair<std::size_t, Brim>>;
         const auto blocks = mapBlocks<Brims>(
             s_.droplets.size(),
@@ -730,10 +796,8 @@ private:
                     if (d.contact == FlowContact::Air || !may_lie || !(d.volume > 0.0)) {
                         continue;
                     }
-                    const double radius = 0.5 * forces_[i].contact_width;
-                    const RestingLiquid liquid{d.face, d.leg.placeAt(end()),      d.volume,
-                                               radius, p_.contactAngleOn(d.face), puddleOn(d.face)};
-                    if (d.volume <= d.held && length(liquid.place - d.held_at) <= radius && !moves()) {
+                    const RestingLiquid liquid = restingLiquid(field, d);
+                    if (d.volume <= d.held && length(liquid.place - d.held_at) <= liquid.radius && !moves()) {
                         continue;
                     }
                     const Hollow hollow = hollowAround(c_.surface, up, liquid);
@@ -761,7 +825,7 @@ private:
         for (const auto& [i, brim] : brims()) {
             FlowDroplet over = s_.droplets[i];
             over.has_grown = true;
-            const double most = capVolume(puddleOn(over.face), p_.contactAngleOn(over.face));
+            const double most = capVolume(restingLiquid(pondField(), over).puddle, p_.contactAngleOn(over.face));
             const double volume = std::max(std::min(over.volume - brim.capacity, most), over.volume - brim.held);
             double gap = 0.0;  // to what stays
             if (over.volume - volume >= p_.small_volume) {
@@ -906,16 +970,29 @@ std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowTerrain& te
         shown = &between;
         time = state.time;
     }
+    const PondField field{terrain.content(), parameters, fieldAt(parameters, time), time};
+    std::vector<std::optional<Pond>> ponds(shown->droplets.size());
+    forBlocks(
+        ponds.size(),
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                if (auto filled = pondOf(field, shown->droplets[i])) {
+                    ponds[i] = std::move(filled->pond);
+                }
+            }
+        },
+        kDropletsPerBlock);
     std::vector<FlowSample> samples;
     samples.reserve(shown->droplets.size());
-    for (const FlowDroplet& d : shown->droplets) {
+    for (std::size_t i = 0; i < shown->droplets.size(); ++i) {
+        const FlowDroplet& d = shown->droplets[i];
         const bool is_airborne = d.contact == FlowContact::Air;
         const GroundMotion::Drift drift = is_airborne ? terrain.motion().driftOf(d.face, time) : GroundMotion::Drift();
-        samples.push_back({d.id, d.contact, is_airborne ? std::nullopt : std::optional(d.face),
-                           d.leg.placeAt(time) + drift.way, d.leg.velocityAt(time) + drift.velocity,
-                           terrain.surface().faces[d.face].normal, d.volume, time - d.born,
-                           parameters.ground.contact_angle.empty() ? std::nullopt
-                                                                   : std::optional(parameters.contactAngleOn(d.face))});
+        samples.push_back(
+            {d.id, d.contact, is_airborne ? std::nullopt : std::optional(d.face), d.leg.placeAt(time) + drift.way,
+             d.leg.velocityAt(time) + drift.velocity, terrain.surface().faces[d.face].normal, d.volume, time - d.born,
+             parameters.ground.contact_angle.empty() ? std::nullopt : std::optional(parameters.contactAngleOn(d.face)),
+             std::move(ponds[i])});
     }
     return samples;
 }

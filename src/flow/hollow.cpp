@@ -2,13 +2,15 @@
 //
 // Level rises from the lowest place near the droplet, and faces are flooded in the order of the edges that it passes
 // (priority flood: R. Barnes, C. Lehman, D. Mulla, Computers & Geosciences 62 (2014) 117), until a face beyond leads
-// down, or the hollow is known to hold the liquid.
+// down, or the hollow is known to hold the liquid. Where the ground beyond is part of a larger hollow, and the liquid
+// suffices to fill it up to this edge, the flood goes on: bumps of its bottom are below the level.
 #include "flow/hollow.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <queue>
 #include <tuple>
@@ -27,6 +29,11 @@ constexpr double kShallow = 2e-3;
 constexpr std::size_t kFirstCheck = 16;
 // Hollows with more faces are not followed to their end: they hold the liquid.
 constexpr std::size_t kMostFaces = 1'000'000;
+// In a channel, whose walls are in the way of its disc, liquid is a pond up to so many times the area of the disc: in
+// the corner of a tray a quarter of a disc has room.
+constexpr double kSpread = 4.0;
+// Of a normal's parts.
+constexpr double kRounding = 1e-9;
 
 using Heights = std::array<double, 3>;
 
@@ -37,9 +44,9 @@ struct Flooded {
 };
 
 /// @param area  of the face seen from above; negative where it overhangs
-Flooded floodedPart(Heights h, double area, double level)
+/// @param h     ascending
+Flooded floodedPart(const Heights& h, double area, double level)
 {
-    std::sort(h.begin(), h.end());
     const double mean = (h[0] + h[1] + h[2]) / 3.0;
     if (level >= h[2]) {
         return {area, area * (level - mean)};
@@ -54,6 +61,12 @@ Flooded floodedPart(Heights h, double area, double level)
     const double dry = area * (h[2] - level) * (h[2] - level) / ((h[2] - h[0]) * (h[2] - h[1]));
     return {area - dry, area * (level - mean) + dry * (h[2] - level) / 3.0};
 }
+
+struct FloodedFace {
+    std::uint32_t face = 0;
+    Heights heights = {};  ///< ascending
+    double area = 0.0;     ///< seen from above; negative where it overhangs
+};
 
 /// An edge that the level may pass.
 struct Pass {
@@ -79,9 +92,85 @@ public:
 
     Hollow run()
     {
-        const Hollow known{std::nullopt, liquid_.volume};
+        const End end = flood([&] { return heldBy(filled()) >= liquid_.volume ? Known::Enough : Known::Nothing; });
+        if (end.pass) {
+            return over(*end.pass);
+        }
+        return {std::nullopt, end.is_enough ? heldBy(filled()) : liquid_.volume};
+    }
+
+    std::optional<FilledHollow> pond()
+    {
+        const double half = 0.5 * liquid_.contact_angle;
+        const double thick = std::min(liquid_.radius * std::tan(half), liquid_.puddle);  // on flat ground
+        const double flat =
+            std::max(liquid_.volume / liquid_.puddle, std::numbers::pi * liquid_.radius * liquid_.radius);
+        const End end = flood([&] {
+            const Flooded water = filled();
+            if (water.volume >= liquid_.volume) {
+                return Known::Enough;
+            }
+            // Higher levels have no smaller area: so much would it hold when it is as deep as the liquid is thick.
+            const double least = water.volume + water.area * (deepest() + thick - level_);
+            return water.area > kSpread * flat && least > liquid_.volume ? Known::Spreads : Known::Nothing;
+        });
+        if (!end.is_enough && !end.pass) {
+            return std::nullopt;
+        }
+        const Flooded brim = filled();
+        FilledHollow made;
+        if (brim.volume >= liquid_.volume) {
+            sinkTo(liquid_.volume);
+        } else {
+            made.pond.dome = liquid_.volume - brim.volume;
+            if (heldBy(brim) < liquid_.volume && made.pond.dome > brim.volume) {
+                return std::nullopt;
+            }
+            if (const std::uint32_t next = faces_[end.pass->face].neighbour[end.pass->side];
+                next != FlowSurface::kNone) {
+                made.beyond = next;
+            }
+        }
+        std::erase_if(flooded_, [&](const FloodedFace& face) { return face.heights.front() >= level_; });
+        const Flooded water = filled();
+        const double depth = level_ - deepest();
+        const bool is_deep = depth >= thick || water.area <= flat;
+        const bool is_narrow = water.area <= kSpread * flat && !fits(std::sqrt(flat / std::numbers::pi));
+        if (!(depth > slack_) || !(water.area > 0.0) || !(is_deep || is_narrow)) {
+            return std::nullopt;
+        }
+        made.pond.up = up_;
+        made.pond.level = level_;
+        made.pond.area = water.area;
+        made.pond.bending = liquid_.puddle / (2.0 * std::sin(half));
+        for (const FloodedFace& face : flooded_) {
+            made.pond.faces.push_back(face.face);
+        }
+        std::sort(made.pond.faces.begin(), made.pond.faces.end());
+        return made;
+    }
+
+private:
+    /// Why a flood ended; neither: nothing is known.
+    struct End {
+        std::optional<Pass> pass = {};  ///< the liquid would run over there
+        bool is_enough = false;         ///< the hollow takes up all liquid
+    };
+
+    /// What is known of the liquid at a level.
+    enum class Known {
+        Nothing,
+        Enough,   ///< the hollow takes it up
+        Spreads,  ///< on flat ground it would cover less: it is no pond
+    };
+
+    /// Raises the level.
+    /// @param ask  for what is known, from time to time
+    template <typename Ask>
+    End flood(const Ask& ask)
+    {
         if (!begin(liquid_.face, dot(up_, liquid_.place))) {
-            return known;
+            return {};
         }
         std::size_t check = kFirstCheck;
         while (!passes_.empty()) {
@@ -91,33 +180,157 @@ public:
             }
             passes_.pop();
             const std::uint32_t next = faces_[pass.face].neighbour[pass.side];
-            if (next != FlowSurface::kNone && flooded_.contains(next)) {
+            if (next != FlowSurface::kNone && is_flooded_.contains(next)) {
                 continue;
             }
             level_ = std::max(level_, pass.height);
             if (flooded_.size() >= check) {
-                if (const double held = heldBy(filled()); held >= liquid_.volume) {
-                    return {std::nullopt, held};
+                const Known known = ask();
+                if (known == Known::Spreads || flooded_.size() > kMostFaces) {
+                    return {};
                 }
-                if (flooded_.size() > kMostFaces) {
-                    return known;
+                if (known == Known::Enough) {
+                    return {{}, true};
                 }
                 check *= 2;
             }
             if (next != FlowSurface::kNone && heightsOf(next)[lowestOf(next)] >= level_ - slack_) {
                 flood(next);
             } else if (level_ - bottom_ > slack_) {
-                return over(pass);
+                if (ask() == Known::Enough) {
+                    return {{}, true};
+                }
+                if (!joins(next)) {
+                    return {pass};
+                }
             } else if (is_flat_ && isEdge(next)) {
                 exits_.push_back(pass);  // the whole flat counts, as a puddle on a plate does
             } else if (next == FlowSurface::kNone || !begin(next, level_)) {
-                return known;
+                return {};
             }
         }
-        return exits_.empty() ? known : over(*nearestExit());
+        if (exits_.empty()) {
+            return {};
+        }
+        return {*nearestExit()};
     }
 
-private:
+    /// Floods the ground beyond a pass as well, up to the level, if it is in the same hollow and the liquid suffices.
+    /// Otherwise all is as before.
+    bool joins(std::uint32_t beyond)
+    {
+        if (beyond == FlowSurface::kNone) {
+            return false;
+        }
+        const std::size_t before = flooded_.size();
+        const auto passes = passes_;
+        const auto back = [&] {
+            for (std::size_t k = before; k < flooded_.size(); ++k) {
+                is_flooded_.erase(flooded_[k].face);
+            }
+            flooded_.resize(before);
+            passes_ = passes;
+            return false;
+        };
+        std::vector<std::uint32_t> open{beyond};
+        for (std::size_t check = flooded_.size() + kFirstCheck; !open.empty();) {
+            const std::uint32_t face = open.back();
+            open.pop_back();
+            if (is_flooded_.contains(face)) {
+                continue;
+            }
+            // Overhanging ground is the outside of what holds the liquid.
+            if (dot(faces_[face].normal, up_) < -kRounding || flooded_.size() > kMostFaces) {
+                return back();
+            }
+            flood(face);
+            if (flooded_.size() >= check) {
+                if (filled().volume > liquid_.volume) {
+                    return back();
+                }
+                check *= 2;
+            }
+            const Heights heights = heightsOf(face);
+            for (std::size_t side = 0; side < 3; ++side) {
+                if (std::min(heights[side], heights[(side + 1) % 3]) <= level_) {
+                    const std::uint32_t next = faces_[face].neighbour[side];
+                    if (next == FlowSurface::kNone) {
+                        return back();
+                    }
+                    open.push_back(next);
+                }
+            }
+        }
+        return filled().volume <= liquid_.volume || back();
+    }
+
+    /// Whether half of a disc around the droplet's place is over the flood, by the circle that halves its area.
+    [[nodiscard]] bool fits(double radius) const
+    {
+        constexpr std::size_t kAround = 16;
+        const Vec3 across = cross(up_, std::abs(up_.x) < 0.9 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0});
+        const Vec3 left = 1.0 / length(across) * across;
+        const Vec3 ahead = cross(left, up_);
+        std::array<Vec3, kAround> points;
+        for (std::size_t k = 0; k < kAround; ++k) {
+            const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kAround;
+            points[k] =
+                liquid_.place + radius * std::numbers::sqrt2 / 2.0 * (std::cos(angle) * ahead + std::sin(angle) * left);
+        }
+        std::array<bool, kAround> is_over{};
+        for (const FloodedFace& flooded : flooded_) {
+            const auto& [a, b, c] = faces_[flooded.face].corners;
+            for (std::size_t k = 0; k < kAround; ++k) {
+                const Vec3 p = points[k];
+                const double u = dot(up_, cross(b - a, p - a));
+                const double v = dot(up_, cross(c - b, p - b));
+                const double w = dot(up_, cross(a - c, p - c));
+                const double height = u * dot(up_, c) + v * dot(up_, a) + w * dot(up_, b);
+                is_over[k] = is_over[k] || (std::min({u, v, w}) >= 0.0 && height < level_ * (u + v + w));
+            }
+        }
+        return 2 * static_cast<std::size_t>(std::count(is_over.begin(), is_over.end(), true)) >= kAround;
+    }
+
+    /// Lowers the level to where what is below it is a volume: by Newton's method, or halves where walls lean inward
+    /// and its step would be too long.
+    void sinkTo(double volume)
+    {
+        double low = deepest();
+        double high = level_;
+        for (;;) {
+            level_ = high;
+            const Flooded above = filled();
+            const double step = above.area > 0.0 ? (above.volume - volume) / above.area : 0.0;
+            level_ = high - step > low ? high - step : 0.5 * (low + high);
+            if (!(level_ < high && level_ > low)) {
+                break;
+            }
+            if (filled().volume >= volume) {
+                high = level_;
+            } else {
+                low = level_;
+                const double middle = 0.5 * (low + high);
+                level_ = middle;
+                if (!(middle > low && middle < high)) {
+                    break;
+                }
+                (filled().volume >= volume ? high : low) = middle;
+            }
+        }
+        level_ = high;
+    }
+
+    /// Height of the lowest ground of the flood.
+    [[nodiscard]] double deepest() const
+    {
+        double low = std::numeric_limits<double>::infinity();
+        for (const FloodedFace& face : flooded_) {
+            low = std::min(low, face.heights.front());
+        }
+        return low;
+    }
+
     [[nodiscard]] Heights heightsOf(std::uint32_t face) const
     {
         const auto& [a, b, c] = faces_[face].corners;
@@ -141,6 +354,7 @@ private:
         is_flat_ = height - bottom_ <= slack_ && dot(faces_[face].normal, up_) >= kLevel;
         exits_.clear();
         flooded_.clear();
+        is_flooded_.clear();
         passes_ = {};
         flood(face);
         return height - bottom_ <= slack_ || length(corner - liquid_.place) <= liquid_.radius;
@@ -148,8 +362,11 @@ private:
 
     void flood(std::uint32_t face)
     {
-        flooded_.insert(face);
+        is_flooded_.insert(face);
         const Heights heights = heightsOf(face);
+        FloodedFace flooded{face, heights, dot(faces_[face].normal, up_) * areaOf(faces_[face])};
+        std::sort(flooded.heights.begin(), flooded.heights.end());
+        flooded_.push_back(flooded);
         for (std::uint32_t side = 0; side < 3; ++side) {
             const auto [low, high] = std::minmax(heights[side], heights[(side + 1) % 3]);
             const double ground = dot(up_, liquid_.place);
@@ -160,9 +377,8 @@ private:
     [[nodiscard]] Flooded filled() const
     {
         Flooded sum;
-        for (const std::uint32_t face : flooded_) {
-            const double area = dot(faces_[face].normal, up_) * areaOf(faces_[face]);
-            const Flooded part = floodedPart(heightsOf(face), area, level_);
+        for (const FloodedFace& face : flooded_) {
+            const Flooded part = floodedPart(face.heights, face.area, level_);
             sum.area += part.area;
             sum.volume += part.volume;
         }
@@ -228,7 +444,8 @@ private:
     bool is_flat_ = false;  ///< the droplet lies on level ground
     double bottom_ = 0.0;
     double level_ = 0.0;
-    std::unordered_set<std::uint32_t> flooded_;
+    std::vector<FloodedFace> flooded_;
+    std::unordered_set<std::uint32_t> is_flooded_;
     std::vector<Pass> exits_;  ///< downward from level ground
     std::priority_queue<Pass, std::vector<Pass>, std::greater<>> passes_;
 };
@@ -238,6 +455,11 @@ private:
 Hollow hollowAround(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid)
 {
     return Flood(surface, up, liquid).run();
+}
+
+std::optional<FilledHollow> pondAround(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid)
+{
+    return Flood(surface, up, liquid).pond();
 }
 
 }  // namespace droplet

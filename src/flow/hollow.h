@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "droplet/flow/flow_surface.h"
+#include "droplet/flow/pond.h"
 #include "droplet/vector.h"
 
 namespace droplet {
@@ -42,5 +43,20 @@ struct Hollow {
 /// @param up       unit, against gravity
 /// @param liquid   at rest
 Hollow hollowAround(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid);
+
+/// A pond, and where it would run over next.
+struct FilledHollow {
+    Pond pond;
+    std::optional<std::uint32_t> beyond;  ///< if it stands over its brim, the face beyond; empty at an open edge, too
+};
+
+/// The level that liquid in a hollow has. It is a pond if on flat ground it would cover more ground, or not be higher
+/// than the hollow is deep, or if walls leave it less than half of the disc that it covers on flat ground; otherwise it
+/// is a droplet like any other. Liquid that its hollow does not hold, as before it runs over, is one if most of it is
+/// below the brim.
+/// @param surface  of the ground
+/// @param up       unit, normal of the level
+/// @param liquid   at rest
+std::optional<FilledHollow> pondAround(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid);
 
 }  // namespace droplet

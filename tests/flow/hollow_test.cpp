@@ -181,5 +181,62 @@ TEST(Hollow, FillsAndRunsOver)
     EXPECT_LT(balanceOf(state).still + balanceOf(state).running, 4.0 * capacity) << "12 mL came";
 }
 
+/// A trough of 120 × 16 mm, 8 mm deep, with a lower brim of 5 mm at its end +x, on a high foot.
+FlowSurface trough()
+{
+    constexpr double kLong = 60e-3;
+    constexpr double kWide = 8e-3;
+    constexpr double kHigh = 8e-3;
+    constexpr double kLow = 5e-3;
+    std::vector<Vec3> vertices;
+    for (const auto& [out, left, right] :
+         {Vec3{0.0, 0.0, 0.0}, {1e-6, kHigh, kLow}, {1e-3, kHigh, kLow}, {1e-3, -kHigh, -kHigh}}) {
+        for (const Vec2 side : {Vec2{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+            vertices.push_back({side.x * (kLong + out), side.y * (kWide + out), side.x < 0.0 ? left : right});
+        }
+    }
+    std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 3}};
+    for (std::uint32_t ring = 0; ring < 3; ++ring) {
+        for (std::uint32_t k = 0; k < 4; ++k) {
+            const std::uint32_t a = 4 * ring + k;
+            const std::uint32_t b = 4 * ring + (k + 1) % 4;
+            triangles.push_back({a, a + 4, b + 4});
+            triangles.push_back({a, b + 4, b});
+        }
+    }
+    return refined(flowSurface(vertices, triangles), 4e-3);
+}
+
+// Liquid that comes to both ends of a long trough is one pond: it holds no more than to its lowest brim and a puddle's
+// height, from what the lip holds to all of the trough, whose side walls rise to the other end.
+TEST(Hollow, HoldsItsVolumeOnceWhereverItIsFilled)
+{
+    const FlowTerrain terrain(trough());
+    FlowParameters parameters;
+    parameters.forces.wetting.contact_angle = 60.0 * kDegree;
+    parameters.forces.wetting.hysteresis = 0.02;
+    parameters.pinning.spread = 0.0;
+    parameters.emitters = {{{-55e-3, 0.0, 0.03}, 1e-6, {50e-9, 0.0}}, {{55e-3, 0.0, 0.03}, 1e-6, {50e-9, 0.0}}};
+    const double area = 120e-3 * 16e-3;
+    const double puddle = 2.0 * std::sqrt(0.0728 / (998.2 * kStandardGravity)) * std::sin(30.0 * kDegree);
+    const double lip = 1e-3 * 18e-3;
+    const double held = area * (5e-3 + puddle) + lip * puddle;
+    FlowState state = startFlow(terrain, parameters, {});
+    double most = 0.0;
+    for (int k = 1; k <= 60; ++k) {
+        state = advanceFlow(std::move(state), terrain, parameters, 0.2 * k);
+        double in = 0.0;
+        for (const FlowDroplet& d : state.droplets) {
+            const Vec3 p = d.leg.placeAt(state.time);
+            in += d.contact != FlowContact::Air && p.z > -1e-9 && std::abs(p.x) < 60e-3 ? d.volume : 0.0;
+        }
+        most = std::max(most, in);
+    }
+    EXPECT_GT(state.counts.overflows, 0U);
+    EXPECT_GT(most, 0.98 * held);
+    EXPECT_LT(most, 1.03 * held) << "24 mL came";
+    EXPECT_LT(std::abs(balanceOf(state).residual()), 1e-12);
+}
+
 }  // namespace
 }  // namespace droplet

@@ -11,6 +11,7 @@
 #include "droplet/flow/flow_droplet.h"
 #include "droplet/flow/flow_parameters.h"
 #include "droplet/flow/flow_terrain.h"
+#include "droplet/flow/pond.h"
 #include "droplet/vector.h"
 
 namespace droplet {
@@ -139,6 +140,7 @@ struct FlowSample {
     double volume = 0.0;  ///< [m³]
     double age = 0.0;     ///< time since it was released, or became a bead [s]
     std::optional<double> contact_angle;  ///< on its face [rad]; empty: that of the force model
+    std::optional<Pond> pond = {};        ///< if it fills a hollow
 };
 
 /// All droplets at the state's time, in the order of their ids.
