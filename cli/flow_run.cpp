@@ -383,8 +383,7 @@ void FlowRun::warnOfLostVolume()
     std::size_t count = 0;
     for (std::size_t first = 0; first < samples.size(); first += kAtOnce) {
         const auto some = std::span(samples).subspan(first, std::min(kAtOnce, samples.size() - first));
-        const std::vector<double> volumes = droplet::seatedVolumes(
-            droplet::seatedDroplets(*end.terrain, some, shapesAt(state_.time)), some.size(), bodies_);
+        const std::vector<double> volumes = droplet::seatedDroplets(*end.terrain, some, shapesAt(state_.time)).volumes;
         for (std::size_t i = 0; i < some.size(); ++i) {
             count += volumes[i] < 0.99 * some[i].volume ? 1U : 0U;
         }
@@ -559,7 +558,7 @@ void FlowRun::writeMaps(const Moment& moment)
 
 void FlowRun::writeMesh(const Moment& moment) const
 {
-    writeSurface(droplet::seatedDroplets(*moment.terrain, moment.samples, shapesAt(moment.time)),
+    writeSurface(droplet::seatedDroplets(*moment.terrain, moment.samples, shapesAt(moment.time)).surface,
                  options_.files->at(moment.number), options_.file.compression);
 }
 

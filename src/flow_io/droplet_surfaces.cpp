@@ -9,6 +9,7 @@
 #include <numeric>
 #include <vector>
 
+#include "flow_io/pond_surface.h"
 #include "flow_io/seat.h"
 #include "flow_io/small_deformation.h"
 
@@ -58,30 +59,45 @@ Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletShapes
     return surface;
 }
 
-Surface seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletShapes& shapes)
+SeatedDroplets seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> samples,
+                              const DropletShapes& shapes)
 {
     const DropletBodies& bodies = shapes.bodies;
     const Vec3 gravity = shapes.gravity;
-    Surface surface = dropletSurfaces(samples, shapes);
+    std::vector<FlowSample> bodied;  // samples with bodies
+    std::vector<std::size_t> whose;  // their indices
+    std::vector<std::size_t> pond_samples;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (samples[i].pond) {
+            pond_samples.push_back(i);
+        } else {
+            bodied.push_back(samples[i]);
+            whose.push_back(i);
+        }
+    }
+    SeatedDroplets made{dropletSurfaces(bodied, shapes), std::vector<double>(samples.size())};
+    Surface& surface = made.surface;
     const std::size_t vertex_count = bodies.vertices();
     const std::size_t rim = bodies.rimVertices();
     const std::size_t triangle_count = bodies.triangles().size();
     const std::vector<Triangle> base_triangles = baseTriangles(rim);
     const std::size_t base_count = baseVertices(rim);
-    std::vector<std::vector<Vec3>> bases(samples.size());
-    tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+    std::vector<std::vector<Vec3>> bases(bodied.size());
+    tbb::parallel_for(std::size_t{0}, bodied.size(), [&](std::size_t i) {
         const std::span vertices = std::span(surface.vertices).subspan(i * vertex_count, vertex_count);
         const std::span normals = std::span(surface.normals).subspan(i * vertex_count, vertex_count);
-        if (samples[i].contact == FlowContact::Air) {
+        if (bodied[i].contact == FlowContact::Air) {
             // The base of a ball is a point.
             bases[i].assign(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(rim));
             bases[i].resize(base_count, vertices.front());
         } else {
-            bases[i] = seat(terrain, frameOf(samples[i], gravity), {vertices, normals, bodies.triangles(), rim});
+            bases[i] = seat(terrain, frameOf(bodied[i], gravity), {vertices, normals, bodies.triangles(), rim});
         }
+        made.volumes[whose[i]] = volumeUnder(vertices, bodies.triangles(), vertices.front()) +
+                                 volumeUnder(bases[i], base_triangles, vertices.front());
     });
-    surface.triangles.reserve(samples.size() * (triangle_count + base_triangles.size()));
-    for (std::size_t i = 0; i < samples.size(); ++i) {
+    surface.triangles.reserve(bodied.size() * (triangle_count + base_triangles.size()));
+    for (std::size_t i = 0; i < bodied.size(); ++i) {
         const auto first = static_cast<std::uint32_t>(i * vertex_count);
         const auto base = static_cast<std::uint32_t>(surface.vertices.size());
         for (const auto& [a, b, c] : base_triangles) {
@@ -91,26 +107,28 @@ Surface seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> s
             surface.vertices.push_back(bases[i][k]);
             surface.weld.push_back(k < rim ? surface.weld[first + k] : base + static_cast<std::uint32_t>(k));
         }
-        surface.normals.resize(surface.vertices.size(), -1.0 * frameOf(samples[i], gravity).normal);
+        surface.normals.resize(surface.vertices.size(), -1.0 * frameOf(bodied[i], gravity).normal);
+    }
+    std::vector<PondSurface> ponds(pond_samples.size());
+    tbb::parallel_for(std::size_t{0}, ponds.size(), [&](std::size_t k) {
+        const Pond& pond = *samples[pond_samples[k]].pond;
+        ponds[k] = pondSurface(terrain.surface(), pond);
+        made.volumes[pond_samples[k]] = volumeUnder(ponds[k].vertices, ponds[k].triangles, pond.level * pond.up);
+    });
+    for (const PondSurface& pond : ponds) {
+        const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+        surface.vertices.insert(surface.vertices.end(), pond.vertices.begin(), pond.vertices.end());
+        surface.normals.insert(surface.normals.end(), pond.normals.begin(), pond.normals.end());
+        for (const std::uint32_t same : pond.weld) {
+            surface.weld.push_back(first + same);
+        }
+        for (const auto& [a, b, c] : pond.triangles) {
+            surface.triangles.push_back({first + a, first + b, first + c});
+        }
     }
     surface.uvs.resize(surface.vertices.size());
     surface.contact_angle.resize(surface.vertices.size());
-    return surface;
-}
-
-std::vector<double> seatedVolumes(const Surface& seated, std::size_t count, const DropletBodies& bodies)
-{
-    const std::size_t vertices = bodies.vertices();
-    const std::size_t base = baseVertices(bodies.rimVertices());
-    const std::size_t bases_begin = count * vertices;
-    std::vector<double> volumes(count);
-    for (const auto& [a, b, c] : seated.triangles) {
-        const std::size_t i = a < bases_begin ? a / vertices : (a - bases_begin) / base;
-        const Vec3 origin = seated.vertices[i * vertices];
-        volumes[i] +=
-            dot(seated.vertices[a] - origin, cross(seated.vertices[b] - origin, seated.vertices[c] - origin)) / 6.0;
-    }
-    return volumes;
+    return made;
 }
 
 }  // namespace droplet

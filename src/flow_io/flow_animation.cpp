@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <ostream>
@@ -21,6 +22,7 @@
 #include "droplet/flow_io/droplet_surfaces.h"
 #include "flow/following.h"
 #include "flow_io/object_scene.h"
+#include "flow_io/pond_surface.h"
 #include "flow_io/shape_basis.h"
 #include "flow_io/unit_bodies.h"
 #include "io/droplet_crowd.h"
@@ -51,6 +53,40 @@ DropletMesh partOf(const Surface& surface, const std::vector<Triangle>& triangle
     return part;
 }
 
+/// Frames in which something is shown.
+struct Shown {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;  ///< first frame without it
+    friend auto operator<=>(const Shown&, const Shown&) = default;
+};
+
+/// Adds a mesh that appears in one frame and vanishes in another.
+/// @param frames  of the animation
+void addForFrames(Scene& scene, std::size_t parent, SceneMesh mesh, const Shown& shown, std::uint32_t frames)
+{
+    SceneNode node{mesh.name};
+    node.mesh = scene.addMesh(std::move(mesh));
+    std::vector<float> times;
+    std::vector<float> scales;
+    const auto key = [&](std::uint32_t frame, float scale) {
+        times.push_back(toFloat(frame / scene.frames_per_second));
+        scales.insert(scales.end(), 3, scale);
+    };
+    if (shown.begin > 0) {
+        node.scale = {0.0, 0.0, 0.0};
+        key(0, 0.0F);
+    }
+    key(shown.begin, 1.0F);
+    if (shown.end < frames) {
+        key(shown.end, 0.0F);
+    }
+    const std::size_t added = scene.addNode(std::move(node), parent);
+    if (times.size() > 1) {
+        const std::size_t keys = scene.addTimes(std::move(times));
+        scene.tracks.push_back({added, SceneChange::Scale, true, keys, std::move(scales)});
+    }
+}
+
 /// Adds streaks on the object: a node for what appears in one frame and vanishes in another.
 void addStreaks(const StreakMesh& streaks, std::size_t object, std::uint32_t frames, Scene& scene)
 {
@@ -59,7 +95,7 @@ void addStreaks(const StreakMesh& streaks, std::size_t object, std::uint32_t fra
     wet.opacity = 0.25;
     const std::size_t material = scene.addMaterial(std::move(wet));
     const std::size_t all = scene.addNode({"streaks"}, object);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Triangle>> by_frames;
+    std::map<Shown, std::vector<Triangle>> by_frames;
     const double rate = scene.frames_per_second;
     const auto frame_of = [&](double time) {
         constexpr double kRounding = 1e-6;
@@ -67,36 +103,34 @@ void addStreaks(const StreakMesh& streaks, std::size_t object, std::uint32_t fra
             std::clamp(std::ceil(time * rate - kRounding), 0.0, static_cast<double>(frames)));
     };
     for (std::size_t i = 0; i < streaks.wetted.size(); ++i) {
-        const std::pair when{frame_of(streaks.wetted[i]), frame_of(streaks.gone[i])};
-        if (when.first < when.second) {
+        const Shown when{frame_of(streaks.wetted[i]), frame_of(streaks.gone[i])};
+        if (when.begin < when.end) {
             by_frames[when].push_back(streaks.surface.triangles[i]);
         }
     }
     for (const auto& [when, triangles] : by_frames) {
-        const auto& [frame, gone] = when;
-        const std::string name = "streaks of frames " + std::to_string(frame) + " to " + std::to_string(gone - 1);
-        SceneNode node{name, scene.addMesh(sceneMesh(partOf(streaks.surface, triangles), name, material))};
-        std::vector<float> times;
-        std::vector<float> scales;
-        const auto key = [&](double at, float scale) {
-            times.push_back(toFloat(at / rate));
-            scales.insert(scales.end(), 3, scale);
-        };
-        if (frame > 0) {
-            node.scale = {0.0, 0.0, 0.0};
-            key(0.0, 0.0F);
-        }
-        key(frame, 1.0F);
-        if (gone < frames) {
-            key(gone, 0.0F);
-        }
-        const std::size_t added = scene.addNode(std::move(node), all);
-        if (times.size() > 1) {
-            const std::size_t keys = scene.addTimes(std::move(times));
-            scene.tracks.push_back({added, SceneChange::Scale, true, keys, std::move(scales)});
-        }
+        const std::string name =
+            "streaks of frames " + std::to_string(when.begin) + " to " + std::to_string(when.end - 1);
+        addForFrames(scene, all, sceneMesh(partOf(streaks.surface, triangles), name, material), when, frames);
     }
 }
+
+/// A pond with one form, while it is shown.
+struct ShownPond {
+    Shown frames;
+    Pond pond;
+    std::size_t shape = 0;  ///< of the object
+    DropletMesh mesh;
+
+    /// Whether it may stand for another one, as DropletPose::looksLike() says of droplets.
+    [[nodiscard]] bool looksLike(const Pond& other, std::size_t at) const
+    {
+        constexpr double kNear = 0.01;  // of the radius
+        const double near = kNear * std::sqrt(pond.area / std::numbers::pi);
+        return shape == at && std::abs(other.level - pond.level) <= near &&
+               std::abs(other.dome - pond.dome) <= near * pond.area && dot(other.up, pond.up) >= std::cos(kFacing);
+    }
+};
 
 }  // namespace
 
@@ -125,6 +159,8 @@ struct FlowAnimation::Content {
     std::map<std::uint64_t, DropletPose> shaped = {};  ///< with which droplets got their last shape, by id
     std::size_t shapes = 0;                            ///< about the number that the file will have
     std::optional<StreakMesh> streaks = {};
+    std::vector<ShownPond> ponds = {};
+    std::map<std::uint64_t, std::size_t> pond_of = {};  ///< index of each droplet's pond in the last frame
 
     [[nodiscard]] DropletPose poseOf(const FlowSample& sample, Vec3 gravity, std::size_t shape) const
     {
@@ -155,6 +191,53 @@ struct FlowAnimation::Content {
             pose.turn = last->turn;  // it is round
         }
         return pose;
+    }
+
+    /// Adds a pond to the frame.
+    void addPond(const FlowSample& sample, std::size_t shape, std::map<std::uint64_t, std::size_t>& now)
+    {
+        const std::uint32_t frame = histories.frames();
+        if (const auto last = pond_of.find(sample.id); last != pond_of.end()) {
+            ShownPond& shown = ponds[last->second];
+            if (shown.looksLike(*sample.pond, shape)) {
+                shown.frames.end = frame + 1;
+                now.insert(*last);
+                return;
+            }
+        }
+        std::vector<FlowSurface::Face> ground;
+        for (const std::uint32_t face : sample.pond->faces) {
+            ground.push_back(deforms != nullptr ? deforms->faceAt(shape, face) : terrain.surface().faces[face]);
+        }
+        PondSurface surface = pondSurface(ground, *sample.pond);
+        ShownPond shown{{frame, frame + 1}, *sample.pond, shape, {}};
+        const std::vector<Vec3>& places = surface.vertices;
+        if (!places.empty()) {
+            const auto [low, high] = cornersOf(places);
+            corners = cornersOf({corners[0], corners[1], low, high});
+        }
+        shown.mesh.vertices = std::move(surface.vertices);
+        shown.mesh.normals = std::move(surface.normals);
+        shown.mesh.triangles = std::move(surface.triangles);
+        now.emplace(sample.id, ponds.size());
+        constexpr std::size_t kVerticesOfShape = 64;  // of a droplet on the way
+        shapes += 1 + shown.mesh.vertices.size() / kVerticesOfShape;
+        ponds.push_back(std::move(shown));
+    }
+
+    void addPonds(std::size_t object_node, Scene& scene) const
+    {
+        double radius = 0.0;
+        for (const ShownPond& pond : ponds) {
+            radius = std::max(radius, std::sqrt(pond.pond.area / std::numbers::pi));
+        }
+        const std::size_t material = scene.addMaterial(liquidMaterial(lookOf(options.material), radius));
+        const std::size_t all = scene.addNode({"ponds"}, object_node);
+        for (const ShownPond& pond : ponds) {
+            const std::string name =
+                "pond of frames " + std::to_string(pond.frames.begin) + " to " + std::to_string(pond.frames.end - 1);
+            addForFrames(scene, all, sceneMesh(pond.mesh, name, material), pond.frames, histories.frames());
+        }
     }
 
     /// Counts the shapes that a droplet needs on its way over ground that bends.
@@ -266,7 +349,12 @@ void FlowAnimation::add(double time, std::span<const FlowSample> samples, std::s
     std::vector<DropletPose> poses(samples.size());
     tbb::parallel_for(std::size_t{0}, samples.size(),
                       [&](std::size_t i) { poses[i] = content.poseOf(samples[i], gravity, shape); });
+    std::map<std::uint64_t, std::size_t> ponds;
     for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (samples[i].pond) {
+            content.addPond(samples[i], shape, ponds);
+            continue;
+        }
         const Vec3 size = std::cbrt(samples[i].volume) * Vec3{1.0, 1.0, 1.0};
         content.corners =
             cornersOf({content.corners[0], content.corners[1], samples[i].place - size, samples[i].place + size});
@@ -275,6 +363,7 @@ void FlowAnimation::add(double time, std::span<const FlowSample> samples, std::s
         content.histories.add(samples[i].id, poses[i]);
         content.countShapes(samples[i].id, content.onFirst(poses[i]));
     }
+    content.pond_of = std::move(ponds);
     if (content.deforms != nullptr) {
         content.shown.push_back(shape);
     }
@@ -317,6 +406,9 @@ std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) 
     droplets.ground = droplets.deforms ? content.addDeforming(scene) : addObject(content.object, scene);
     if (content.streaks && !content.streaks->surface.triangles.empty()) {
         addStreaks(*content.streaks, droplets.ground, content.histories.frames(), scene);
+    }
+    if (!content.ponds.empty()) {
+        content.addPonds(droplets.ground, scene);
     }
     droplets.material = content.options.material;
     droplets.animation = "flow";

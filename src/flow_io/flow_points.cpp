@@ -127,9 +127,13 @@ std::vector<FlowPoint> flowPoints(std::span<const FlowSample> samples, const Flo
         if (sample.contact == FlowContact::Air) {
             point.radius = std::cbrt(0.75 * sample.volume / std::numbers::pi);
         } else {
-            const Vec2 half = halfSizes(bodies, conditionsOf(sample, gravity));
-            point.radius = half.y;
-            point.elongation = half.x / half.y;
+            if (sample.pond) {
+                point.radius = std::sqrt(sample.pond->area / std::numbers::pi);
+            } else {
+                const Vec2 half = halfSizes(bodies, conditionsOf(sample, gravity));
+                point.radius = half.y;
+                point.elongation = half.x / half.y;
+            }
             const FlowSurface::Face& face = terrain.surface().faces[*sample.face];
             point.face = face.source;
             if (const GroundMotion& ground = terrain.motion(); !ground.rests()) {

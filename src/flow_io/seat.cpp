@@ -54,14 +54,6 @@ public:
         return std::abs(height) <= kReach * size_ ? std::optional(height) : std::nullopt;
     }
 
-    /// Distance of the first ground in a direction along the plane, at a height over the middle.
-    [[nodiscard]] std::optional<double> wallAt(Vec2 direction, double height) const
-    {
-        const Vec3 origin = toSpace({{}, height});
-        const auto hit = terrain_.firstAlong(origin, toSpace({direction, height}) - origin);
-        return hit ? std::optional(length(hit->place - origin)) : std::nullopt;
-    }
-
     [[nodiscard]] Local nearest(Vec2 p) const { return toLocal(frame_, terrain_.nearest(toSpace({p, 0.0})).place); }
 
     [[nodiscard]] Vec3 toSpace(const Local& p) const
@@ -167,12 +159,6 @@ public:
         if (!is_even) {
             drawBack(ground);
         }
-        sortAngles();
-    }
-
-    /// A rim that is known.
-    Rim(std::vector<Vec2> flat, std::vector<Local> seated) : flat_(std::move(flat)), seated_(std::move(seated))
-    {
         sortAngles();
     }
 
@@ -343,43 +329,21 @@ Vec3 placed(const Ground& ground, const Local& below, double height)
     return ground.toSpace({below.level, below.height + height});
 }
 
-/// @param is_level  the liquid fills what is below its rim
-Seating seatingOf(const Ground& ground, const Shape& shape, const Rim& rim, bool is_level = false)
+Seating seatingOf(const Ground& ground, const Shape& shape, const Rim& rim)
 {
     const std::size_t count = shape.rim.size();
     Seating made;
     for (std::size_t v = 0; v < shape.flat.size(); ++v) {
         made.below.push_back(v < count ? rim.seated(v) : groundBelow(ground, rim, shape.flat[v].level));
-        if (is_level) {
-            made.below[v].height = rim.seated(0).height;
-            if (const Rim::Place place = rim.towards(shape.flat[v].level); v >= count && place.share > 1.0) {
-                made.below[v].level = (1.0 / place.share) * shape.flat[v].level + place.moved;  // no bulge into walls
-            }
-        }
     }
-    const double bottom = ground.at({}).value_or(0.0);
-    const auto below = [&](Vec2 p) {
-        Local place = groundBelow(ground, rim, p);
-        if (is_level) {  // steps of the ground are in the liquid; beside walls a ray may miss it
-            place.height = std::min(ground.at(place.level).value_or(bottom), rim.seated(0).height);
-        }
-        return place;
-    };
-    // Below a level the base's first ring is at the foot of walls, if there are some.
-    constexpr double kFoot = 0.97;
-    double foot = 0.0;
-    for (std::size_t k = 0; is_level && k < count; ++k) {
-        foot += below(kFoot * shape.rim[k]).height / static_cast<double>(count);
-    }
-    const bool has_walls = is_level && foot - bottom < 0.7 * (rim.seated(0).height - bottom);
     for (std::size_t ring = 0; ring <= kBaseRings; ++ring) {
-        const double even = 1.0 - static_cast<double>(ring) / (1 + kBaseRings);
-        const double share = has_walls && ring == 1 ? kFoot : even;
+        const double share = 1.0 - static_cast<double>(ring) / (1 + kBaseRings);
         for (std::size_t k = 0; k < count; ++k) {
-            made.base.push_back(ground.toSpace(ring == 0 ? rim.seated(k) : below(share * shape.rim[k])));
+            made.base.push_back(
+                ground.toSpace(ring == 0 ? rim.seated(k) : groundBelow(ground, rim, share * shape.rim[k])));
         }
     }
-    made.base.push_back(ground.toSpace(below({})));
+    made.base.push_back(ground.toSpace(groundBelow(ground, rim, {})));
     const double of_base = volumeUnder(made.base, baseTriangles(count), shape.origin);
     const auto volume_at = [&](double factor) {
         std::vector<Vec3> vertices;
@@ -391,73 +355,6 @@ Seating seatingOf(const Ground& ground, const Shape& shape, const Rim& rim, bool
     made.empty = volume_at(0.0);
     made.gain = volume_at(1.0) - made.empty;
     return made;
-}
-
-/// Where a level meets the ground around a droplet's middle, in the directions of its rim; empty if it does not close.
-std::optional<Rim> rimAt(const Ground& ground, const Shape& shape, double height)
-{
-    std::vector<Local> seated;
-    for (const Vec2 p : shape.rim) {
-        const Vec2 direction = (1.0 / length(p)) * p;
-        const auto wall = ground.wallAt(direction, height);
-        if (!wall) {
-            return std::nullopt;
-        }
-        seated.push_back({*wall * direction, height});
-    }
-    return Rim(shape.rim, std::move(seated));
-}
-
-/// Whether the ground rises all around a droplet's middle: then it may be liquid in a hollow.
-bool isHollow(const Ground& ground, const Shape& shape)
-{
-    constexpr double kRise = 0.05;  // over the radius: less is filled as any ground
-    return rimAt(ground, shape, ground.at({}).value_or(0.0) + kRise * ground.size()).has_value();
-}
-
-/// Liquid in a hollow has a level surface: as high as it fills it, or as the hollow is closed; what is left stands over
-/// it as a dome. On a bottom that is wider than the droplet it is one like any other.
-Seating inHollow(const Ground& ground, const Shape& shape)
-{
-    constexpr int kLevels = 24;
-    constexpr int kHalvings = 12;
-    constexpr double kMostly = 0.5;  // of the liquid that is in the hollow, at least
-    const double bottom = ground.at({}).value_or(0.0);
-    const auto seated = [&](double height) -> std::optional<Seating> {
-        const auto rim = rimAt(ground, shape, height);
-        return rim ? std::optional(seatingOf(ground, shape, *rim, true)) : std::nullopt;
-    };
-    const auto fits = [&](const std::optional<Seating>& at) { return at && at->empty <= shape.volume; };
-    std::optional<Seating> best;
-    double low = bottom;
-    double high = bottom + ground.size();
-    for (int k = 1; k <= kLevels; ++k) {
-        const double height = bottom + ground.size() * k / kLevels;
-        std::optional<Seating> at = seated(height);
-        if (!fits(at)) {
-            high = height;
-            break;
-        }
-        best = std::move(at);
-        low = height;
-    }
-    for (int i = 0; i < kHalvings; ++i) {
-        const double middle = 0.5 * (low + high);
-        std::optional<Seating> at = seated(middle);
-        if (fits(at)) {
-            best = std::move(at);
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    // Liquid that would be thinner than the droplet is on flat ground does not spread so far.
-    double thick = 0.0;
-    for (const Local& p : shape.flat) {
-        thick = std::max(thick, p.height);
-    }
-    const bool fills = best && low - bottom >= thick && best->empty > kMostly * shape.volume;
-    return fills ? *best : seatingOf(ground, shape, Rim(ground, shape.rim));
 }
 
 }  // namespace
@@ -506,19 +403,13 @@ std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, Fl
     const double size = std::sqrt(std::abs(area) / std::numbers::pi);
     const double volume = volumeUnder(droplet.vertices, droplet.triangles, frame.place);
     const Shape shape{flat, rim_points, droplet.triangles, frame.place, volume};
-    // Beside a wall a droplet leans, but the liquid of a box does not.
-    DropletFrame leant = inward(terrain, frame, rim_points, size);
-    bool is_in_hollow = isHollow(Ground(terrain, leant, size), shape);
-    if (!is_in_hollow && isHollow(Ground(terrain, frame, size), shape)) {
-        leant = frame;
-        is_in_hollow = true;
-    }
+    const DropletFrame leant = inward(terrain, frame, rim_points, size);
     const auto turned = [&](Vec3 v) {
         return dot(v, frame.ahead) * leant.ahead + dot(v, frame.left) * leant.left +
                dot(v, frame.normal) * leant.normal;
     };
     const Ground ground(terrain, leant, size);
-    const Seating seating = is_in_hollow ? inHollow(ground, shape) : seatingOf(ground, shape, Rim(ground, rim_points));
+    const Seating seating = seatingOf(ground, shape, Rim(ground, rim_points));
 
     const std::vector<Vec3> before = facing(droplet.vertices, droplet.triangles);
     const double factor = (volume - seating.empty) / seating.gain;

@@ -9,10 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <numeric>
-#include <utility>
+#include <optional>
 
 #include "droplet/flow_io/droplet_surfaces.h"
+#include "flow_io/pond_surface.h"
 #include "flow_io/seat.h"
 
 namespace droplet {
@@ -64,6 +66,34 @@ DropletBase baseOf(const DropletFrame& frame, const FlatDroplet& droplet)
     return base;
 }
 
+/// A droplet or pond, open at the ground.
+struct Part {
+    std::vector<Vec3> vertices;
+    std::vector<Vec3> normals;
+    std::vector<Triangle> triangles;
+    std::optional<DropletBase> base;  ///< of a droplet on the ground
+};
+
+std::ptrdiff_t toDifference(std::size_t count)
+{
+    return static_cast<std::ptrdiff_t>(count);
+}
+
+/// Extends a rim into the ground.
+void extend(Part& part, const std::vector<Edge>& rim, Vec3 up)
+{
+    std::map<std::uint32_t, std::uint32_t> lowered;
+    for (const Edge& edge : rim) {
+        lowered.emplace(edge[0], static_cast<std::uint32_t>(part.vertices.size()));
+        part.vertices.push_back(part.vertices[edge[0]] - up);
+        part.normals.push_back(part.normals[edge[0]]);
+    }
+    for (const auto& [a, b] : rim) {
+        part.triangles.push_back({b, a, lowered.at(a)});
+        part.triangles.push_back({b, lowered.at(a), lowered.at(b)});
+    }
+}
+
 }  // namespace
 
 SettledDroplets settled(const FlowTerrain& terrain, std::span<const FlowSample> samples, const Surface& droplets,
@@ -84,61 +114,56 @@ SettledDroplets settled(const FlowTerrain& terrain, std::span<const FlowSample> 
     const std::size_t triangles = droplets.triangles.size() / samples.size();
     const std::span<const Triangle> one = std::span(droplets.triangles).first(triangles);
     const std::vector<Edge> rim = rimOf(one);
-    std::vector<std::uint32_t> rim_vertices;
-    std::vector<std::uint32_t> lowered(vertex_count);  // copies of them below the rim
-    for (const Edge& edge : rim) {
-        lowered[edge[0]] = static_cast<std::uint32_t>(vertex_count + rim_vertices.size());
-        rim_vertices.push_back(edge[0]);
-    }
-    const std::size_t all = vertex_count + rim_vertices.size();
+    std::vector<Part> parts(shown.size());
+    tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
+        const FlowSample& sample = samples[shown[i]];
+        Part& part = parts[i];
+        if (sample.pond) {
+            const PondSurface pond = pondSurface(terrain.surface(), *sample.pond);
+            part.vertices.assign(pond.vertices.begin(), pond.vertices.begin() + toDifference(pond.level_vertices));
+            part.normals.assign(pond.normals.begin(), pond.normals.begin() + toDifference(pond.level_vertices));
+            part.triangles.assign(pond.triangles.begin(), pond.triangles.begin() + toDifference(pond.level_triangles));
+            std::vector<Edge> edges;
+            for (std::uint32_t v = 0; v < pond.after.size(); ++v) {
+                if (pond.after[v] != v) {
+                    edges.push_back({v, pond.after[v]});
+                }
+            }
+            extend(part, edges, kSkirt * std::sqrt(sample.pond->area / std::numbers::pi) * sample.pond->up);
+            return;
+        }
+        const auto from = toDifference(shown[i] * vertex_count);
+        part.vertices.assign(droplets.vertices.begin() + from,
+                             droplets.vertices.begin() + from + toDifference(vertex_count));
+        part.normals.assign(droplets.normals.begin() + from,
+                            droplets.normals.begin() + from + toDifference(vertex_count));
+        part.triangles.assign(one.begin(), one.end());
+        if (sample.contact == FlowContact::Air) {
+            return;
+        }
+        const DropletFrame frame = frameOf(sample, {});
+        const FlatDroplet flat{part.vertices, part.normals, one, rim.size()};
+        const double height = baseOf(frame, flat).height;
+        seat(terrain, frame, flat);
+        part.base = baseOf(frame, flat);
+        part.base->height = height;
+        extend(part, rim, kSkirt * std::sqrt(part.base->half_length * part.base->half_width) * frame.normal);
+    });
     Surface& surface = made.surface;
-    surface.vertices.resize(all * shown.size());
-    surface.normals.resize(surface.vertices.size());
+    for (const Part& part : parts) {
+        const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+        surface.vertices.insert(surface.vertices.end(), part.vertices.begin(), part.vertices.end());
+        surface.normals.insert(surface.normals.end(), part.normals.begin(), part.normals.end());
+        for (const auto& [a, b, c] : part.triangles) {
+            surface.triangles.push_back({first + a, first + b, first + c});
+        }
+        if (part.base) {
+            made.bases.push_back(*part.base);
+        }
+    }
     surface.uvs.resize(surface.vertices.size());
     surface.weld.resize(surface.vertices.size());
     std::iota(surface.weld.begin(), surface.weld.end(), std::uint32_t{0});
-    std::vector<DropletBase> bases(shown.size());
-    tbb::parallel_for(std::size_t{0}, shown.size(), [&](std::size_t i) {
-        const FlowSample& sample = samples[shown[i]];
-        const std::size_t from = shown[i] * vertex_count;
-        const std::span<Vec3> vertices = std::span(surface.vertices).subspan(i * all, all);
-        const std::span<Vec3> normals = std::span(surface.normals).subspan(i * all, all);
-        std::copy_n(droplets.vertices.begin() + static_cast<std::ptrdiff_t>(from), vertex_count, vertices.begin());
-        std::copy_n(droplets.normals.begin() + static_cast<std::ptrdiff_t>(from), vertex_count, normals.begin());
-        double depth = 0.0;
-        const DropletFrame frame = frameOf(sample, {});
-        if (sample.contact != FlowContact::Air) {
-            const FlatDroplet flat{vertices.first(vertex_count), normals.first(vertex_count), one, rim_vertices.size()};
-            const double height = baseOf(frame, flat).height;
-            seat(terrain, frame, flat);
-            bases[i] = baseOf(frame, flat);
-            bases[i].height = height;
-            depth = kSkirt * std::sqrt(bases[i].half_length * bases[i].half_width);
-        }
-        for (std::size_t k = 0; k < rim_vertices.size(); ++k) {
-            vertices[vertex_count + k] = vertices[rim_vertices[k]] - depth * frame.normal;
-            normals[vertex_count + k] = normals[rim_vertices[k]];
-        }
-    });
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-        const auto first = static_cast<std::uint32_t>(i * all);
-        const auto from = static_cast<std::uint32_t>(shown[i] * vertex_count);
-        for (const auto& [a, b, c] : std::span(droplets.triangles).subspan(shown[i] * triangles, triangles)) {
-            surface.triangles.push_back({first + a - from, first + b - from, first + c - from});
-        }
-        if (samples[shown[i]].contact == FlowContact::Air) {
-            continue;
-        }
-        made.bases.push_back(bases[i]);
-        for (const Edge& edge : rim) {
-            const std::uint32_t a = first + edge[0];
-            const std::uint32_t b = first + edge[1];
-            const std::uint32_t c = first + lowered[edge[0]];
-            const std::uint32_t d = first + lowered[edge[1]];
-            surface.triangles.push_back({b, a, c});
-            surface.triangles.push_back({b, c, d});
-        }
-    }
     return made;
 }
 

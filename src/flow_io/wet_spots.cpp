@@ -314,14 +314,47 @@ std::vector<std::vector<WaterAt>> waterOf(const WetSpots& spots, const FlowSurfa
         if (!sample.face || sample.contact == FlowContact::Air) {
             return;
         }
-        const Columns columns(frameOf(sample, {}), std::span(droplets.vertices).subspan(d * vertices, vertices),
-                              std::span(droplets.normals).subspan(d * vertices, vertices),
-                              std::span(droplets.triangles).subspan(d * triangles, triangles),
-                              static_cast<std::uint32_t>(d * vertices), spots.spacing);
         std::vector<WaterAt>& held = water[d];
         WaterAt nearest;
         double least = std::numeric_limits<double>::infinity();
         double sum = 0.0;
+        const auto consider = [&](WaterAt there, Vec3 place) {
+            const double away = length(place - sample.place);
+            if (away < least) {
+                least = away;
+                nearest = {there.face, there.spot, 1.0, {}};
+            }
+            if (there.thickness > 0.0) {
+                held.push_back(there);
+                sum += there.thickness * area[there.face];
+            }
+        };
+        const auto scale = [&] {
+            if (held.empty() && std::isfinite(least)) {
+                held.push_back(nearest);
+                sum = area[nearest.face];
+            }
+            for (WaterAt& there : held) {
+                there.thickness *= sample.volume / sum;
+            }
+        };
+        if (sample.pond) {
+            for (const std::uint32_t face : sample.pond->faces) {
+                for (std::uint32_t spot = spots.first[face]; spot < spots.first[face + 1]; ++spot) {
+                    const Vec3 place = spots.place(spot);
+                    const double depth = sample.pond->level - dot(sample.pond->up, place);
+                    // A place stands for ground that may be steep.
+                    const double flat = std::max(dot(surface.faces[face].normal, sample.pond->up), 0.0);
+                    consider({face, spot, depth * flat, sample.pond->up}, place);
+                }
+            }
+            scale();
+            return;
+        }
+        const Columns columns(frameOf(sample, {}), std::span(droplets.vertices).subspan(d * vertices, vertices),
+                              std::span(droplets.normals).subspan(d * vertices, vertices),
+                              std::span(droplets.triangles).subspan(d * triangles, triangles),
+                              static_cast<std::uint32_t>(d * vertices), spots.spacing);
         const Around around{*sample.face, sample.place, sample.place, std::max(columns.reach(), 2.0 * spots.spacing)};
         for (const std::uint32_t face : searches.local().find(around)) {
             for (std::uint32_t spot = spots.first[face]; spot < spots.first[face + 1]; ++spot) {
@@ -329,24 +362,10 @@ std::vector<std::vector<WaterAt>> waterOf(const WetSpots& spots, const FlowSurfa
                 WaterAt there = columns.at(place);
                 there.face = face;
                 there.spot = spot;
-                const double away = length(place - sample.place);
-                if (away < least) {
-                    least = away;
-                    nearest = {face, spot, 1.0, {}};
-                }
-                if (there.thickness > 0.0) {
-                    held.push_back(there);
-                    sum += there.thickness * area[face];
-                }
+                consider(there, place);
             }
         }
-        if (held.empty() && std::isfinite(least)) {
-            held.push_back(nearest);
-            sum = area[nearest.face];
-        }
-        for (WaterAt& there : held) {
-            there.thickness *= sample.volume / sum;
-        }
+        scale();
     });
     return water;
 }

@@ -55,20 +55,21 @@ struct DropletShapes {
 /// bodies. They are open at the ground. uvs and contact angles are 0.
 Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletShapes& shapes);
 
-/// Closed droplets that sit on the object: surfaces as dropletSurfaces() makes them, followed by their bases.
+/// Closed droplets and ponds on an object.
+struct SeatedDroplets {
+    Surface surface;  ///< surfaces as dropletSurfaces() makes them of all that are no ponds; their bases; ponds
+    std::vector<double> volumes;  ///< of all, in the order of the samples [m³]
+};
+
+/// Closed droplets that sit on the object.
 ///
 /// Each droplet is bent along its normal to the ground below it and keeps its volume to 1 %, unless it would become
 /// three times as high. Its rim lies on the object; at edges and steps it is drawn back to them. A ball in the air
-/// stays one.
+/// stays one. A pond has a level, or a dome over a brim, and ends where the ground rises over it; its volume is exact.
 /// @param terrain  the object
 /// @param samples  the droplets
 /// @param shapes   their shapes
-Surface seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> samples, const DropletShapes& shapes);
-
-/// Volumes of the droplets in a surface of seatedDroplets() [m³], in their order.
-/// @param seated  the surface
-/// @param count   number of its droplets
-/// @param bodies  their shapes
-std::vector<double> seatedVolumes(const Surface& seated, std::size_t count, const DropletBodies& bodies);
+SeatedDroplets seatedDroplets(const FlowTerrain& terrain, std::span<const FlowSample> samples,
+                              const DropletShapes& shapes);
 
 }  // namespace droplet

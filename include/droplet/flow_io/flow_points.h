@@ -24,7 +24,8 @@ struct FlowPoint {
     Vec3 place;                         ///< on the surface, or the centre in the air [m]
     Vec3 velocity;                      ///< with that of ground that deforms [m/s]
     double volume = 0.0;                ///< [m³]
-    double radius = 0.0;                ///< half the width, from above, or of the ball in the air [m]
+    double radius = 0.0;                ///< half the width, from above, or of the ball in the air; of a pond, that of a
+                                        ///< circle with the area of its level [m]
     double elongation = 1.0;            ///< length over width, ≥ 1 for most
     std::array<Vec3, 3> axes;           ///< ahead, to the left, and the ground's normal; unit
     double age = 0.0;                   ///< [s]
