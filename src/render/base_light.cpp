@@ -118,6 +118,9 @@ BaseLight::BaseLight(const RayTracer& scene, const Look& look, double mean_heigh
         spot.size = static_cast<float>(std::sqrt(base.half_length * base.half_width)) / per_metre;
         spot.reach = margin_ * static_cast<float>(std::max(base.half_length, base.half_width)) / per_metre;
         spots_.push_back(spot);
+        for (const Lamp& lamp : lamps_) {
+            turns_.push_back(turnOf(spot, lamp.toward));
+        }
     }
     sortSpots();
 }
@@ -178,21 +181,28 @@ void BaseLight::sortSpots()
     }
 }
 
-Vec3f BaseLight::gain(const Spot& spot, Vec2 place, Vec3f toward) const
+BaseLight::Turn BaseLight::turnOf(const Spot& spot, Vec3f toward) const
 {
     const float cosine = dot(toward, spot.normal);
     if (cosine <= 0.05F) {
-        return grey(1.0F);
+        return {};
     }
     // The texture's x axis is toward the light.
     const Vec2 lamp{static_cast<double>(dot(toward, spot.ahead)), static_cast<double>(dot(toward, spot.left))};
     const double size = length(lamp);
-    const Vec2 x = size > 1e-6 ? (1.0 / size) * lamp : Vec2{1.0, 0.0};
-    const Vec3f turned = toFloats({dot(x, place), cross(x, place), 0.0});
     const float at = std::acos(std::min(cosine, 1.0F)) / static_cast<float>(kStep);
     const auto below = std::min(static_cast<std::size_t>(at), by_angle_.size() - 2);
-    return mix(by_angle_[below].at(turned), by_angle_[below + 1].at(turned),
-               std::min(at - static_cast<float>(below), 1.0F));
+    return {size > 1e-6 ? (1.0 / size) * lamp : Vec2{1.0, 0.0}, below, std::min(at - static_cast<float>(below), 1.0F),
+            true};
+}
+
+Vec3f BaseLight::gain(const Turn& turn, Vec2 place) const
+{
+    if (!turn.is_lit) {
+        return grey(1.0F);
+    }
+    const Vec3f turned = toFloats({dot(turn.x, place), cross(turn.x, place), 0.0});
+    return mix(by_angle_[turn.below].at(turned), by_angle_[turn.below + 1].at(turned), turn.share);
 }
 
 Vec3f BaseLight::at(Vec3f place, Vec3f normal, Vec3f open) const
@@ -212,16 +222,20 @@ Vec3f BaseLight::at(Vec3f place, Vec3f normal, Vec3f open) const
         const Spot& spot = spots_[k];
         const Vec3f offset = place - spot.place;
         const Vec2 local{static_cast<double>(dot(offset, spot.ahead)), static_cast<double>(dot(offset, spot.left))};
-        const auto away = static_cast<float>(length(local));
-        if (away > margin_ || std::abs(dot(offset, spot.normal)) > spot.size || dot(normal, spot.normal) < 0.0F) {
+        const double margin = static_cast<double>(margin_);
+        if (dot(local, local) > margin * margin || std::abs(dot(offset, spot.normal)) > spot.size ||
+            dot(normal, spot.normal) < 0.0F) {
             continue;
         }
+        const auto away = static_cast<float>(length(local));
         const float share = 1.0F - smoothstep(0.7F * margin_, margin_, away);
         change = change + share * (soft_.at(toFloats({local.x, local.y, 0.0})) - grey(1.0F)) * soft;
-        for (const Lamp& lamp : lamps_) {
+        for (std::size_t i = 0; i < lamps_.size(); ++i) {
+            const Lamp& lamp = lamps_[i];
             const float cosine = dot(normal, lamp.toward);
             if (cosine > 0.0F) {
-                change = change + share * cosine * (gain(spot, local, lamp.toward) - grey(1.0F)) * lamp.irradiance;
+                change = change +
+                         share * cosine * (gain(turns_[k * lamps_.size() + i], local) - grey(1.0F)) * lamp.irradiance;
             }
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -46,16 +47,26 @@ private:
         float size = 0.0F;  ///< mean radius
     };
 
+    /// How a lamp shines on a spot.
+    struct Turn {
+        Vec2 x;                 ///< direction of the light along the base, unit, in radii
+        std::size_t below = 0;  ///< the texture of the next smaller angle
+        float share = 0.0F;     ///< of the texture after it
+        bool is_lit = false;
+    };
+
     void makeTextures(const Look& look, double mean_height, const std::vector<DropletBase>& bases);
     void sortSpots();
     [[nodiscard]] std::uint64_t cellOf(int x, int y, int z) const;
-    [[nodiscard]] Vec3f gain(const Spot& spot, Vec2 place, Vec3f toward) const;
+    [[nodiscard]] Turn turnOf(const Spot& spot, Vec3f toward) const;
+    [[nodiscard]] Vec3f gain(const Turn& turn, Vec2 place) const;
 
     std::vector<Lamp> lamps_;
     std::vector<LightMap> by_angle_;  ///< light from +x, at equal steps of its angle to the normal
     LightMap soft_;                   ///< light from everywhere
     float margin_ = 1.0F;             ///< of the textures, in radii
     std::vector<Spot> spots_;
+    std::vector<Turn> turns_;  ///< of all lamps, for each spot
     float cell_ = 1.0F;
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> in_cell_;  ///< spots that reach a cell
 };

@@ -6,11 +6,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <new>
 #include <numbers>
+#include <utility>
 
 #include "rays/embree_device.h"
 
@@ -83,6 +86,34 @@ private:
     double size_ = 1e-30;
 };
 
+/// Vertices at one place with one normal, to rounding: a mesh with corners of its own for every triangle has each six
+/// times, and rays are what takes time.
+struct Places {
+    std::vector<std::uint32_t> first;  ///< a vertex of every place
+    std::vector<std::uint32_t> of;     ///< number of every vertex's place
+};
+
+Places placesOf(const TexturedMesh& object)
+{
+    using Key = std::array<double, 6>;
+    std::vector<std::pair<Key, std::uint32_t>> keys;
+    for (std::uint32_t v = 0; v < object.vertices.size(); ++v) {
+        constexpr double kParts = 1 << 20;  // of a normal: far less than the rays are apart
+        const auto [x, y, z] = object.vertices[v];
+        const Vec3 n = kParts * object.normals[v];
+        keys.push_back({{x, y, z, std::round(n.x) + 0.0, std::round(n.y) + 0.0, std::round(n.z) + 0.0}, v});
+    }
+    std::sort(keys.begin(), keys.end());
+    Places places{{}, std::vector<std::uint32_t>(keys.size())};
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        if (k == 0 || keys[k].first != keys[k - 1].first) {
+            places.first.push_back(keys[k].second);
+        }
+        places.of[keys[k].second] = static_cast<std::uint32_t>(places.first.size() - 1);
+    }
+    return places;
+}
+
 }  // namespace
 
 std::vector<float> opennessOf(const TexturedMesh& object, const std::vector<bool>& is_clear)
@@ -95,10 +126,12 @@ std::vector<float> opennessOf(const TexturedMesh& object, const std::vector<bool
         directions.push_back(
             {std::sqrt(share) * std::cos(turn), std::sqrt(share) * std::sin(turn), std::sqrt(1.0 - share)});
     }
-    std::vector<float> openness(object.vertices.size());
+    const Places places = placesOf(object);
+    std::vector<float> openness(places.first.size());
     const tbb::blocked_range<std::size_t> all(0, openness.size(), kVerticesAtOnce);
     tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& some) {
-        for (std::size_t v = some.begin(); v < some.end(); ++v) {
+        for (std::size_t k = some.begin(); k < some.end(); ++k) {
+            const std::uint32_t v = places.first[k];
             const Vec3 n = object.normals[v];
             const Vec3 fixed = std::abs(n.x) < 0.6 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0};
             const Vec3 across = cross(n, fixed);
@@ -109,10 +142,15 @@ std::vector<float> opennessOf(const TexturedMesh& object, const std::vector<bool
             for (const Vec3& d : directions) {
                 open += occluders.meets(from, d.x * right + d.y * up + d.z * n) ? 0 : 1;
             }
-            openness[v] = static_cast<float>(open) / kRays;
+            openness[k] = static_cast<float>(open) / kRays;
         }
     });
-    return openness;
+    std::vector<float> of_vertices;
+    of_vertices.reserve(object.vertices.size());
+    for (const std::uint32_t place : places.of) {
+        of_vertices.push_back(openness[place]);
+    }
+    return of_vertices;
 }
 
 }  // namespace droplet

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "support/ball_mesh.h"
@@ -39,6 +40,28 @@ TEST(Openness, BelowABallIsTheRestOfItsSolidAngle)
         EXPECT_EQ(opennessOf(mesh, is_clear)[0], 1.0F) << "light passes glass";
         is_clear.assign(mesh.triangles.size(), false);
         EXPECT_EQ(opennessOf(mesh, is_clear), openness);
+    }
+}
+
+// As the objects of flow are, whose triangles have corners of their own.
+TEST(Openness, IsThatOfTheSameMeshWithSharedVertices)
+{
+    const TexturedMesh mesh = ballOver(1.0, 1.5);
+    const std::vector<float> shared = opennessOf(mesh);
+    TexturedMesh apart;
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t v : t) {
+            apart.vertices.push_back(mesh.vertices[v]);
+            apart.normals.push_back(mesh.normals[v]);
+        }
+        const auto count = static_cast<std::uint32_t>(apart.vertices.size());
+        apart.triangles.push_back({count - 3, count - 2, count - 1});
+    }
+    const std::vector<float> openness = opennessOf(apart);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(openness[3 * t + k], shared[mesh.triangles[t][k]]);
+        }
     }
 }
 
