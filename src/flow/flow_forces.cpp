@@ -47,6 +47,12 @@ WalkForces forcesOn(const FlowParameters& parameters, const FlowField& field, co
     if (parameters.model == FlowModel::Capillary) {
         result.retention = forces.retention / mass;
         result.sliding = forces.sliding_friction / mass;
+        // At a sharp edge the angle in front may be up to 180° (J. W. Gibbs), in place of the advancing angle:
+        // 2 r σ π/4 (cos θ_r + 1), with cos θ_r = cos θ + Δ/2.
+        const Wetting& wetting = model.wetting;
+        const double behind = std::min(std::cos(angle) + 0.5 * wetting.hysteresis, 1.0);
+        result.edge =
+            0.5 * std::numbers::pi * cap.contact_radius * model.liquid.surface_tension * (1.0 + behind) / mass;
     }
     // a_N > D π r²/m. What surface tension holds around the contact line is 2 π r σ sin θ, so D is 2 σ sin θ / r.
     const double r = cap.contact_radius;

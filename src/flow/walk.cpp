@@ -222,7 +222,7 @@ private:
                 push = pushHere();
             }
             const double hold = grip.retention * (hold_ ? hold_->along : 1.0);
-            if (is_at_rest && pushed <= hold * std::max(f_.retention, f_.sliding)) {
+            if (is_at_rest && (pushed <= hold * std::max(f_.retention, f_.sliding) || hangs(place))) {
                 stop(place);
                 return;
             }
@@ -398,7 +398,11 @@ private:
         const Vec3 velocity = velocityAfter(d_.leg, passed, mean);
         const std::uint32_t to = face.neighbour[side];
         if (to == FlowSurface::kNone) {
-            launch(place, velocity);
+            if (edgeHolds(side, velocity)) {
+                stop(place);
+            } else {
+                launch(place, velocity);
+            }
             return;
         }
         const Face& next = faces_[to];
@@ -426,6 +430,30 @@ private:
         } else {
             runAlong(from, side, place, along);
         }
+    }
+
+    /// Whether an open edge holds a droplet: one that comes to it needs the work that the edge does over the droplet's
+    /// radius.
+    [[nodiscard]] bool edgeHolds(std::size_t side, Vec3 velocity) const
+    {
+        const Vec3 outward = -1.0 * faces_[d_.face].inward[side];
+        const double speed = std::max(dot(velocity, outward), 0.0);
+        const double rest = f_.edge - dot(pushOn(d_.face), outward);
+        return rest >= 0.0 && speed * speed <= rest * f_.contact_width;
+    }
+
+    /// Whether a droplet at rest hangs at an open edge.
+    [[nodiscard]] bool hangs(Vec3 place) const
+    {
+        constexpr double kAtEdge = 1e-9;  // of the droplet's width
+        const Face& face = faces_[d_.face];
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (face.neighbour[k] == FlowSurface::kNone &&
+                dot(place - face.corners[k], face.inward[k]) <= kAtEdge * f_.contact_width && edgeHolds(k, {})) {
+                return dot(pushOn(d_.face), face.inward[k]) < 0.0;
+            }
+        }
+        return false;
     }
 
     /// Whether adhesion fails where the path bends away: v²/R, with the bend spread over the faces or the droplet.

@@ -27,6 +27,7 @@ struct WalkForces {
     double retention = 0.0;      ///< acceleration up to which hysteresis holds a droplet at rest [m/s²], ≥ 0
     double sliding = 0.0;        ///< part of it that still acts while it moves, against its velocity [m/s²], ≥ 0
     double adhesion = 0.0;       ///< normal acceleration up to which it adheres, D π r²/m [m/s²], ≥ 0
+    double edge = 0.0;           ///< acceleration up to which an open edge holds it at rest [m/s²], ≥ 0
     double contact_width = 0.0;  ///< diameter of its contact circle [m], > 0
 };
 

@@ -11,6 +11,8 @@
 #include <numbers>
 #include <optional>
 
+#include "droplet/units.h"
+
 namespace droplet {
 namespace {
 
@@ -357,6 +359,50 @@ Seating seatingOf(const Ground& ground, const Shape& shape, const Rim& rim)
     return made;
 }
 
+double halfWidth(const DropletFrame& frame, const FlatDroplet& droplet, Vec3 across)
+{
+    double low = 0.0;
+    double high = 0.0;
+    for (const Vec3 p : droplet.vertices.first(droplet.rim)) {
+        const double at = dot(p - frame.place, across);
+        low = std::min(low, at);
+        high = std::max(high, at);
+    }
+    return 0.5 * (high - low);
+}
+
+/// A long droplet over an edge, as one that runs off a plate, would stand off on both sides as a spindle. There surface
+/// tension has made it round: the more, the more it leans.
+void roundOverEdge(const FlowTerrain& terrain, const DropletFrame& frame, FlatDroplet droplet)
+{
+    // Edges of 30° between facets of a round object lean it by 15° at most; edges of 90°, by 45°.
+    constexpr double kBend = 15.0 * kDegree;
+    constexpr double kEdge = 40.0 * kDegree;
+    const double length = halfWidth(frame, droplet, frame.ahead);
+    const double width = halfWidth(frame, droplet, frame.left);
+    if (!(length > width) || !(width > 0.0)) {
+        return;
+    }
+    const Vec3 leant = leaning(terrain, frame, std::sqrt(length * width)).normal;
+    const double lean = std::acos(std::clamp(dot(leant, frame.normal), -1.0, 1.0));
+    const double share = std::clamp((lean - kBend) / (kEdge - kBend), 0.0, 1.0);
+    if (share <= 0.0) {
+        return;
+    }
+    const double across = std::pow(length / width, 0.5 * share);
+    const auto scaled = [&](Vec3 v, double ahead, double left) {
+        const double a = dot(v, frame.ahead);
+        const double l = dot(v, frame.left);
+        return v + (ahead - 1.0) * a * frame.ahead + (left - 1.0) * l * frame.left;
+    };
+    for (Vec3& p : droplet.vertices) {
+        p = frame.place + scaled(p - frame.place, 1.0 / across, across);
+    }
+    for (Vec3& n : droplet.normals) {
+        n = unit(scaled(n, across, 1.0 / across));
+    }
+}
+
 }  // namespace
 
 double volumeUnder(std::span<const Vec3> vertices, std::span<const Triangle> triangles, Vec3 origin)
@@ -387,6 +433,7 @@ std::vector<Triangle> baseTriangles(std::size_t rim)
 
 std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, FlatDroplet droplet)
 {
+    roundOverEdge(terrain, frame, droplet);
     std::vector<Local> flat;
     for (const Vec3 p : droplet.vertices) {
         flat.push_back(toLocal(frame, p));

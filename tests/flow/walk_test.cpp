@@ -257,6 +257,40 @@ TEST(Walk, LeavesASphereWhereTheWeakerAdhesionFailsSooner)
     }
 }
 
+// An upright sheet: 2 r σ π/4 (cos θ_r + 1) against the weight. What comes faster than this force stops over the radius
+// falls off, and what hangs falls when it is heavier.
+TEST(Walk, HangsAtAnOpenEdgeThatHoldsItsWeight)
+{
+    const FlowTerrain sheet(flowSurface({{-0.03, 0.0, 0.0}, {0.03, 0.0, 0.0}, {0.03, 0.0, 0.05}, {-0.03, 0.0, 0.05}},
+                                        {{0, 1, 2}, {0, 2, 3}}));
+    FlowParameters parameters;
+    parameters.pinning.spread = 0.0;
+    const Wetting& wetting = parameters.forces.wetting;
+    const Liquid& liquid = parameters.forces.liquid;
+    const double held = std::cos(wetting.contact_angle) + 0.5 * wetting.hysteresis + 1.0;
+    // r of a droplet grows as the root of the weight's third part: both are equal at this volume.
+    const double radius = capOf(1e-9, wetting.contact_angle).contact_radius;
+    const double most = 1e-9 * std::pow(0.5 * std::numbers::pi * radius * liquid.surface_tension * held /
+                                            (1e-9 * liquid.density * kStandardGravity),
+                                        1.5);
+    const auto after = [&](double volume, double height) {
+        FlowState state = startFlow(sheet, parameters, {{{0.001, 0.0, height}, volume, {}}});
+        return advanceFlow(std::move(state), sheet, parameters, 1.0);
+    };
+    const FlowState hangs = after(0.9 * most, 1e-6);
+    ASSERT_EQ(hangs.droplets.size(), 1U);
+    EXPECT_EQ(hangs.droplets[0].contact, FlowContact::Still);
+    EXPECT_NEAR(hangs.droplets[0].leg.place.z, 0.0, 1e-9);
+    EXPECT_EQ(after(1.1 * most, 1e-6).counts.launches, 1U);
+    EXPECT_EQ(after(0.9 * most, 0.04).counts.launches, 1U) << "it comes fast";
+    // Two that hang are one that falls.
+    FlowState state =
+        startFlow(sheet, parameters, {{{0.0, 0.0, 1e-6}, 0.7 * most, {}}, {{2e-3, 0.0, 1e-6}, 0.7 * most, {}}});
+    state = advanceFlow(std::move(state), sheet, parameters, 1.0);
+    EXPECT_EQ(state.counts.merged, 1U);
+    EXPECT_EQ(state.counts.launches, 1U);
+}
+
 TEST(Walk, FallsOffTheBoundaryAndLandsBelow)
 {
     Mesh mesh = gridOf(3, 3, [](double, double y) { return 1.0 + 0.5 * y; });

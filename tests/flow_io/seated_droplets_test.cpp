@@ -216,6 +216,37 @@ TEST(SeatedDroplets, AtTheEdgeOfASheetMoveOntoIt)
     EXPECT_LT(highest(seated), 1.25 * highest(dropletSurfaces(samples, {bodies(), kGravity})));
 }
 
+// Over an edge of the box a droplet that runs would be a spindle.
+TEST(SeatedDroplets, AreRoundWhereTheyRunOverAnEdge)
+{
+    const FlowTerrain terrain = box();
+    const double half = 20e-3;
+    FlowSample sample;
+    sample.contact = FlowContact::Face;
+    sample.normal = {0.0, 0.0, 1.0};
+    sample.volume = 60e-9;
+    sample.velocity = {0.3, 0.0, 0.0};
+    const auto elongation = [&](double x) {
+        sample.place = {x, 1e-3, half};
+        sample.face = terrain.firstAlong({x, 1e-3, 1.0}, {0.0, 0.0, -1.0})->face;
+        const std::vector<FlowSample> samples{sample};
+        const SeatedDroplets seated = seatedDroplets(terrain, samples, {bodies(), kGravity});
+        EXPECT_TRUE(isClosed(seated.surface));
+        EXPECT_NEAR(seated.volumes[0] / sample.volume, 1.0, 0.01);
+        double across = 0.0;
+        double along = 0.0;
+        for (std::size_t k = 0; k < bodies().rimVertices(); ++k) {
+            const Vec3 p = seated.surface.vertices[k];
+            across = std::max(across, std::abs(p.y - 1e-3));
+            along = std::max(along, length(p - sample.place));
+        }
+        return along / across;
+    };
+    const double far = elongation(0.0);
+    EXPECT_GT(far, 1.5);
+    EXPECT_LT(elongation(half - 0.2e-3), 0.75 * far);
+}
+
 TEST(SeatedDroplets, DoNotDependOnThreads)
 {
     const FlowTerrain terrain = wavyBall();
