@@ -365,11 +365,8 @@ void FlowRun::run(std::ostream* table)
     if (options_.streaks) {
         const std::size_t shape = plan_.shapes.of(state_, plan_.parameters.step);
         streaks_ = ribbons_.mesh(state_.time, &plan_.shapes.at(shape)->surface()).surface;
-        if (animation_ && plan_.shapes.count() == 1) {
+        if (animation_) {
             animation_->setStreaks(ribbons_.growing(1.0 / options_.frames_per_second));
-        } else if (animation_) {
-            report_.warnings.push_back(fmt::format("{} has no streaks, since its object deforms; {} has them",
-                                                   options_.output, *options_.streaks));
         }
         turnToFile(streaks_, formatOf(*options_.streaks), options_.reading);
     }

@@ -21,6 +21,7 @@
 #include "droplet/error.h"
 #include "droplet/flow_io/droplet_surfaces.h"
 #include "flow/following.h"
+#include "flow_io/object_faces.h"
 #include "flow_io/object_scene.h"
 #include "flow_io/pond_surface.h"
 #include "flow_io/shape_basis.h"
@@ -60,9 +61,9 @@ struct Shown {
     friend auto operator<=>(const Shown&, const Shown&) = default;
 };
 
-/// Adds a mesh that appears in one frame and vanishes in another.
+/// Adds a mesh that appears in one frame and vanishes in another; returns its node.
 /// @param frames  of the animation
-void addForFrames(Scene& scene, std::size_t parent, SceneMesh mesh, const Shown& shown, std::uint32_t frames)
+std::size_t addForFrames(Scene& scene, std::size_t parent, SceneMesh mesh, const Shown& shown, std::uint32_t frames)
 {
     SceneNode node{mesh.name};
     node.mesh = scene.addMesh(std::move(mesh));
@@ -85,10 +86,58 @@ void addForFrames(Scene& scene, std::size_t parent, SceneMesh mesh, const Shown&
         const std::size_t keys = scene.addTimes(std::move(times));
         scene.tracks.push_back({added, SceneChange::Scale, true, keys, std::move(scales)});
     }
+    return added;
 }
 
+/// How an object deforms.
+struct Deforming {
+    const FlowObject& object;
+    const FlowTerrain& terrain;             ///< the first shape
+    ShapeBasis basis;                       ///< of the object
+    const std::vector<std::size_t>& shown;  ///< shapes of all frames
+
+    /// Weights of the changes in frames, for a node with their targets.
+    void addTrack(Scene& scene, std::size_t node, const Shown& frames) const
+    {
+        std::vector<float> times;
+        std::vector<float> weights;
+        for (std::uint32_t frame = frames.begin; frame < frames.end; ++frame) {
+            times.push_back(toFloat(frame / scene.frames_per_second));
+            for (const double weight : basis.weights[shown[frame]]) {
+                weights.push_back(toFloat(weight));
+            }
+        }
+        const std::size_t keys = scene.addTimes(std::move(times));
+        scene.tracks.push_back({node, SceneChange::Weights, false, keys, std::move(weights)});
+    }
+
+    /// Lets a mesh that lies on the first shape follow the object: a place in a triangle moves by the mean of what its
+    /// corners do, and so do all changes of shape.
+    void carry(SceneMesh& mesh, const std::vector<Vec3>& vertices) const
+    {
+        std::vector<Triangle> triangles;
+        std::vector<std::array<double, 3>> weights;
+        for (const Vec3 p : vertices) {
+            const FlowTerrain::Point point = terrain.nearest(p);
+            triangles.push_back(object.triangles[terrain.surface().faces[point.face].source]);
+            weights.push_back(weightsAt(object, triangles.back(), point.place));
+        }
+        for (const MeshShape& change : basis.changes) {
+            SceneTarget target;
+            for (std::size_t v = 0; v < vertices.size(); ++v) {
+                target.vertices.push_back(sceneVector(mixed(change.vertices, triangles[v], weights[v])));
+                target.normals.push_back(sceneVector(mixed(change.normals, triangles[v], weights[v])));
+            }
+            mesh.geometries.front().targets.push_back(std::move(target));
+            mesh.targets.push_back("motion " + std::to_string(mesh.targets.size() + 1));
+        }
+    }
+};
+
 /// Adds streaks on the object: a node for what appears in one frame and vanishes in another.
-void addStreaks(const StreakMesh& streaks, std::size_t object, std::uint32_t frames, Scene& scene)
+/// @param deforming  null: the object keeps its shape
+void addStreaks(const StreakMesh& streaks, std::size_t object, std::uint32_t frames, const Deforming* deforming,
+                Scene& scene)
 {
     SceneMaterial wet = opaqueMaterial("streaks", 0.05);
     wet.look.colour = {0.85, 0.92, 1.0};
@@ -111,7 +160,16 @@ void addStreaks(const StreakMesh& streaks, std::size_t object, std::uint32_t fra
     for (const auto& [when, triangles] : by_frames) {
         const std::string name =
             "streaks of frames " + std::to_string(when.begin) + " to " + std::to_string(when.end - 1);
-        addForFrames(scene, all, sceneMesh(partOf(streaks.surface, triangles), name, material), when, frames);
+        const DropletMesh part = partOf(streaks.surface, triangles);
+        SceneMesh mesh = sceneMesh(part, name, material);
+        const bool deforms = deforming != nullptr && !deforming->basis.changes.empty();
+        if (deforms) {
+            deforming->carry(mesh, part.vertices);
+        }
+        const std::size_t node = addForFrames(scene, all, std::move(mesh), when, frames);
+        if (deforms) {
+            deforming->addTrack(scene, node, {when.begin, std::min(when.end + 1, frames)});
+        }
     }
 }
 
@@ -271,8 +329,7 @@ struct FlowAnimation::Content {
         return first;
     }
 
-    /// Adds the object, with the changes of its shapes over time.
-    std::size_t addDeforming(Scene& scene) const
+    [[nodiscard]] Deforming deforming() const
     {
         std::vector<MeshShape> shapes;
         for (std::size_t k = 0; k < deforms->count(); ++k) {
@@ -281,21 +338,7 @@ struct FlowAnimation::Content {
         }
         constexpr double kNear = 5e-5;   // over the size: less than a pixel of a picture that shows all of it
         constexpr double kTurned = 0.1;  // of normals: 6 degrees
-        const ShapeBasis basis = shapeBasis(shapes, {kNear * length(sizeOf(object)), kTurned});
-        const std::size_t node = addObject(object, scene, basis.changes);
-        if (!basis.changes.empty()) {
-            std::vector<float> times;
-            std::vector<float> weights;
-            for (std::size_t frame = 0; frame < shown.size(); ++frame) {
-                times.push_back(toFloat(static_cast<double>(frame) / options.frames_per_second));
-                for (const double weight : basis.weights[shown[frame]]) {
-                    weights.push_back(toFloat(weight));
-                }
-            }
-            const std::size_t keys = scene.addTimes(std::move(times));
-            scene.tracks.push_back({node, SceneChange::Weights, false, keys, std::move(weights)});
-        }
-        return node;
+        return {object, terrain, shapeBasis(shapes, {kNear * length(sizeOf(object)), kTurned}), shown};
     }
 
     void include(const ObjectPose& pose)
@@ -403,9 +446,14 @@ std::uint64_t FlowAnimation::write(std::ostream& out, const AnimatedFile& file) 
     scene.frames_per_second = content.options.frames_per_second;
     CrowdOptions droplets;
     droplets.deforms = content.deforms != nullptr;
-    droplets.ground = droplets.deforms ? content.addDeforming(scene) : addObject(content.object, scene);
+    const std::uint32_t frames = content.histories.frames();
+    const auto deforming = droplets.deforms ? std::optional(content.deforming()) : std::nullopt;
+    droplets.ground = addObject(content.object, scene, deforming ? deforming->basis.changes : std::vector<MeshShape>());
+    if (deforming && !deforming->basis.changes.empty()) {
+        deforming->addTrack(scene, droplets.ground, {0, frames});
+    }
     if (content.streaks && !content.streaks->surface.triangles.empty()) {
-        addStreaks(*content.streaks, droplets.ground, content.histories.frames(), scene);
+        addStreaks(*content.streaks, droplets.ground, frames, deforming ? &*deforming : nullptr, scene);
     }
     if (!content.ponds.empty()) {
         content.addPonds(droplets.ground, scene);

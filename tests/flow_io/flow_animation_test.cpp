@@ -515,5 +515,118 @@ TEST(FlowAnimation, AnObjectThatDeformsCarriesItsDroplets)
     }
 }
 
+// A ball that is stretched along x: its streaks are stretched with it.
+TEST(FlowAnimation, AnObjectThatDeformsCarriesItsStreaks)
+{
+    const FlowObject object = sphere(0.05);
+    constexpr std::size_t kFrames = 13;
+    constexpr double kStretch = 0.3;
+    std::vector<std::vector<Vec3>> vertices;
+    for (std::size_t k = 0; k < kFrames; ++k) {
+        std::vector<Vec3>& shape = vertices.emplace_back();
+        for (const Vec3& p : object.vertices) {
+            shape.push_back(p + kStretch * static_cast<double>(k) / (kFrames - 1) * Vec3{p.x, 0.0, 0.0});
+        }
+    }
+    FlowShapes shapes(flowSurface(object.vertices, object.triangles), object.triangles, vertices, kRate);
+    FlowParameters parameters;
+    parameters.adhesion = 30.0;
+    std::vector<FlowStart> starts;
+    for (int k = 0; k < 6; ++k) {
+        starts.push_back({shapes.first().nearest({0.02 * std::cos(k), 0.02 * std::sin(k), 0.05}).place, 60e-9, {}});
+    }
+    FlowState state = startFlow(shapes.first(), parameters, starts);
+    FlowAnimation animation(object, shapes, bodies(), {});
+    StreakRibbons ribbons;
+    for (std::size_t k = 0; k < kFrames; ++k) {
+        const double time = static_cast<double>(k) / kRate;
+        state = advanceFlow(std::move(state), shapes, parameters, time);
+        ribbons.add(state.tracks, shapes.first().surface());
+        animation.add(time, sampleFlow(state, shapes, parameters), shapes.of(state, parameters.step));
+    }
+    animation.setStreaks(ribbons.growing(1.0 / kRate));
+    std::ostringstream out;
+    animation.write(out);
+    const AnimatedScene scene(out.str());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < scene.model().at("nodes").size(); ++i) {
+        const nlohmann::json& node = scene.model().at("nodes")[i];
+        if (!node.value("name", "").starts_with("streaks of frames ")) {
+            continue;
+        }
+        const auto mesh = node.at("mesh").get<std::size_t>();
+        const AnimatedScene::Shape streak = scene.meshOf(mesh);
+        const std::size_t targets = scene.model().at("meshes")[0].at("primitives")[0].at("targets").size();
+        ASSERT_EQ(scene.model().at("meshes")[mesh].at("primitives")[0].at("targets").size(), targets);
+        for (std::size_t k = 0; k < targets; ++k) {
+            // Each change is a stretch, too.
+            const std::vector<Vec3> of_object = scene.changeOf(0, k);
+            const std::vector<Vec3> change = scene.changeOf(mesh, k);
+            const auto outermost = std::max_element(object.vertices.begin(), object.vertices.end(),
+                                                    [](Vec3 a, Vec3 b) { return a.x < b.x; });
+            const double stretch =
+                of_object[static_cast<std::size_t>(outermost - object.vertices.begin())].x / outermost->x;
+            ASSERT_EQ(change.size(), streak.vertices.size());
+            for (std::size_t v = 0; v < change.size(); ++v) {
+                EXPECT_LT(length(change[v] - stretch * Vec3{streak.vertices[v].x, 0.0, 0.0}), 5e-5);
+            }
+        }
+        ++count;
+    }
+    EXPECT_GT(count, 3U);
+}
+
+// Ponds are meshes of their own, one at a time.
+TEST(FlowAnimation, ShowsPonds)
+{
+    constexpr std::uint32_t kSide = 40;
+    FlowObject bowl;
+    for (std::uint32_t j = 0; j <= kSide; ++j) {
+        for (std::uint32_t i = 0; i <= kSide; ++i) {
+            const Vec2 p{0.1 * (1.0 * i / kSide - 0.5), 0.1 * (1.0 * j / kSide - 0.5)};
+            bowl.vertices.push_back({p.x, p.y, 12.5 * dot(p, p)});
+            bowl.normals.push_back({0.0, 0.0, 1.0});
+        }
+    }
+    for (std::uint32_t j = 0; j < kSide; ++j) {
+        for (std::uint32_t i = 0; i < kSide; ++i) {
+            const std::uint32_t a = j * (kSide + 1) + i;
+            bowl.triangles.push_back({a, a + 1, a + kSide + 2});
+            bowl.triangles.push_back({a, a + kSide + 2, a + kSide + 1});
+        }
+    }
+    const FlowTerrain terrain(flowSurface(bowl.vertices, bowl.triangles));
+    const FlowParameters parameters;
+    FlowState state = startFlow(terrain, parameters, {{{0.0, 0.0, 0.0}, 20e-6, {}}});
+    FlowAnimation animation(bowl, terrain, bodies());
+    for (int k = 0; k < 4; ++k) {
+        state = advanceFlow(std::move(state), terrain, parameters, k / kRate);
+        const std::vector<FlowSample> samples = sampleFlow(state, terrain, parameters);
+        ASSERT_TRUE(samples[0].pond);
+        animation.add(k / kRate, samples);
+    }
+    std::ostringstream out;
+    animation.write(out);
+    const AnimatedScene scene(out.str());
+    for (int frame = 0; frame < 4; ++frame) {
+        double volume = 0.0;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < scene.model().at("nodes").size(); ++i) {
+            const nlohmann::json& node = scene.model().at("nodes")[i];
+            if (node.value("name", "").starts_with("pond of frames ") &&
+                scene.at(i, "scale", (frame + 1e-3) / kRate)[0] > 0.0) {
+                const auto [vertices, triangles] = scene.meshOf(node.at("mesh").get<std::size_t>());
+                for (const auto& [a, b, c] : triangles) {
+                    volume += dot(vertices[a], cross(vertices[b], vertices[c])) / 6.0;
+                }
+                ++count;
+            }
+        }
+        EXPECT_EQ(count, 1U) << frame;
+        EXPECT_NEAR(volume / 20e-6, 1.0, 1e-4) << "the file has floats";
+    }
+    EXPECT_TRUE(scene.at(0.0).empty()) << "no droplet besides";
+}
+
 }  // namespace
 }  // namespace droplet

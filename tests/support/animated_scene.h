@@ -137,6 +137,17 @@ public:
         return shape;
     }
 
+    /// Change of such a mesh's vertices by a weight of 1.
+    [[nodiscard]] std::vector<Vec3> changeOf(std::size_t mesh, std::size_t target) const
+    {
+        std::vector<Vec3> change;
+        const nlohmann::json& primitive = json_.at("meshes").at(mesh).at("primitives").at(0);
+        for (const std::vector<double>& p : array(primitive.at("targets").at(target).at("POSITION"))) {
+            change.push_back({p[0], p[1], p[2]});
+        }
+        return change;
+    }
+
     /// Shapes of all slots.
     [[nodiscard]] std::vector<Shape> shapes() const
     {
