@@ -719,7 +719,9 @@ private:
                 on_faces.emplace_back(s_.droplets[i].face, i);
             }
         }
-        if (on_faces.size() < 2) {
+        // Most often one drop after another falls into the only pond there is.
+        if (std::all_of(on_faces.begin(), on_faces.end(),
+                        [&](const Pair& one) { return sets.find(one.second) == sets.find(on_faces.front().second); })) {
             return;
         }
         std::sort(on_faces.begin(), on_faces.end());
