@@ -63,14 +63,15 @@ private:
                                     "large for a spacing of {} m",
                                     numberText(state.time), numberText(dt), numberText(scene_.spacing)));
         }
-        emit(state, dt);
         solver_->step(state, dt);
+        emit(state, dt);
         state.time = is_last ? until : state.time + dt;
         state.step = dt;
         remove(state);
         ++state.counts.steps;
     }
 
+    /// Places what has left the nozzles at the end of a step.
     void emit(FluidState& state, double dt) const
     {
         const double step = latticeStep(scene_.spacing);
@@ -132,6 +133,9 @@ public:
         state.id.push_back(state.next_id++);
         state.density.push_back(1.0);
         state.pressure.push_back(0.0);
+        if (!state.affine.empty()) {
+            state.affine.emplace_back();
+        }
     }
 
 private:
