@@ -204,6 +204,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l particle-
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l walls -r -F -d 'Further walls: a mask, drawn over the width of the window'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l gravity -x -d 'Gravity instead of the scene\'s, downwards'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l surface-tension -x -d 'Surface tension instead of the scene\'s'
+complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l solver -x -a 'grid dfsph' -d 'Method that finds the pressure: a grid, or particles alone by divergence-free SPH'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l particles -r -F -d 'Particles of another simulation, such as sim/%04d.vtp or a single file, instead of a scene: .csv, .vtk, .vtp, .vtu or .bgeo'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l particle-scale -x -d 'Length of the unit of these files in metres'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l plane -x -a 'xy xz yz zx zy yx' -d 'Axes of these files that become x and y'
