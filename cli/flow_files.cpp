@@ -66,6 +66,7 @@ RunFiles filesOf(const FlowOptions& options)
         files.writes("--streaks", options.streaks);
     }
     files.writes("--json", options.json);
+    files.writes("--html", options.html);
     for (const char* map : kFlowMaps) {
         if (options.maps) {
             files.writesFrames("--maps", options.maps->beside(map), numbers);

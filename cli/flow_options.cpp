@@ -14,6 +14,7 @@
 #include "force_options.h"
 #include "object_options.h"
 #include "option_values.h"
+#include "shape_options.h"
 #include "value_list.h"
 #include "video_writer.h"
 
@@ -205,6 +206,7 @@ void declare(CommandLine& line, FlowOptions& options)
         kOut, "--droplets", "FILE",
         "Write a table of all droplets in every frame, .csv or .json, points over time with droplets as instances, "
         ".usda or .usdz, or a PLY of points for each frame, such as points/%04d.ply");
+    declareHtml(line, kOut, "plays droplets and streaks");
     line.add(kOut, "--json", "FILE", "Write a report, with the liquid's balance every second; - is standard output",
              into(options.json));
     constexpr const char* kRun = "Run";
@@ -525,6 +527,7 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
             refuse(*line.value("--droplets"), "files such as points/%04d.ply, one for each frame");
         }
     }
+    options.html = readHtml(line);
     if (options.resume && !options.files) {
         refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.obj, not '" + options.output + "'");
     }
@@ -548,7 +551,7 @@ std::variant<FlowOptions, std::string> parseFlow(int argc, const char* const* ar
     readSources(line, options);
     readOutputs(line, options);
     options.run = readRun(line);
-    options.fingerprint = optionsOfFrames(line, options.output, {"--droplets"});
+    options.fingerprint = optionsOfFrames(line, options.output, {"--droplets", "--html"});
     return options;
 }
 

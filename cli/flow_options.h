@@ -73,7 +73,8 @@ struct FlowOptions {
     std::optional<droplet::Format> usd_points;  ///< set if `droplets` is points over time
     std::optional<std::string> droplets;
     std::optional<std::string> json;
-    std::optional<double> duration;  ///< [s]; empty: the preset's, that of all shapes or of the animation, or 5 s
+    std::optional<std::string> html;  ///< path or kStandardStream
+    std::optional<double> duration;   ///< [s]; empty: the preset's, that of all shapes or of the animation, or 5 s
     double frames_per_second = 30.0;
     bool resume = false;
     std::string fingerprint;  ///< all options that decide what the frames show, as of optionsOfFrames()

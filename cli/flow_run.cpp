@@ -12,6 +12,7 @@
 #include <optional>
 #include <ostream>
 #include <span>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +24,9 @@
 #include "droplet/flow_io/flow_table.h"
 #include "droplet/flow_io/streak_ribbons.h"
 #include "droplet/flow_io/wet_maps.h"
+#include "droplet/io/page.h"
 #include "droplet_report.h"
+#include "files.h"
 #include "film.h"
 #include "flow_files.h"
 #include "flow_plan.h"
@@ -98,6 +101,9 @@ private:
     void writeMaps(const Moment& moment);
     /// Writes a surface in the axes of the object's file.
     void writeSurface(droplet::Surface surface, const std::string& path, droplet::Compression compression) const;
+    /// Lets the animation show streaks as they grow.
+    void showStreaks();
+    void writeHtml(std::ostream& out);
     /// Warns of droplets that are shown smaller than they are.
     void warnOfLostVolume();
     /// Writes the droplets of a frame.
@@ -164,7 +170,7 @@ FlowRun::FlowRun(const FlowOptions& options, ProgressDisplay& progress)
       ribbons_(filmOf(plan_.parameters))
 {
     state_ = droplet::startFlow(plan_.terrain(), plan_.parameters, plan_.starts);
-    if (options_.kind == FlowOutput::Animation) {
+    if (options_.kind == FlowOutput::Animation || options_.html) {
         droplet::FlowAnimationOptions animation;
         animation.frames_per_second = options_.frames_per_second;
         animation.material = material_;
@@ -232,7 +238,7 @@ droplet::FlowReport FlowRun::execute()
     }
     const std::vector<OutputFile> previews = options_.has_preview ? previewOutputs() : std::vector<OutputFile>{};
     std::vector<OutputFile> files;
-    if (animation_) {
+    if (options_.kind == FlowOutput::Animation) {
         files.push_back({options_.output, [&](std::ostream& out) { animation_->write(out, options_.file); }});
     }
     if (options_.kind == FlowOutput::Picture) {
@@ -256,6 +262,9 @@ droplet::FlowReport FlowRun::execute()
                              droplet::writePointsAsUsd(points_, bodies_, usd, out, *options_.usd_points);
                          }});
     }
+    if (options_.html) {
+        files.push_back({*options_.html, [&](std::ostream& out) { writeHtml(out); }});
+    }
     if (options_.json) {
         files.push_back({*options_.json, [&](std::ostream& out) {
                              finish();
@@ -275,15 +284,16 @@ void FlowRun::resume()
     if (!checkpoint) {
         return;
     }
-    // Tables and streaks need every frame to be simulated again, and so do missing files. The camera sees all that an
-    // object that moves will reach in --time.
+    // Tables, pages and streaks need every frame to be simulated again, and so do missing files. The camera sees all
+    // that an object that moves will reach in --time.
     const bool has_one_camera = plan_.parameters.motion.rests() && plan_.shapes.count() == 1;
     const bool has_same_camera =
         !painter_ || has_one_camera || (*checkpoint)["planned frames"] == std::to_string(plan_.frames);
     if (!has_same_camera) {
         film_.writeAgain();
     }
-    if (options_.droplets || options_.streaks || !has_same_camera || !film_.hasFrames(checkpoint->frames)) {
+    if (options_.droplets || options_.streaks || options_.html || !has_same_camera ||
+        !film_.hasFrames(checkpoint->frames)) {
         return;
     }
     const std::string& path = film_.checkpointPath();
@@ -365,11 +375,32 @@ void FlowRun::run(std::ostream* table)
     if (options_.streaks) {
         const std::size_t shape = plan_.shapes.of(state_, plan_.parameters.step);
         streaks_ = ribbons_.mesh(state_.time, &plan_.shapes.at(shape)->surface()).surface;
-        if (animation_) {
-            animation_->setStreaks(ribbons_.growing(1.0 / options_.frames_per_second));
+        if (options_.kind == FlowOutput::Animation) {
+            showStreaks();
         }
         turnToFile(streaks_, formatOf(*options_.streaks), options_.reading);
     }
+}
+
+void FlowRun::showStreaks()
+{
+    animation_->setStreaks(ribbons_.growing(1.0 / options_.frames_per_second));
+}
+
+void FlowRun::writeHtml(std::ostream& out)
+{
+    showStreaks();
+    droplet::PageContent page;
+    page.title = std::filesystem::path(isStream(*options_.html) || options_.files ? report_.input : options_.output)
+                     .stem()
+                     .string();
+    std::ostringstream glb;
+    animation_->write(glb);
+    page.glb = std::move(glb).str();
+    std::ostringstream json;
+    writeFlowReport(json, report_);
+    page.report = std::move(json).str();
+    droplet::writePage(out, page);
 }
 
 void FlowRun::warnOfLostVolume()
@@ -411,7 +442,7 @@ void FlowRun::advance(double until)
 {
     const auto move_to = [&](double time) {
         state_ = droplet::advanceFlow(std::move(state_), plan_.shapes, plan_.parameters, time);
-        if (options_.streaks) {
+        if (options_.streaks || options_.html) {
             ribbons_.add(state_.tracks, plan_.terrain().surface());
             if (!animation_) {
                 ribbons_.forgetDry(state_.time);

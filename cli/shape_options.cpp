@@ -199,9 +199,9 @@ droplet::Format formatOf(const std::string& output, const std::string& subject)
     return forOption(subject + " '" + output + "'", [&] { return droplet::formatNamed(extension); });
 }
 
-void declareHtml(CommandLine& line)
+void declareHtml(CommandLine& line, const char* group, const std::string& what)
 {
-    line.add("Run", "--html", "FILE", "Write one page that shows the droplet in a browser; - is standard output");
+    line.add(group, "--html", "FILE", "Write one page that " + what + " in a browser; - is standard output");
 }
 
 std::optional<std::string> readHtml(const CommandLine& line)

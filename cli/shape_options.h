@@ -37,7 +37,9 @@ const std::vector<std::pair<std::string, std::string>>& programCommands();
 droplet::Format formatOf(const std::string& output, const std::string& subject);
 
 /// Declares --html.
-void declareHtml(CommandLine& line);
+/// @param group  of options that it belongs to
+/// @param what   what the page does
+void declareHtml(CommandLine& line, const char* group = "Run", const std::string& what = "shows the droplet");
 
 /// Path of the page, if --html is given.
 /// @throws droplet::Error InvalidArgument if the program was built without the page

@@ -95,9 +95,53 @@ export function refilled(report, fill, measured) {
     };
 }
 
+/**
+ * The frames of a report's animation.
+ * @return  `duration` [s] as far as the last one is shown, and `moment`, which tells what is seen at a time [s]
+ */
+export function filmOf({ frames = [], output, balance = [] }) {
+    const rate = output?.frames_per_second ?? 24;
+    const count = Math.max(output?.frames ?? frames.length, 1);
+    const moment = (seconds) => {
+        const frame = Math.min(Math.floor(seconds * rate + 1e-6), count - 1);
+        const { volume_m3, height_max_m } = frames[frame] ?? {};
+        const parts = [`${frame + 1} of ${count}`];
+        if (volume_m3 !== undefined) {
+            parts.push(...(volume_m3 > 0 ? [volume(volume_m3), `${length(height_max_m)} high`] : ['no liquid']));
+        }
+        if (balance.length > 0) {
+            parts.push(`${seconds.toFixed(2)}${kSpace}s`);
+        }
+        return parts;
+    };
+    return { duration: count / rate, moment };
+}
+
+/** Rows of what ran over an object: from the report of `droplet-shape flow`. */
+function flowRows({ input, forces, balance, counts }) {
+    const last = balance[balance.length - 1];
+    return [
+        ['Object', input.size_m.map((side) => length(side)).join(' × ')],
+        ['Liquid', capital(forces.liquid)],
+        ['Surface tension', `${digits(forces.surface_tension_n_per_m * 1e3)}${kSpace}mN/m`],
+        ['Density', `${digits(forces.density_kg_per_m3)}${kSpace}kg/m³`],
+        ['Contact angle', degrees(forces.contact_angle_deg)],
+        ['Hysteresis', digits(forces.hysteresis)],
+        ['Droplets at the end', `${last.running_droplets + last.still_droplets + last.airborne_droplets}`],
+        ['Merged', `${counts.merged}`],
+        ['Fell off', `${counts.left}`],
+        ['Released', volume(last.released_m3)],
+        ['On the object', volume(last.running_m3 + last.still_m3 + last.streaks_m3)],
+        ['Dried', volume(last.dried_m3)],
+    ];
+}
+
 /** Rows of the table: name and formatted value. Values that the report lacks are left out. */
 export function rows(report) {
     const { input, shape, liquid, mesh, ground, model, onto } = report;
+    if (report.schema?.startsWith('droplet-shape.flow/')) {
+        return flowRows(report);
+    }
     const found = [];
     const add = (name, value, text) => {
         if (value !== null && value !== undefined) {

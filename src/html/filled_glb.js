@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A GLB of a droplet at another fill, without a slider: what a program reads that knows no morph targets.
-
-const kBinary = 0x004e4942;
-const kParts = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
+import { glbPieces, numbersIn, partsOf } from './glb.js';
 
 /** Moves numbers by the morph targets, in place. */
 function morph(numbers, targets, weights) {
@@ -73,18 +71,6 @@ function dropAccessors(json) {
     json.accessors = [...kept.keys()].map((old) => json.accessors[old]);
 }
 
-function file(json, parts) {
-    const text = new TextEncoder().encode(JSON.stringify(json));
-    const chunk = (kind, pieces, fill) => {
-        const size = pieces.reduce((sum, piece) => sum + piece.length, 0);
-        const padding = new Uint8Array((4 - size % 4) % 4).fill(fill);
-        return [new Uint8Array(new Uint32Array([size + padding.length, kind]).buffer), ...pieces, padding];
-    };
-    const body = [...chunk(0x4e4f534a, [text], 0x20), ...chunk(kBinary, parts, 0)];
-    const total = body.reduce((sum, piece) => sum + piece.length, 12);
-    return new Blob([new Uint8Array(new Uint32Array([0x46546c67, 2, total]).buffer), ...body], { type: 'model/gltf-binary' });
-}
-
 /**
  * The file of a droplet as it is at another fill: its vertices are moved, and it has no morph targets.
  * @param bytes    of a GLB that is not compressed
@@ -93,14 +79,8 @@ function file(json, parts) {
  * @return         a blob
  */
 export function filledGlb(bytes, fill, weights) {
-    const words = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-    const length = words.getUint32(12, true);
-    const json = JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + length)));
-    const binary = bytes.slice(28 + length);  // a copy, in a buffer of its own
-    const numbersOf = (accessor) => {
-        const { bufferView, byteOffset = 0, count, type } = json.accessors[accessor];
-        return new Float32Array(binary.buffer, (json.bufferViews[bufferView].byteOffset ?? 0) + byteOffset, count * kParts[type]);
-    };
+    const { json, binary } = partsOf(bytes.slice());  // a copy, since its numbers change
+    const numbersOf = (accessor) => numbersIn(json, binary, accessor);
     const done = new Set();  // primitives may share vertices
     for (const mesh of json.meshes) {
         for (const primitive of mesh.primitives) {
@@ -141,5 +121,5 @@ export function filledGlb(bytes, fill, weights) {
         }
     }
     dropAccessors(json);
-    return file(json, compact(json, binary));
+    return new Blob(glbPieces(json, compact(json, binary)), { type: 'model/gltf-binary' });
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 import { complain, download, drawScale, fileStem, find, offerGrounds, tabulate } from './controls.js';
 import { filledGlb } from './filled_glb.js';
-import { extent, length, refilled, rows, sides, volume } from './figures.js';
+import { extent, filmOf, length, refilled, rows, sides, volume } from './figures.js';
 import { decodeBase64, loadDroplet } from './model.js';
 import { Stage } from './stage.js';
+import { WetObject } from './wet_object.js';
 import { openInStudio } from 'studio';  // bundle.mjs says which file this is
 
 const kStudio = '#studio';
@@ -14,7 +15,7 @@ const bytes = decodeBase64(find('model').textContent.trim());
 
 /** Shows the figures of the report, or those at another fill. */
 function showFigures(shown = report) {
-    find('subtitle').textContent = [shown.liquid?.name, shown.shape && volume(shown.shape.volume_m3),
+    find('subtitle').textContent = [shown.liquid?.name ?? shown.forces?.liquid, shown.shape && volume(shown.shape.volume_m3),
         extent(shown) && sides(extent(shown))].filter(Boolean).join(' · ');
     find('figures').hidden = tabulate(rows(shown)) === 0;
 }
@@ -77,8 +78,6 @@ function offerFilm(stage, droplet, still) {
         return;
     }
     const slider = find('time');
-    const rate = report.output?.frames_per_second ?? 24;
-    const frames = report.frames ?? [];
     let last;  // time of the last frame while playing [ms]
     let time = 0;
     slider.max = droplet.duration;
@@ -86,13 +85,7 @@ function offerFilm(stage, droplet, still) {
         time = seconds;
         stage.time = seconds;
         slider.value = seconds;
-        const count = Math.max(frames.length, 1);
-        const frame = Math.min(Math.floor(seconds * rate + 1e-6), count - 1);
-        const { volume_m3, height_max_m } = frames[frame] ?? {};
-        const parts = [`${frame + 1} of ${count}`];
-        if (volume_m3 !== undefined) {
-            parts.push(...(volume_m3 > 0 ? [volume(volume_m3), `${length(height_max_m)} high`] : ['no liquid']));
-        }
+        const parts = filmOf(report).moment(seconds);
         find('moment').textContent = parts.join(' · ');
         slider.setAttribute('aria-valuetext', `frame ${parts.join(', ')}`);
     };
@@ -100,7 +93,7 @@ function offerFilm(stage, droplet, still) {
         if (last === undefined) {
             return;
         }
-        show((time + (now - last) / 1000) % droplet.duration);
+        show((time + Number(find('pace').value) * (now - last) / 1000) % droplet.duration);
         last = now;
         requestAnimationFrame(step);
     };
@@ -140,8 +133,9 @@ async function main() {
     const shown = { fill: 1 };
     offerDownload(shown);
     try {
-        const droplet = await loadDroplet(bytes);
-        const flat = (report.ground?.kind ?? 'flat') === 'flat' && !report.onto;
+        const runs = report.schema?.startsWith('droplet-shape.flow/');
+        const droplet = await (runs ? WetObject.load(bytes, filmOf(report).duration) : loadDroplet(bytes));
+        const flat = !runs && (report.ground?.kind ?? 'flat') === 'flat' && !report.onto;
         let frames = 0;
         const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
         const stage = new Stage({

@@ -90,7 +90,8 @@ export class Stage {
     /**
      * Shows something else in place of the droplet.
      * @param droplet  as of the constructor; `casters` are the meshes that light on the ground knows, if not all; the others
-     *                 are on kUnlit; `tilt` is that of the camera off the vertical [°]
+     *                 are on kUnlit; `tilt` is that of the camera off the vertical [°]; `castsTheSame` says that time does not
+     *                 change what light on the ground shows
      */
     swap(droplet, flat, space, extent) {
         this.flat = flat;
@@ -120,11 +121,13 @@ export class Stage {
     /** Puts the droplet's materials into the room, and its light on the ground. */
     #light() {
         const { droplet } = this;
+        const { meshes, casters = meshes } = droplet;
         let triangles = 0;
-        for (const mesh of droplet.meshes) {
-            const { material } = mesh;
-            const own = mesh.geometry.index.count / 3;
+        for (const { geometry } of casters) {
+            const own = geometry.index.count / 3;
             triangles = droplet.mixer ? Math.max(triangles, own) : triangles + own;
+        }
+        for (const { material } of meshes) {
             if (material.transmission > 0) {
                 // In world units, while thickness is in the mesh's.
                 material.userData.tint_depth ??= material.attenuationDistance;
@@ -167,7 +170,11 @@ export class Stage {
     /** Sets the time of an animation [s]. */
     set time(seconds) {
         this.droplet.time = seconds;
-        this.#changed();
+        if (this.droplet.castsTheSame) {
+            this.request();
+        } else {
+            this.#changed();
+        }
     }
 
     /** Reports a change of the droplet; its light is coarse during further changes. */

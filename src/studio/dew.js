@@ -2,14 +2,15 @@
 // Dew on an object: the part of Studio that covers an object with droplets. It has an object, settings and a history of
 // its own; the view, the figures and the buttons of the bar are Studio's, while this part is shown.
 import { complain, download, fileStem, find, tabulate } from '../html/controls.js';
+import { CoveredObject } from '../html/covered_object.js';
 import { digits, length, volume } from '../html/figures.js';
 import { bottle } from './bottle.js';
 import markup from './dew.html';
 import {
     dewCommandOf, dewFields, dewOptionsOf, formOf, newSettings, settingsFrom, shownSettings, withPreset, withSetting,
 } from './dew_fields.js';
-import { CoveredObject, NoObject } from './dew_object.js';
 import { History } from './history.js';
+import { NoObject } from './no_object.js';
 import { hasObject, readObject, sizeOf } from './object_files.js';
 import { buildForm } from './physics_form.js';
 import { Servant } from './solver.js';

@@ -179,6 +179,34 @@ TEST_F(HtmlTest, IsTheSameWithAnyNumberOfThreads)
     EXPECT_EQ(bytesOf("one.html"), bytesOf("two.html"));
 }
 
+TEST_F(HtmlTest, PlaysDropletsThatRunWithTheirStreaks)
+{
+    writeFile(directory() / "slope.obj", "v 0 0 0\nv 100 0 0\nv 100 60 -100\nv 0 60 -100\nf 1 2 3\nf 1 3 4\n");
+    const auto flow = [&](const std::string& output, std::vector<std::string> more) {
+        std::vector<std::string> arguments{"flow", "slope.obj", output,  "--drops", "5",  "--hysteresis",
+                                           "0.02", "--time",    "300ms", "--fps",   "10", "-q"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        CommandOptions options;
+        options.directory = directory();
+        const auto result = runDroplet(arguments, options);
+        ASSERT_EQ(result.exit_code, 0) << result.error;
+    };
+    flow("plain.glb", {});
+    flow("beside.glb", {"--html", "page.html"});
+    EXPECT_EQ(bytesOf("plain.glb"), bytesOf("beside.glb"));
+    const std::string page = bytesOf("page.html");
+    EXPECT_EQ(contentOf(page)["title"], "beside");
+    EXPECT_EQ(contentOf(page)["report"]["output"]["frames"], 3);
+    EXPECT_FALSE(contentOf(page)["report"].contains("time_s"));
+    flow("wet.glb", {"--streaks", "streaks.ply"});
+    EXPECT_EQ(modelOf(page), bytesOf("wet.glb"));
+    // The page has all frames, whatever the output is.
+    flow("%02d.obj", {"--html", "meshes.html"});
+    EXPECT_EQ(modelOf(bytesOf("meshes.html")), bytesOf("wet.glb"));
+    flow("%02d.obj", {"--html", "meshes.html", "--resume"});
+    EXPECT_EQ(modelOf(bytesOf("meshes.html")), bytesOf("wet.glb"));
+}
+
 TEST_F(HtmlTest, WritesToStandardOutput)
 {
     const auto piped = run({"disc.pgm", "out.glb", "--html", "-"});

@@ -156,6 +156,7 @@ const std::vector<CommandFiles>& all()
           {"--streaks", "streaks.glb"},
           {"--droplets", "droplets.csv"},
           {"--json", "out.json"},
+          {"--html", "out.html"},
           {"--preview", "preview.png"},
           needing(frames("--preview", "turn.png", "turn-002.png"), {"--turntable", "3"})}},
         {"dew",

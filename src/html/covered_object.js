@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: MIT
 // An object with its droplets, as the stage wants a droplet (model.js).
 import { Box3, Group, Vector3 } from 'three';
-import { loadGlb } from '../html/model.js';
-import { kUnlit } from '../html/stage.js';
+import { loadGlb } from './model.js';
+import { kUnlit } from './stage.js';
 
 const kMostCasting = 4e5;  // triangles of an object whose shadow is drawn
-
-/** Nothing, in a space of a hand's size. */
-export class NoObject {
-    scene = new Group();
-    meshes = [];
-
-    box() {
-        return new Box3(new Vector3(-0.05, 0, -0.05), new Vector3(0.05, 0.1, 0.05));
-    }
-
-    dispose() {}
-}
 
 export class CoveredObject {
     tilt = 68;  // objects are seen from the side, droplets from above
@@ -28,7 +16,11 @@ export class CoveredObject {
             parser.associations.get(mesh.parent)?.meshes === 0);
     }
 
-    constructor(scene, isObject) {
+    /**
+     * @param isObject  whether a mesh is of the object, not of its liquid
+     * @param space     box around the object [m], if it changes
+     */
+    constructor(scene, isObject, space) {
         this.scene = new Group();
         this.scene.add(scene);
         this.meshes = [];
@@ -44,7 +36,7 @@ export class CoveredObject {
                 }
             }
         });
-        this.space = own.reduce((box, mesh) => box.union(boxOf(mesh)), new Box3());
+        this.space = space ?? spaceOf(own);
         const triangles = own.reduce((sum, { geometry }) => sum + geometry.index.count / 3, 0);
         this.casters = triangles <= kMostCasting ? own : [];
         own.forEach((mesh) => mesh.layers.set(triangles <= kMostCasting ? 0 : kUnlit));
@@ -89,7 +81,8 @@ function hideBase(geometry) {
     geometry.setDrawRange(0, end);
 }
 
-function boxOf({ geometry, matrixWorld }) {
+/** Box around meshes where they are. */
+export const spaceOf = (meshes) => meshes.reduce((box, { geometry, matrixWorld }) => {
     geometry.computeBoundingBox();
-    return geometry.boundingBox.clone().applyMatrix4(matrixWorld);
-}
+    return box.union(geometry.boundingBox.clone().applyMatrix4(matrixWorld));
+}, new Box3());
