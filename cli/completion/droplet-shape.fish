@@ -178,6 +178,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l map-width -x 
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow windshield' -l map-thickness -x -d 'Thickness of the water that is white in a PNG'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l map-age -x -d 'Greatest age in the textures, white in a PNG'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l droplets -r -F -d 'Write a table of all droplets in every frame, .csv or .json, points over time with droplets as instances, .usda or .usdz, or a PLY of points for each frame, such as points/%04d.ply'
+complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l html -r -F -d 'Write one page that plays droplets and streaks in a browser; - is standard output'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l json -r -F -d 'Write a report, with the liquid\'s balance every second; - is standard output'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l preview -r -F -d 'Write a rendered picture of the last frame beside meshes, as PNG; - is standard output'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow liquid2d windshield' -l progress -x -a 'auto none json' -d 'auto shows a bar on a terminal; json writes a line of JSON for each frame instead of the summary'

@@ -966,6 +966,7 @@ _FLOW = {
     "map_thickness": "m",
     "map_age": "s",
     "droplets": "path",
+    "html": "path",
     "preview": "path",
     "view": "text",
     "camera": "list rad",
@@ -1050,6 +1051,7 @@ def flow(
     map_thickness: str | float | None = None,
     map_age: str | float | None = None,
     droplets: Path | None = None,
+    html: Path | None = None,
     preview: Path | None = None,
     view: Literal["three-quarter", "top", "side"] | None = None,
     camera: str | Sequence[float] | None = None,
@@ -1169,6 +1171,7 @@ def flow(
       map_age [s]: Greatest age in the textures, white in a PNG (default: 10s)
       droplets: Write a table of all droplets in every frame, .csv or .json, points over time with droplets as
         instances, .usda or .usdz, or a PLY of points for each frame, such as points/%04d.ply
+      html: Write one page that plays droplets and streaks in a browser
 
     Picture:
       preview: Write a rendered picture of the last frame beside meshes, as PNG

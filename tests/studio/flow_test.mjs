@@ -79,7 +79,7 @@ before(() => {
 function flow(name, which, run, options = {}) {
     test(name, async () => {
         const url = pathToFileURL(pages[which]).href;
-        const { context, complaints } = await watched({ viewport: kWide, colorScheme: 'light', reducedMotion: 'reduce', ...options }, url);
+        const { context, complaints } = await watched({ viewport: kWide, deviceScaleFactor: 0.5, colorScheme: 'light', reducedMotion: 'reduce', ...options }, url);
         const page = await context.newPage();
         await page.goto(url);
         await resting(page);
@@ -98,7 +98,7 @@ flow('droplets run down, and their streaks grow', 'running', async (page) => {
     }
     const changes = shown.slice(1).map((picture) => changed(picture, shown[0]));
     // What has changed since the start is streaks above and droplets at their end.
-    assert.ok(changes[0].count > 200 && changes[1].count > changes[0].count && changes[2].count > changes[1].count, JSON.stringify(changes));
+    assert.ok(changes[0].count > 50 && changes[1].count > changes[0].count && changes[2].count > changes[1].count, JSON.stringify(changes));
     assert.ok(changes[0].row < changes[1].row && changes[1].row < changes[2].row, JSON.stringify(changes));
     // Back at the start there is nothing but the first frame.
     await showTime(page, 0);
@@ -128,7 +128,7 @@ flow('the view turns, plays at a speed and stops', 'running', async (page) => {
     await page.mouse.move(210, 190, { steps: 4 });
     await page.mouse.up();
     await resting(page);
-    assert.ok(changed(await pixels(page), first).count > 1000);
+    assert.ok(changed(await pixels(page), first).count > 250);
     await page.locator('#pace').selectOption('0.1');
     await page.locator('#play').click();
     await page.waitForFunction(() => Number(document.getElementById('time').value) > 0.05);
@@ -145,18 +145,18 @@ flow('droplets ride on an object that moves', 'spun', async (page) => {
     const first = await pixels(page);
     await showTime(page, 11 / kRate);
     // The plate has turned by 50°: far more changes than what three droplets cover.
-    assert.ok(changed(await pixels(page), first).count > 8000);
+    assert.ok(changed(await pixels(page), first).count > 2000);
 });
 
 flow('films vanish when they are dry', 'dry', async (page) => {
     const upper = async () => {
         const { width, levels } = await pixels(page);
-        return { width, levels: levels.slice(0, 3 * width * Math.floor(kWide.height / 3)) };
+        return { width, levels: levels.slice(0, 3 * width * Math.floor(levels.length / 9 / width)) };
     };
     await showTime(page, 0.55);
     const dry = await upper();
     await showTime(page, 0.2);
-    assert.ok(changed(await upper(), dry).count > 50);
+    assert.ok(changed(await upper(), dry).count > 12);
 });
 
 flow('it fits a phone, where fingers turn it', 'running', async (page) => {
