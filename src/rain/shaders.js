@@ -200,11 +200,11 @@ void main() {
     colour = vec4(sum / 16.0, share);
 }`;
 
-/** The film: glow of the lens, its falloff to the corners, grain. */
+/** The film: glow of the lens, its falloff to the corners, grain; `glowing` and `falloff` are shares. */
 export const kDevelopFrame = `${kHead}${kFilm}in vec2 at;
 uniform sampler2D frame;
 uniform sampler2D glow;
-uniform float time, exposure, graininess;
+uniform float time, exposure, glowing, falloff, graininess;
 out vec4 colour;
 float hashed(vec2 p) {
     vec3 q = fract(vec3(p.xyx) * 0.1031);
@@ -212,9 +212,9 @@ float hashed(vec2 p) {
     return fract((q.x + q.y) * q.z);
 }
 void main() {
-    vec3 light = mix(texture(frame, at).rgb, texture(glow, at).rgb, 0.075);
+    vec3 light = mix(texture(frame, at).rgb, texture(glow, at).rgb, glowing);
     vec2 off = at - 0.5;
-    light *= exposure * (1.0 - 0.42 * dot(off, off));
+    light *= exposure * (1.0 - falloff * dot(off, off));
     vec3 level = encoded(developed(light));
     float noise = hashed(gl_FragCoord.xy + 61.0 * fract(time)) + hashed(gl_FragCoord.yx + 17.0 + 61.0 * fract(time)) - 1.0;
     colour = vec4(level + graininess * noise * (1.0 - 0.6 * level), 1.0);

@@ -13,6 +13,9 @@ const kFieldOfView = Math.PI / 4;
 const kWide = [1.75, 1.0];
 const kStreetMap = [1024, 576];
 const kPanoramaMap = [2048, 1024];
+/** What lens and film do to a frame, by eye. Pictures have grain of their own. */
+const kLens = { glowing: 0.075, falloff: 0.42 };
+const kGrain = { street: 0.014, picture: 0.008 };
 
 class Program {
     constructor(gl, vertex, fragment) {
@@ -428,7 +431,8 @@ export class View {
     /**
      * Draws a frame.
      * @param windshield  of setGlass()
-     * @param shown       travelled [m], time [s], blur [rad], camera, border [m], exposure
+     * @param shown       travelled [m], time [s], blur [rad], camera, border [m], which is 0 for a pane without a car around it,
+     *                    exposure, and `film`, values of the shader that take the place of kLens and kGrain
      */
     draw(windshield, shown) {
         const gl = this.#gl;
@@ -447,7 +451,9 @@ export class View {
         gl.bindVertexArray(this.#pane.array);
         gl.drawArrays(gl.TRIANGLES, 0, this.#pane.count);
         this.#drawBlades(windshield, camera);
-        this.#drawDashboard(camera);
+        if (shown.border > 0) {
+            this.#drawDashboard(camera);
+        }
         // The glow of the lens: halved some times, and added up again.
         const levels = [frame];
         for (let k = 1; k <= 6 && Math.min(width, height) >> k > 4; ++k) {
@@ -461,7 +467,8 @@ export class View {
         }
         gl.disable(gl.BLEND);
         this.#whole({ width, height }, 'film', {
-            frame: frame.texture, glow: levels[1].texture, time: shown.time, exposure: shown.exposure, graininess: this.#picture ? 0.008 : 0.014,
+            frame: frame.texture, glow: levels[1].texture, time: shown.time, exposure: shown.exposure, ...kLens,
+            graininess: this.#picture ? kGrain.picture : kGrain.street, ...shown.film,
         });
     }
 }
