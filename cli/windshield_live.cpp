@@ -22,9 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Options that the page begins with, and those of every run.
-constexpr std::array<std::string_view, 28> kKnown{"--live",
+constexpr std::array<std::string_view, 29> kKnown{"--live",
                                                   "--preset",
                                                   "--rain",
+                                                  "--mist",
                                                   "--speed",
                                                   "--noise",
                                                   "--wiper-period",
@@ -83,13 +84,13 @@ std::string valuesOf(const WindshieldOptions& options)
     const droplet::WindshieldParameters& p = options.parameters;
     const droplet::Wetting& wetting = p.forces.wetting;
     std::string text = fmt::format(
-        R"({{"preset":"{}","parameters":{{"speed":{},"rain":{},"noise":{},"wiperPeriod":{},"seed":{},)"
+        R"({{"preset":"{}","parameters":{{"speed":{},"rain":{},"mist":{},"noise":{},"wiperPeriod":{},"seed":{},)"
         R"("glassWidth":{},"glassHeight":{},"glassRadius":{},"slope":{},"hysteresis":{},"stillDiameter":{},"film":{},)"
         R"("contactAngle":{},"viscosityFactor":{},"kineticFraction":{},"gravity":{}}})",
-        options.preset, p.vehicle.speedAt(0.0), p.rainfall, p.fluctuation.acceleration, options.wiper.value_or(0.0),
-        p.seed, options.cylinder.width, options.cylinder.height, options.cylinder.radius, options.cylinder.slope,
-        wetting.hysteresis, p.still_diameter, p.streaks.film, wetting.contact_angle, wetting.viscosity_factor,
-        wetting.kinetic_fraction, p.forces.gravity);
+        options.preset, p.vehicle.speedAt(0.0), p.rainfall, p.mist, p.fluctuation.acceleration,
+        options.wiper.value_or(0.0), p.seed, options.cylinder.width, options.cylinder.height, options.cylinder.radius,
+        options.cylinder.slope, wetting.hysteresis, p.still_diameter, p.streaks.film, wetting.contact_angle,
+        wetting.viscosity_factor, wetting.kinetic_fraction, p.forces.gravity);
     const auto add = [&](const char* option, const char* name, double value) {
         if (options.live->given.contains(option)) {
             text += fmt::format(R"(,"{}":{})", name, value);

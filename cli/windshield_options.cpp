@@ -25,6 +25,7 @@ using droplet::Dimension;
 using droplet::kDegree;
 
 constexpr Range kRain{Dimension::Rainfall, 0.0, 1000.0 * droplet::kMillimetrePerHour, "from 0mm/h to 1000mm/h"};
+constexpr Range kMist{Dimension::Rainfall, 0.0, 3.6 * droplet::kMillimetrePerHour, "from 0mm/h to 3.6mm/h"};
 constexpr Range kSpeed{Dimension::Speed, 0.0, 150.0, "from 0m/s to 150m/s"};
 constexpr Range kStill{Dimension::Length, 1.1e-4, 2e-3, "from 0.11mm to 2mm"};
 constexpr Range kSide{Dimension::Length, 0.05, 5.0, "from 50mm to 5m"};
@@ -74,6 +75,9 @@ void declare(CommandLine& line, WindshieldOptions& options)
         withoutDefault(into(options.preset)));
     line.add(kCar, "--rain", "RAINFALL", "Rainfall, with the drop sizes of Marshall and Palmer",
              into(options.parameters.rainfall, kRain));
+    line.add(kCar, "--mist", "RAINFALL",
+             "Mist with --live: growth of its thickness, such as 0.7mm/h, which makes it dense in 51s",
+             into(options.parameters.mist, kMist));
     line.add(kCar, "--speed", "SPEED", "Speed of the car in still air [by preset]", within(kSpeed));
     line.add(kCar, "--drive-cycle", "FILE",
              "Speed over time: CSV with the columns time_s and speed_m_per_s or speed_km_per_h",
@@ -402,6 +406,9 @@ std::variant<WindshieldOptions, std::string> parseWindshield(int argc, const cha
     if (line.value("--live")) {
         readLive(line, options);
         return options;
+    }
+    if (line.value("--mist")) {
+        refuse("--mist needs --live: frames do not show mist");
     }
     readOutputs(line, options);
     readShutter(line, options);

@@ -254,6 +254,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from wind-tunnel' -l json -
 complete -c droplet-shape -n '__fish_seen_subcommand_from wind-tunnel' -l config -r -F -d 'Read options from a TOML file with lines such as slope = "45deg"; the command line takes precedence'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l preset -x -a 'figure-3.10 figure-3.11 figure-3.12' -d 'Named set of values, of the thesis, with its capsules for droplets; without it those of figure-3.12, with capillary droplets'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l rain -x -d 'Rainfall, with the drop sizes of Marshall and Palmer'
+complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l mist -x -d 'Mist with --live: growth of its thickness, such as 0.7mm/h, which makes it dense in 51s'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l speed -x -d 'Speed of the car in still air'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l drive-cycle -r -F -d 'Speed over time: CSV with the columns time_s and speed_m_per_s or speed_km_per_h'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l wind-model -x -a 'turned projected' -d 'Wind along the glass: turned keeps all of its speed, projected only the part along the glass'

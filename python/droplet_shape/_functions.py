@@ -671,6 +671,7 @@ def wind_tunnel(
 _WINDSHIELD = {
     "preset": "text",
     "rain": "rainfall",
+    "mist": "rainfall",
     "speed": "m/s",
     "drive_cycle": "path",
     "wind_model": "text",
@@ -735,6 +736,7 @@ def windshield(
     *,
     preset: Literal["figure-3.10", "figure-3.11", "figure-3.12"] | None = None,
     rain: str | float | None = None,
+    mist: str | float | None = None,
     speed: str | float | None = None,
     drive_cycle: Path | None = None,
     wind_model: Literal["turned", "projected"] | None = None,
@@ -805,6 +807,8 @@ def windshield(
       preset: figure-3.10, figure-3.11, figure-3.12: Named set of values, of the thesis, with its capsules for
         droplets; without it those of figure-3.12, with capillary droplets
       rain [m/s]: Rainfall, with the drop sizes of Marshall and Palmer (default: 5mm/h)
+      mist [m/s]: Mist with live: growth of its thickness, such as 0.7mm/h, which makes it dense in 51s (default:
+        0mm/h)
       speed [m/s]: Speed of the car in still air (default: by preset)
       drive_cycle: Speed over time: CSV with the columns time_s and speed_m_per_s or speed_km_per_h
       wind_model: turned, projected: Wind along the glass: turned keeps all of its speed, projected only the part

@@ -45,6 +45,94 @@ void main() {
     colour = vec4(tint.rgb * (1.0 + 2.5 * shine), share.x * share.y * min(tint.a, 1.0));
 }`;
 
+/**
+ * Where blades have wiped: a map of the glass that says how fresh the film is, from 1 to 0, the distance along the blade and the
+ * way of its outer end [m], and the blade's angle.
+ */
+export const kSweep = `${kHead}uniform vec2 glass;
+layout(location = 0) in vec2 position;
+layout(location = 1) in vec4 film;
+out vec4 left;
+void main() {
+    left = film;
+    gl_Position = vec4(2.0 * position / glass - 1.0, 0.0, 1.0);
+}`;
+
+export const kSwept = `${kHead}in vec4 left;
+out vec4 colour;
+void main() { colour = left; }`;
+
+/** What all films lose in a step. */
+export const kDry = `${kHead}uniform float lost;
+out vec4 colour;
+void main() { colour = vec4(lost, 0.0, 0.0, 0.0); }`;
+
+/**
+ * The film behind a blade, which breaks up into streaks, with the vertices of glass.glsl. Its shapes and sizes are those of the
+ * ray-traced view (src/windshield_view/wiper_view.cpp); droplets lie over it.
+ */
+export const kFilmLeft = `${kHead}uniform highp sampler2D left;
+uniform sampler2D water, dry;
+uniform vec2 glass, tangent;
+uniform vec3 eye, cabin;
+uniform float lasts;   // [s]
+uniform float border;  // [m]
+in vec3 place, normal, across, up;
+in vec2 uv;
+out vec4 colour;
+const float kIor = 1.333;
+const vec3 kPane = vec3(0.97, 0.985, 0.98);
+float hashed(vec2 cell) {
+    vec3 p = fract(vec3(cell.xyx) * 0.1031);
+    p += dot(p, p.yzx + 33.33);
+    return fract((p.x + p.y) * p.z);
+}
+// A smooth random number from 0 to 1, and its derivatives.
+vec3 noise(vec2 p) {
+    vec2 cell = floor(p), f = p - cell, s = f * f * (3.0 - 2.0 * f);
+    float a = hashed(cell), b = hashed(cell + vec2(1.0, 0.0)), c = hashed(cell + vec2(0.0, 1.0)), d = hashed(cell + 1.0);
+    float twist = a - b - c + d;
+    return vec3(a + s.x * (b - a) + s.y * (c - a) + s.x * s.y * twist, 6.0 * f * (1.0 - f) * vec2(b - a + s.y * twist, c - a + s.x * twist));
+}
+// Streaks, thick and thin, along the way of the blade and across it, per metre.
+vec3 level(vec2 p) {
+    const vec2 kThick = vec2(1.0 / 0.045, 1.0 / 0.0042), kThin = vec2(47.2, 643.6);
+    vec3 thick = noise(p * kThick), thin = noise(p * kThin + 31.0);
+    return 0.62 * vec3(thick.x, thick.yz * kThick) + 0.38 * vec3(thin.x, thin.yz * kThin);
+}
+void main() {
+    vec4 film = texture(left, vec2(uv.x, 1.0 - uv.y));
+    if (film.r <= 0.0) {
+        discard;
+    }
+    float age = (1.0 - film.r) * lasts;
+    vec3 streak = level(vec2(film.b, film.g));
+    float over = streak.x - (0.12 + 0.88 * sqrt(1.0 - film.r));  // what is lower is bare
+    float pixel = max(length(dFdx(uv) * glass), length(dFdy(uv) * glass));
+    float cover = clamp(over / max(length(streak.yz), 1e-3) / pixel + 0.5, 0.0, 1.0) * (1.0 - smoothstep(0.2, 0.7, texture(water, uv).a));
+    vec2 from_edge = min(uv, 1.0 - uv) * glass;
+    cover *= border > 0.0 ? smoothstep(border, 1.6 * border, min(from_edge.x, from_edge.y)) : 1.0;  // what is printed lies before it
+    if (over <= 0.0 || cover <= 0.0) {
+        discard;
+    }
+    float thickness = 4.5e-5 * (0.35 + 0.65 * exp(-age / 0.3));  // [m]
+    vec2 outward = vec2(cos(film.a), sin(film.a));
+    vec2 slope = thickness * (1.0 + 1.2 * exp(-over / 0.05)) * (streak.z * outward + streak.y * vec2(-outward.y, outward.x));
+    vec3 facing = normalize(vec3(-slope, 1.0)), n = normalize(normal), ray = normalize(place - eye);
+    vec3 inside = vec3(dot(ray, across), dot(ray, up), 0.0) / kIor;
+    inside.z = sqrt(1.0 - dot(inside.xy, inside.xy));
+    vec3 leaving = refract(inside, -facing, kIor);
+    vec3 light = cabin;
+    if (leaving.z > 0.0) {
+        vec3 direction = leaving.x * across + leaving.y * up + leaving.z * n;
+        vec2 s = direction.xz / (max(direction.y, 1e-4) * tangent);
+        float c = dot(inside, facing), k = dot(leaving, facing);
+        float across_plane = (kIor * c - k) / (kIor * c + k), in_plane = (c - kIor * k) / (c + kIor * k);
+        light = mix(textureLod(dry, vec2(0.5 + 0.5 * s.x, 0.5 - 0.5 * s.y), 0.0).rgb, cabin, 0.5 * (across_plane * across_plane + in_plane * in_plane));
+    }
+    colour = vec4(light * kPane, cover);
+}`;
+
 /** The street without its lights: sky, hills, wet road and its lines. */
 export const kScenery = `${kHead}in vec2 at;
 uniform vec2 wide;

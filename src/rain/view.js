@@ -4,8 +4,10 @@ import glass from './glass.glsl';
 import rain from './rain.glsl';
 import { Road, kNumbers } from './road.js';
 import {
-    kAhead, kDefocus, kDevelop, kDevelopFrame, kDouble, kHalve, kLights, kPaint, kPart, kScenery, kShine, kWhole, shaderOf,
+    kAhead, kDefocus, kDevelop, kDevelopFrame, kDouble, kDry, kFilmLeft, kHalve, kLights, kPaint, kPart, kScenery, kShine, kSweep, kSwept,
+    kWhole, shaderOf,
 } from './shaders.js';
+import { Sweeps } from './sweeps.js';
 
 const kColumns = 64;
 const kFieldOfView = Math.PI / 4;
@@ -15,6 +17,8 @@ const kStreetMap = [1024, 576];
 const kPanoramaMap = [2048, 1024];
 /** What lens and film do to a frame, by eye. Pictures have grain of their own. */
 const kLens = { glowing: 0.075, falloff: 0.42 };
+const kFilmLasts = 0.75;      // behind a blade [s]
+const kFilmMap = 1024;        // width of the map of films [px]
 const kGrain = { street: 0.014, picture: 0.008 };
 
 class Program {
@@ -80,6 +84,8 @@ export class View {
     #pane;
     #parts;
     #lights;
+    #swept;
+    #sweeps;
     #drawn_with = '';
 
     constructor(canvas) {
@@ -93,11 +99,13 @@ export class View {
         this.#programs = Object.fromEntries(Object.entries({
             rain: [shaderOf(glass), shaderOf(rain)], part: [kPart, kPaint], scenery: [kWhole, kScenery], lights: [kLights, kShine],
             develop: [kWhole, kDevelop], ahead: [kWhole, kAhead], defocus: [kWhole, kDefocus], halve: [kWhole, kHalve],
-            double: [kWhole, kDouble], film: [kWhole, kDevelopFrame],
+            double: [kWhole, kDouble], film: [kWhole, kDevelopFrame], sweep: [kSweep, kSwept], dry: [kWhole, kDry],
+            left: [shaderOf(glass), kFilmLeft],
         }).map(([name, [vertex, fragment]]) => [name, new Program(gl, vertex, fragment)]));
         this.#empty = gl.createVertexArray();
         this.#pane = this.#mesh([3, 3, 3, 3, 2]);
         this.#parts = this.#mesh([3, 2, 4]);
+        this.#swept = this.#mesh([2, 4]);
         this.#lights = this.#mesh([2], new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
         this.#lights.numbers = gl.createBuffer();
         gl.bindBuffer(gl.ARRAY_BUFFER, this.#lights.numbers);
@@ -221,6 +229,7 @@ export class View {
         this.#fill(this.#pane, numbers);
         this.middle = windshield.place(0.5 * width, 0.5 * height).point;
         this.#drawn_with = '';
+        this.#sweeps = new Sweeps(kFilmLasts);
     }
 
     /** Shows a picture, a video or a panorama behind the glass; nothing: the street. */
@@ -394,6 +403,46 @@ export class View {
         numbers.push(...a, ...b, ...c, ...a, ...c, ...d);
     }
 
+    /** Films that blades have left on the glass. */
+    #drawFilms(windshield, time, camera, shown) {
+        if (!this.#deep) {
+            return;
+        }
+        const gl = this.#gl;
+        const [width, height] = this.glass;
+        const films = this.#target('films', kFilmMap, Math.max(Math.round(kFilmMap * height / width), 1));
+        const { begins, lost, numbers, is_wet } = this.#sweeps.follow(windshield.blades(), time);
+        if (begins) {
+            this.#onto(films);
+            gl.clearColor(0, 0, 0, 0);
+            gl.clear(gl.COLOR_BUFFER_BIT);
+        }
+        if (lost > 0) {
+            gl.enable(gl.BLEND);
+            gl.blendEquation(gl.FUNC_REVERSE_SUBTRACT);
+            gl.blendFunc(gl.ONE, gl.ONE);
+            this.#whole(films, 'dry', { lost });
+            gl.blendEquation(gl.FUNC_ADD);
+            gl.disable(gl.BLEND);
+        }
+        if (numbers.length > 0) {
+            this.#onto(films);
+            this.#programs.sweep.use({ glass: this.glass });
+            this.#fill(this.#swept, numbers);
+            gl.bindVertexArray(this.#swept.array);
+            gl.drawArrays(gl.TRIANGLES, 0, this.#swept.count);
+        }
+        if (is_wet) {
+            this.#onto(this.#targets.get('frame'));
+            gl.enable(gl.BLEND);
+            gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE);
+            this.#programs.left.use({ ...camera, ...shown, left: films.texture, water: this.#water, glass: this.glass, lasts: kFilmLasts });
+            gl.bindVertexArray(this.#pane.array);
+            gl.drawArrays(gl.TRIANGLES, 0, this.#pane.count);
+            gl.disable(gl.BLEND);
+        }
+    }
+
     /** Wipers, beyond the glass. */
     #drawBlades(windshield, camera) {
         const numbers = [];
@@ -440,16 +489,18 @@ export class View {
         const camera = this.#cameraOf(shown.camera);
         const wide = this.#drawOutside(shown, camera.tangent);
         const [outside, dry] = ['outside', 'dry'].map((name) => this.#targets.get(name).texture);
+        const cabin = this.#picture ? [0.03, 0.03, 0.032] : [0.006, 0.006, 0.008];
         const frame = this.#target('frame', width, height);
         this.#onto(frame);
         gl.clearColor(0.0025, 0.0025, 0.003, 1);
         gl.clear(gl.COLOR_BUFFER_BIT);
         this.#programs.rain.use({
             ...camera, water: this.#water, outside, dry, mist: this.#mist, mist_edge: this.mist_edge, glass: this.glass, wide, blur: 0,
-            cabin: this.#picture ? [0.03, 0.03, 0.032] : [0.006, 0.006, 0.008], border: shown.border,
+            cabin, border: shown.border,
         });
         gl.bindVertexArray(this.#pane.array);
         gl.drawArrays(gl.TRIANGLES, 0, this.#pane.count);
+        this.#drawFilms(windshield, shown.time, camera, { dry, cabin, border: shown.border });
         this.#drawBlades(windshield, camera);
         if (shown.border > 0) {
             this.#drawDashboard(camera);

@@ -327,6 +327,9 @@ TEST_F(WindshieldCommand, TheLivePageRefusesWhatItHasNoUseFor)
         testing::expectOneLine(live(more), 2, {"--live and " + more.front() + " exclude each other"});
     }
     testing::expectOneLine(live({"--speed", "500m/s"}), 2, {"--speed", "from 0m/s to 150m/s"});
+    testing::expectOneLine(live({"--mist", "4mm/h"}), 2, {"--mist", "from 0mm/h to 3.6mm/h"});
+    testing::expectOneLine(testing::runInProcess({"windshield", path("rain.png"), "--mist", "1mm/h"}), 2,
+                           {"--mist needs --live"});
     testing::expectOneLine(testing::runInProcess({"windshield", "--live", path("rain.mp4")}), 2, {".html"});
     testing::expectOneLine(testing::runInProcess({"windshield"}), 2, {"OUTPUT is missing"});
     EXPECT_THAT(scratch_.names(), IsEmpty());

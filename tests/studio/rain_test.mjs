@@ -8,7 +8,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { folder, watched } from './browser.mjs';
+import { dropFiles, folder, watched } from './browser.mjs';
 
 const { RAIN, DROPLET_SHAPE } = process.env;
 const kPage = pathToFileURL(resolve(RAIN)).href;
@@ -62,12 +62,13 @@ test('the command puts its options and a picture into the page', () => {
     const png = Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg==', 'base64');
     writeFileSync(join(folder, 'road.png'), png);
     const write = (...words) => execFileSync(DROPLET_SHAPE, ['windshield', '--live', join(folder, 'rain.html'), ...words], { stdio: 'pipe' });
-    write('--rain', '36mm/h', '--speed', '36km/h', '--wiper-period', '2s', '--preset', 'figure-3.11', '--warm-up', '4s', '--eye-distance', '0.4m',
+    write('--rain', '36mm/h', '--mist', '1.8mm/h', '--speed', '36km/h', '--wiper-period', '2s', '--preset', 'figure-3.11', '--warm-up', '4s', '--eye-distance', '0.4m',
         '--background', join(folder, 'road.png'));
     const page = readFileSync(join(folder, 'rain.html'), 'utf8');
     const { parameters, ...values } = JSON.parse(page.match(/id="rain-values" type="application\/json">(.*)<\/script>/)[1]);
     assert.deepEqual(values, { preset: 'figure-3.11', warm_up: 4, eye_distance: 0.4, background: `data:image/png;base64,${png.toString('base64')}` });
     assert.ok(Math.abs(parameters.rain - 1e-5) < 1e-12);
+    assert.ok(Math.abs(parameters.mist - 5e-7) < 1e-12);
     assert.deepEqual([parameters.speed, parameters.wiperPeriod, parameters.hysteresis, parameters.glassWidth], [10, 2, 0.05, 1.4]);
     writeFileSync(join(folder, 'road.mp4'), 'no picture');
     assert.throws(() => write('--background', join(folder, 'road.mp4')), /a PNG, JPEG, WebP or GIF with --live/);
@@ -131,6 +132,52 @@ rain('a picture that is dropped is behind the glass', async (page) => {
         document.querySelector('.rain').dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
     });
     await page.waitForFunction(() => document.documentElement.dataset.backdrop === 'failed');
+});
+
+/** Drops a file on the page: a video or picture that ffmpeg makes of its source, and waits until it is behind the glass. */
+async function dropMade(page, name, type, ...source) {
+    const path = join(folder, name);
+    execFileSync('ffmpeg', ['-v', 'error', '-y', '-f', 'lavfi', ...source, path]);
+    await page.evaluate(() => { document.documentElement.dataset.backdrop = 'none yet'; });
+    await dropFiles(page, '.rain', [name, type, readFileSync(path)]);
+    await page.waitForFunction(() => document.documentElement.dataset.backdrop === 'own');
+}
+
+/** Mean red, green and blue of a part of the page. */
+async function colour(page, clip) {
+    const seen = await pixels(page, clip);
+    return [0, 1, 2].map((channel) => mean(seen, channel));
+}
+
+rain('a video that is dropped plays behind the glass', async (page) => {
+    await setValue(page, 'rain', 0);
+    // Half a second of red, then of blue, again and again.
+    await dropMade(page, 'film.webm', 'video/webm', '-i', 'color=red:size=320x180:rate=10:duration=0.5', '-f', 'lavfi',
+        '-i', 'color=blue:size=320x180:rate=10:duration=0.5', '-filter_complex', 'concat', '-c:v', 'libvpx');
+    const seen = new Set();
+    for (let k = 0; k < 60 && seen.size < 2; ++k) {
+        await frames(page, 1);
+        const [red, , blue] = await colour(page, { x: 150, y: 80, width: 100, height: 60 });
+        seen.add(red > 2 * blue ? 'red' : blue > 2 * red ? 'blue' : '');
+        seen.delete('');
+    }
+    assert.deepEqual([...seen].sort(), ['blue', 'red']);
+});
+
+rain('a panorama that is dropped is all around: the frame shows its middle', async (page) => {
+    await setValue(page, 'rain', 0);
+    // Green in the middle third, red beside it; a picture in the frame's shape would show both.
+    const file = ['-i', 'color=red:size=600x300', '-frames:v', '1', '-vf', 'drawbox=x=200:w=200:h=300:c=0x20c040:t=fill'];
+    await dropMade(page, 'around.png', 'image/png', ...file);
+    await frames(page, 3);
+    for (const x of [60, 300]) {
+        const [red, green] = await colour(page, { x, y: 80, width: 40, height: 40 });
+        assert.ok(green > 2 * red, `${[red, green]} at ${x}`);
+    }
+    await dropMade(page, 'ahead.png', 'image/png', '-i', 'color=red:size=640x300', '-frames:v', '1', '-vf', 'drawbox=x=240:w=160:h=300:c=0x20c040:t=fill');
+    await frames(page, 3);
+    const [red, green] = await colour(page, { x: 60, y: 80, width: 40, height: 40 });
+    assert.ok(red > 2 * green, `${[red, green]}`);
 });
 
 rain('a recording is a video, and a saved picture has the frame’s size', async (page) => {

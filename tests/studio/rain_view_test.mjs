@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The view of the page of `windshield --live` beside the ray-traced view of the same state: node --test rain_traced_test.mjs
+// The view of the page of `windshield --live`, also beside the ray-traced view of the same state: node --test rain_view_test.mjs
 // RAIN is the page, whose module is used, DROPLET_SHAPE the command, SOURCES the folder src; for the rest see browser.mjs. With
 // PICTURES, a folder, both pictures stay there.
 import assert from 'node:assert/strict';
@@ -18,7 +18,7 @@ const kRainfall = 5;  // [mm/h]
 const kSpeed = 15;  // [m/s]
 const kEye = 0.5;  // [m] from the glass
 
-const kPage = `<!doctype html><title>rain</title><canvas id="view" width="${kSize.width}" height="${kSize.height}"></canvas>`;
+const kPage = '<!doctype html><title>rain</title><canvas id="view"></canvas>';
 
 /** A file of the page: sources as modules, shaders as their texts. */
 function answer(path) {
@@ -57,55 +57,68 @@ function correlation(a, dry_a, b, dry_b) {
 
 const difference = (a, b) => a.reduce((sum, level, k) => sum + Math.abs(level - b[k]), 0) / a.length;
 
-/** In the page: rain on the glass as the view draws it, without a car, a lens and a film, as a PNG. */
-async function drawn(page, rainfall) {
-    const base64 = await page.evaluate(async ({ rain, speed, steps, distance }) => {
+/**
+ * In the page: rain on the glass as the view draws it, without a car, a lens and a film, as PNGs.
+ * @param values  of the windshield
+ * @param shown   after how many steps it is drawn; the last is saved as `name`
+ * @param size    of the picture
+ */
+async function drawn(page, name, values, shown, size = kSize) {
+    const png = await page.evaluate(async ({ parameters, steps, distance, width, height }) => {
         const [{ View }, { loadRain }] = await Promise.all([import('/src/rain/view.js'), import('/npm/rain.js')]);
         const make = await loadRain(await (await fetch('/rain.wasm')).arrayBuffer());
-        const windshield = make({ preset: 'figure-3.12', rain, speed, mapWidth: 2048 });
-        for (let k = 0; k < steps; ++k) {
-            windshield.advance(1 / 60);
-        }
-        const canvas = document.getElementById('view');
+        const windshield = make({ preset: 'figure-3.12', ...parameters, mapWidth: 2048 });
+        const canvas = Object.assign(document.getElementById('view'), { width, height });
         const view = new View(canvas);
         view.setGlass(windshield);
         const behind = new Image();
         behind.src = '/behind.png';
         await behind.decode();
         view.setPicture(await createImageBitmap(behind));
-        view.setWater(windshield.draw());
-        view.setMist(windshield.mist());
-        view.draw(windshield, {
-            travelled: 0, time: 0, blur: 0, camera: { distance }, border: 0, exposure: 1, film: { glowing: 0, falloff: 0, graininess: 0 },
-        });
-        const picture = canvas.toDataURL('image/png').split(',')[1];
+        for (let k = 1; k <= steps.at(-1); ++k) {
+            windshield.advance(1 / 60);
+            if (steps.includes(k)) {
+                view.setWater(windshield.draw());
+                view.setMist(windshield.mist());
+                view.draw(windshield, {
+                    travelled: 0, time: k / 60, blur: 0, camera: { distance }, border: 0, exposure: 1,
+                    film: { glowing: 0, falloff: 0, graininess: 0 },
+                });
+            }
+        }
         windshield.free();
-        return picture;
-    }, { rain: rainfall / 3.6e6, speed: kSpeed, steps: kSteps, distance: kEye });
-    return Buffer.from(base64, 'base64');
+        return canvas.toDataURL('image/png').split(',')[1];  // before the browser shows the canvas, which then is empty
+    }, { parameters: { speed: kSpeed, ...values }, steps: shown, distance: kEye, ...size });
+    writeFileSync(join(PICTURES, name), Buffer.from(png, 'base64'));
+    await page.reload();  // so that the next view has a canvas of its own
+    return levelsOf(join(PICTURES, name));
 }
 
-test('the page draws rain as rays do', async () => {
-    // The evening road through dry glass is behind both.
-    traced('behind.png', 0);
-    if (PICTURES !== folder) {
-        copyFileSync(join(PICTURES, 'behind.png'), join(folder, 'behind.png'));
-    }
+/** Runs a test in the page of the view, in which nothing may complain. */
+function view(name, run) {
+    test(name, async () => {
+        // The evening road through dry glass is behind.
+        traced('behind.png', 0);
+        if (PICTURES !== folder) {
+            copyFileSync(join(PICTURES, 'behind.png'), join(folder, 'behind.png'));
+        }
+        const { context, complaints } = await watched({ viewport: { width: 400, height: 300 } }, kSite);
+        await context.route(`${kSite}**`, (route) => route.fulfill(answer(new URL(route.request().url()).pathname)));
+        const page = await context.newPage();
+        await page.goto(kSite);
+        await run(page);
+        assert.deepEqual(complaints, []);
+        await context.close();
+    });
+}
+
+view('the page draws rain as rays do', async (page) => {
     const exact = traced('traced.png', kRainfall, '--background', join(folder, 'behind.png'));
     const dry = traced('dry.png', 0, '--background', join(folder, 'behind.png'));
-    const { context, complaints } = await watched({ viewport: { width: 400, height: 300 } }, kSite);
-    await context.route(`${kSite}**`, (route) => route.fulfill(answer(new URL(route.request().url()).pathname)));
-    const page = await context.newPage();
-    await page.goto(kSite);
-    const levels = {};
-    for (const [name, rainfall] of [['drawn', kRainfall], ['drawn_dry', 0]]) {
-        writeFileSync(join(PICTURES, `${name}.png`), await drawn(page, rainfall));
-        levels[name] = levelsOf(join(PICTURES, `${name}.png`));
-        await page.reload();
-    }
+    const wet = await drawn(page, 'drawn.png', { rain: kRainfall / 3.6e6 }, [kSteps]);
+    const bare = await drawn(page, 'drawn_dry.png', { rain: 0 }, [kSteps]);
     const seen = {
-        rain: difference(exact, levels.drawn), pane: difference(dry, levels.drawn_dry), without: difference(exact, levels.drawn_dry),
-        alike: correlation(exact, dry, levels.drawn, levels.drawn_dry),
+        rain: difference(exact, wet), pane: difference(dry, bare), without: difference(exact, bare), alike: correlation(exact, dry, wet, bare),
     };
     const text = `mean differences from the ray-traced view: ${seen.rain.toFixed(3)} levels of 255, of a dry pane ${seen.without.toFixed(3)}; ` +
         `without rain ${seen.pane.toFixed(3)}; correlation of the droplets ${seen.alike.toFixed(3)}`;
@@ -114,6 +127,23 @@ test('the page draws rain as rays do', async () => {
     assert.ok(seen.pane < 0.3, text);
     assert.ok(seen.rain < 0.9 * seen.without, text);
     assert.ok(seen.alike > 0.55, text);
-    assert.deepEqual(complaints, []);
-    await context.close();
+});
+
+view('a blade leaves a film, which dries', async (page) => {
+    const small = { width: 320, height: 180 };
+    const every = (steps) => Array.from({ length: steps / 5 }, (_, k) => 5 * k + 5);
+    const wipes = { rain: 0, wiperPeriod: 6 };
+    // Only a view that has seen the blade pass shows what it has left. A stroke takes 72 steps, and a film lasts for 45.
+    const seen = {};
+    for (const steps of [50, 70, 120]) {
+        const film = await drawn(page, `film_${steps}.png`, wipes, every(steps), small);
+        const none = await drawn(page, `no_film_${steps}.png`, wipes, [steps], small);
+        let changed = 0;
+        for (let i = 0; i < film.length; i += 3) {
+            changed += [0, 1, 2].some((c) => Math.abs(film[i + c] - none[i + c]) > 2) ? 1 : 0;
+        }
+        seen[steps] = changed / (film.length / 3);
+    }
+    assert.ok(seen[50] > 0.02 && seen[70] > 0.02, JSON.stringify(seen));
+    assert.equal(seen[120], 0);
 });
