@@ -5,17 +5,27 @@ import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
 
 export class Streaks {
     /**
-     * @param parts     `positions`, `normals` and `triangles`, and `track`, whose value is 0 while it is not there
+     * @param parts     `positions`, `normals` and `triangles`, `targets`, changes of positions and normals with the object's shapes,
+     *                  and `track`, whose value is 0 while it is not there
      * @param material  of all
+     * @param weights   of the targets, if there are some; who has made them changes them
      */
-    constructor(parts, material) {
-        const geometries = parts.map(({ positions, normals, triangles }) => {
+    constructor(parts, material, weights) {
+        const vectors = (numbers) => new BufferAttribute(numbers, 3);
+        const geometries = parts.map(({ positions, normals, triangles, targets }) => {
             const geometry = new BufferGeometry();
-            geometry.setAttribute('position', new BufferAttribute(positions, 3));
-            geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+            geometry.setAttribute('position', vectors(positions));
+            geometry.setAttribute('normal', vectors(normals));
+            if (targets.length > 0) {
+                geometry.morphAttributes = {
+                    position: targets.map((target) => vectors(target.positions)), normal: targets.map((target) => vectors(target.normals)),
+                };
+                geometry.morphTargetsRelative = true;
+            }
             return geometry.setIndex(new BufferAttribute(new Uint32Array(triangles), 1));
         });
         const geometry = mergeGeometries(geometries);
+        geometry.morphTargetsRelative = true;
         this.all = geometry.index.array.slice();
         let begin = 0;
         this.parts = parts.map(({ triangles, track }) => {
@@ -26,6 +36,9 @@ export class Streaks {
         this.shown = [];
         this.mesh = new Mesh(geometry, material);
         this.mesh.frustumCulled = false;
+        if (weights) {
+            this.mesh.morphTargetInfluences = weights;
+        }
         geometry.setDrawRange(0, 0);
     }
 

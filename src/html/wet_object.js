@@ -63,9 +63,10 @@ class Film {
     }
 
     #geometryOf(mesh) {
-        const { attributes, indices } = this.json.meshes[mesh].primitives[0];
+        const { attributes, indices, targets = [] } = this.json.meshes[mesh].primitives[0];
+        const changes = targets.map(({ POSITION, NORMAL }) => ({ positions: this.#numbers(POSITION), normals: this.#numbers(NORMAL) }));
         const joints = attributes.JOINTS_0 === undefined ? {} : { joints: this.#numbers(attributes.JOINTS_0) };
-        return { positions: this.#numbers(attributes.POSITION), normals: this.#numbers(attributes.NORMAL), triangles: this.#numbers(indices), ...joints };
+        return { positions: this.#numbers(attributes.POSITION), normals: this.#numbers(attributes.NORMAL), triangles: this.#numbers(indices), targets: changes, ...joints };
     }
 
     materialOf(mesh) {
@@ -144,8 +145,9 @@ export class WetObject extends CoveredObject {
         mixer?.clipAction(clip).play();
         const space = mixer && spaceOver(scene, own, mixer, clip.duration);
         const parts = [];
+        const weights = own.find(({ morphTargetInfluences }) => morphTargetInfluences)?.morphTargetInfluences;
         const add = async (Part, list, mesh, parent) => {
-            const part = new Part(list, await parser.getDependency('material', film.materialOf(mesh)));
+            const part = new Part(list, await parser.getDependency('material', film.materialOf(mesh)), weights);
             nodeOf(parent).add(part.mesh);
             parts.push(part);
         };
