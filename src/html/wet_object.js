@@ -119,7 +119,13 @@ function spaceOver(scene, meshes, mixer, duration) {
     for (let k = 0; k < kPoses; ++k) {
         mixer.setTime(duration * k / kPoses);
         scene.updateMatrixWorld(true);
-        space.union(spaceOf(meshes));
+        meshes.forEach((mesh) => {
+            if (mesh.morphTargetInfluences) {
+                space.expandByObject(mesh, true);  // the box of its geometry holds shapes that it never has
+            } else {
+                space.union(spaceOf([mesh]));
+            }
+        });
     }
     return space;
 }
