@@ -4,7 +4,7 @@
 //   bench_liquid2d [--quick]
 //
 // 1. Steps of a breaking dam of 1000 to 300 000 particles, their number a frame, and the outlines around them.
-// 2. Frames of 20 000 particles of all presets: simulation and outlines.
+// 2. Frames of 20 000 particles of all presets: simulation and outlines, by both solvers, on one and two cores.
 //
 // Errors beside the times: the mean compression that a step leaves, and the area of the outlines against that of the
 // particles.
@@ -43,6 +43,11 @@ struct Measured {
     double area = 0.0;         ///< of the outlines over that of the particles, at the end
 };
 
+const char* nameOf(PressureSolver solver)
+{
+    return solver == PressureSolver::Grid ? "grid" : "dfsph";
+}
+
 /// Scene with another number of particles.
 FluidScene withParticles(FluidScene scene, std::size_t count)
 {
@@ -55,18 +60,21 @@ FluidScene withParticles(FluidScene scene, std::size_t count)
     return scene;
 }
 
-Measured measure(const FluidScene& scene, const ExpressionOptions& controls, double settling, int frames)
+Measured measure(const FluidScene& scene, PressureSolver solver, const ExpressionOptions& controls, double settling,
+                 int frames)
 {
     constexpr double kRate = 24.0;
+    FluidOptions options;
+    options.solver = solver;
     FluidState state = startFluid(scene);
     ExpressionState surface;
-    state = advanceFluid(std::move(state), scene, settling);
+    state = advanceFluid(std::move(state), scene, settling, options);
     Measured measured;
     const FluidCounts before = state.counts;
     double simulation = 0.0;
     for (int k = 1; k <= frames; ++k) {
         const double begin = now();
-        state = advanceFluid(std::move(state), scene, settling + k / kRate);
+        state = advanceFluid(std::move(state), scene, settling + k / kRate, options);
         const double middle = now();
         const ParticleFrame frame = frameOf(state, scene);
         surface = advanceExpression(std::move(surface), frame, controls);
@@ -86,7 +94,7 @@ Measured measure(const FluidScene& scene, const ExpressionOptions& controls, dou
     return measured;
 }
 
-void timeSteps(bool is_quick)
+void timeSteps(PressureSolver solver, bool is_quick)
 {
     std::puts(
         "| particles | threads | steps per frame | iterations | step | per particle | outlines | share of a step | "
@@ -103,7 +111,7 @@ void timeSteps(bool is_quick)
             }
             const FluidScene scene = withParticles(fluidPresetNamed("dam").scene, count);
             // The same number of steps, about, from the same moment.
-            const Measured m = measure(scene, controls, count > 30000 ? 0.05 : 0.2, count > 30000 ? 1 : 6);
+            const Measured m = measure(scene, solver, controls, count > 30000 ? 0.05 : 0.2, count > 30000 ? 1 : 6);
             last = {std::log(static_cast<double>(m.particles)), std::log(m.step)};
             first = count == 1000 ? last : first;
             std::printf("| %zu | %zu | %.0f | %.1f | %.2f ms | %.2f µs | %.2f ms | %.0f %% | %.1e |\n", m.particles,
@@ -118,17 +126,26 @@ void timeSteps(bool is_quick)
 
 void timeFrames(bool is_quick)
 {
-    std::puts("| preset | particles | steps per frame | simulation per frame | outlines per frame | frames/s | area |");
-    std::puts("| --- | ---: | ---: | ---: | ---: | ---: | ---: |");
+    std::puts(
+        "| preset | solver | threads | particles | steps per frame | simulation per frame | outlines per frame | "
+        "frames/s "
+        "| area |");
+    std::puts("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     for (const FluidPreset& preset : fluidPresets()) {
         const FluidScene scene = withParticles(preset.scene, is_quick ? 1000 : 20000);
         const LiquidStyle style = preset.style == "wave"      ? LiquidStyle::Wave
                                   : preset.style == "cartoon" ? LiquidStyle::Cartoon
                                                               : LiquidStyle::Realistic;
-        const Measured m = measure(scene, expressionOf(style), 0.0, is_quick ? 4 : 24);
-        std::printf("| %s | %zu | %.1f | %.0f ms | %.1f ms | %.1f | %.3f |\n", preset.name.c_str(), m.particles,
-                    m.steps, 1e3 * m.step * m.steps, 1e3 * m.surface, 1.0 / (m.step * m.steps + m.surface), m.area);
-        std::fflush(stdout);
+        for (const PressureSolver solver : {PressureSolver::Grid, PressureSolver::Dfsph}) {
+            for (const std::size_t threads : {1U, 2U}) {
+                const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+                const Measured m = measure(scene, solver, expressionOf(style), 0.0, is_quick ? 4 : 24);
+                std::printf("| %s | %s | %zu | %zu | %.1f | %.0f ms | %.1f ms | %.1f | %.3f |\n", preset.name.c_str(),
+                            nameOf(solver), threads, m.particles, m.steps, 1e3 * m.step * m.steps, 1e3 * m.surface,
+                            1.0 / (m.step * m.steps + m.surface), m.area);
+                std::fflush(stdout);
+            }
+        }
     }
 }
 
@@ -138,7 +155,10 @@ int main(int argc, char** argv)
 {
     try {
         const bool is_quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
-        timeSteps(is_quick);
+        for (const PressureSolver solver : {PressureSolver::Grid, PressureSolver::Dfsph}) {
+            std::printf("%s:\n\n", nameOf(solver));
+            timeSteps(solver, is_quick);
+        }
         timeFrames(is_quick);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "bench_liquid2d: %s\n", error.what());
