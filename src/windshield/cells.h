@@ -42,13 +42,14 @@ struct Cells {
             return;
         }
         const Vec2 along = b - a;
+        const double per_y = along.y != 0.0 ? 1.0 / along.y : 0.0;
         const std::uint32_t top = row(high);
         for (std::uint32_t r = row(low); r <= top; ++r) {
             double from = 0.0;
             double to = 1.0;
             if (along.y != 0.0) {
-                const double enters = (static_cast<double>(r) * width - radius - a.y) / along.y;
-                const double leaves = (static_cast<double>(r + 1) * width + radius - a.y) / along.y;
+                const double enters = (static_cast<double>(r) * width - radius - a.y) * per_y;
+                const double leaves = (static_cast<double>(r + 1) * width + radius - a.y) * per_y;
                 from = std::clamp(std::min(enters, leaves), 0.0, 1.0);
                 to = std::clamp(std::max(enters, leaves), 0.0, 1.0);
             }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "windshield/tracks.h"
 
+#include <limits>
 #include <numeric>
 
 namespace droplet {
@@ -8,6 +9,12 @@ namespace {
 
 /// Width of a cell [m]; a cell has few droplets, and a track few cells.
 constexpr double kContactCell = 8e-3;
+
+/// Reach in the grid: droplets that just touch share a cell in spite of rounding.
+double roundedUp(double reach)
+{
+    return reach * (1.0 + 1e-9);
+}
 
 }  // namespace
 
@@ -25,13 +32,13 @@ void Tracks::add(Vec2 a, Vec2 b, double reach_of_track)
     reach.push_back(reach_of_track);
 }
 
-TrackCells::TrackCells(const Tracks& tracks, Vec2 size, double margin)
+TrackCells::TrackCells(const Tracks& tracks, Vec2 size)
     : tracks_(tracks), cells_(Cells::over(size, kContactCell)), first_(cells_.count() + 1, 0)
 {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;  // cell, and track that passes through it
     entries.reserve(2 * tracks.count());
     for (std::uint32_t i = 0; i < tracks.count(); ++i) {
-        cells_.visitAround(tracks.from[i], tracks.to[i], tracks.reach[i] + margin,
+        cells_.visitAround(tracks.from[i], tracks.to[i], roundedUp(tracks.reach[i]),
                            [&](std::size_t first, std::size_t last) {
                                for (std::size_t cell = first; cell <= last; ++cell) {
                                    entries.emplace_back(static_cast<std::uint32_t>(cell), i);
@@ -49,15 +56,21 @@ TrackCells::TrackCells(const Tracks& tracks, Vec2 size, double margin)
 
 std::optional<std::uint32_t> TrackCells::touchedBy(Vec2 place, double reach) const
 {
-    const std::size_t cell = cells_.number(place);
-    for (std::uint32_t k = first_[cell]; k < first_[cell + 1]; ++k) {
-        const std::uint32_t i = numbers_[k];
-        const double touching = reach + tracks_.reach[i];
-        if (Segment(tracks_.from[i], tracks_.to[i]).squaredDistance(place) <= touching * touching) {
-            return i;
+    // Where the two touch, they share a cell.
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t least = kNone;
+    cells_.visitAround(place, place, roundedUp(reach), [&](std::size_t first, std::size_t last) {
+        for (std::size_t cell = first; cell <= last; ++cell) {
+            for (std::uint32_t k = first_[cell]; k < first_[cell + 1] && numbers_[k] < least; ++k) {
+                const std::uint32_t i = numbers_[k];
+                const double touching = reach + tracks_.reach[i];
+                if (Segment(tracks_.from[i], tracks_.to[i]).squaredDistance(place) <= touching * touching) {
+                    least = i;
+                }
+            }
         }
-    }
-    return std::nullopt;
+    });
+    return least != kNone ? std::optional(least) : std::nullopt;
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> TrackCells::touchingPairs() const

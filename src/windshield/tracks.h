@@ -27,14 +27,13 @@ struct Tracks {
     void add(Vec2 a, Vec2 b, double reach_of_track);
 };
 
-/// Grid for neighbour search: the tracks that pass through each cell.
+/// Grid for neighbour search: the tracks whose droplets pass through each cell.
 class TrackCells {
 public:
     /// Sorts the present tracks into cells; later ones are not included.
     /// @param tracks  must outlive this
     /// @param size    of the glass [m]
-    /// @param margin  largest reach of a droplet that may touch a track [m]
-    TrackCells(const Tracks& tracks, Vec2 size, double margin);
+    TrackCells(const Tracks& tracks, Vec2 size);
 
     /// First track that a droplet at a place touches.
     [[nodiscard]] std::optional<std::uint32_t> touchedBy(Vec2 place, double reach) const;

@@ -61,8 +61,7 @@ public:
     {
         rain();
         move();
-        // The margin includes raindrops that land beside a track and touch it.
-        const TrackCells cells(tracks_, {p_.glass.width(), p_.glass.height()}, rules_.maxReach());
+        const TrackCells cells(tracks_, {p_.glass.width(), p_.glass.height()});
         drizzle(cells);
         merge(cells);
         gatherMist();
@@ -154,9 +153,10 @@ private:
     {
         RunningDroplet& d = s_.droplets[i];
         tracks_.from[i] = d.position;
-        tracks_.reach[i] = caps_.reach(d.volume);
+        const CapSize cap = caps_.cap(d.volume);
+        tracks_.reach[i] = caps_.reach(cap);
         if (const std::optional<GlassPlace> place = p_.glass.place(d.position)) {
-            const DropletForces forces = forcesOn(p_.forces, caps_.cap(d.volume));
+            const DropletForces forces = forcesOn(p_.forces, cap);
             wind_[i] = windAlong(*place, speed, p_.wind);
             const Vec2 wind = p_.relative_wind ? wind_[i] - d.velocity : wind_[i];
             const Vec2 push = gravityAlong(*place, p_.forces.gravity) + inertiaAlong(*place, acceleration) +
@@ -388,13 +388,7 @@ private:
                 present.add(d.position, d.position, caps_.reach(d.volume));
             }
         }
-        double margin = 0.0;
-        for (const Torn& one : torn) {
-            for (const double part : one.parts) {
-                margin = std::max(margin, caps_.reach(part));
-            }
-        }
-        const TrackCells cells(present, {p_.glass.width(), p_.glass.height()}, margin);
+        const TrackCells cells(present, {p_.glass.width(), p_.glass.height()});
         Tracks placed;
         for (const Torn& one : torn) {
             placeParts(one, cells, placed);
