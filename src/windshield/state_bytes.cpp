@@ -39,6 +39,10 @@ std::string bytesOf(const WindshieldState& state)
     for (const StillDroplet& d : state.arriving) {
         out.all(d.position, d.volume);
     }
+    out.put(std::uint64_t{state.splashes.size()});
+    for (const Splash& one : state.splashes) {
+        out.all(one.position, one.time, one.diameter, one.speed, one.radius, one.lifetime);
+    }
     out.put(std::uint64_t{state.mist.thickness.size()});
     out.all(state.mist.cell, std::uint64_t{state.mist.columns}, std::uint64_t{state.mist.rows});
     for (const float height : state.mist.thickness) {
@@ -80,6 +84,11 @@ WindshieldState stateFromBytes(std::string_view bytes, const std::string& name)
     for (StillDroplet& d : state.arriving) {
         in.all(d.position, d.volume);
         in.require(d.volume > 0.0);
+    }
+    state.splashes.resize(in.count(56));
+    for (Splash& one : state.splashes) {
+        in.all(one.position, one.time, one.diameter, one.speed, one.radius, one.lifetime);
+        in.require(one.diameter > 0.0 && one.radius > 0.0 && one.lifetime > 0.0);
     }
     std::uint64_t cells_of_mist = 0;
     in.all(cells_of_mist, state.mist.cell, columns, rows);

@@ -79,6 +79,7 @@ private:
     void rain()
     {
         before_rain_ = s_.droplets.size();
+        std::erase_if(s_.splashes, [this](const Splash& one) { return !lasts(one); });
         arrive();
         const RainImpacts impacts{raindropSizes(p_.rainfall), p_.raindrops, p_.vehicle.speedAt(s_.time + 0.5 * dt_)};
         const double bound = impacts.bound();
@@ -86,7 +87,8 @@ private:
             return;
         }
         const RaindropSampler sampler(impacts);
-        double expected = bound * p_.glass.width() * p_.glass.height() * dt_;
+        const double expected_in_step = bound * p_.glass.width() * p_.glass.height() * dt_;
+        double expected = expected_in_step;
         while (s_.until_raindrop < expected) {
             expected -= s_.until_raindrop;
             const RandomStream random(p_.seed, RandomPurpose::Raindrop, s_.next_raindrop++);
@@ -100,6 +102,10 @@ private:
             if (random.uniform(5) >= impacts.kept(diameter, {place->normal.z, place->normal.y})) {
                 continue;
             }
+            if (p_.splashes) {
+                const double speed = terminalSpeed(diameter) * place->normal.z + impacts.speed * place->normal.y;
+                splash(diameter, speed, position, s_.time + dt_ * (1.0 - expected / expected_in_step));
+            }
             const double volume = sphereVolume(diameter);
             s_.rained.add(volume);
             ++s_.counts.raindrops;
@@ -111,6 +117,21 @@ private:
         }
         s_.until_raindrop -= expected;
     }
+
+    /// Adds the splash of a raindrop if its ring lasts beyond this step.
+    void splash(double diameter, double speed, Vec2 position, double time)
+    {
+        if (std::optional<Splash> made = splashOf(diameter, speed, p_.forces.liquid)) {
+            made->position = position;
+            made->time = time;
+            if (lasts(*made)) {
+                s_.splashes.push_back(*made);
+            }
+        }
+    }
+
+    /// Whether a ring is there at the end of this step.
+    bool lasts(const Splash& splash) const { return s_.time + dt_ < splash.time + splash.lifetime; }
 
     /// Adds the water of sprayers and fingers.
     void arrive()
@@ -524,6 +545,7 @@ private:
                     d.volume = 0.0;
                 }
             }
+            std::erase_if(s_.splashes, [&](const Splash& one) { return blade->covers(one.position); });
             s_.wiped.add(takeMist(s_.mist, *blade));
             StillRemoval removal(still_);
             blade->visitCells(still_.grid(), [&](std::size_t first, std::size_t last) {

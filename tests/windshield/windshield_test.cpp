@@ -1000,6 +1000,7 @@ WindshieldParameters everything()
     p.rainfall = 100.0 * kMillimetrePerHour;
     p.streaks.film = 1e-5;
     p.wipers = tandemWipers(p.glass, 1.5);
+    p.splashes = true;
     return p;
 }
 
@@ -1023,6 +1024,7 @@ TEST(Windshield, ContinuesExactlyFromItsBytes)
     const WindshieldState half = after(startWindshield(p), p, kDt, 40);
     EXPECT_GT(half.counts.wiped, 0U);
     EXPECT_GT(half.still.count(), 0U);
+    EXPECT_FALSE(half.splashes.empty());
     const std::string bytes = bytesOf(half);
     const WindshieldState again = stateFromBytes(bytes, "state");
     EXPECT_TRUE(again == half);
@@ -1034,7 +1036,9 @@ TEST(Windshield, RejectsBytesThatAreNotAState)
 {
     WindshieldParameters p = busyGlass();
     p.glass = Glass({.width = 0.03, .height = 0.03});
-    const std::string bytes = bytesOf(after(startWindshield(p), p, kDt, 30));
+    WindshieldState rained = after(startWindshield(p), p, kDt, 30);
+    rained.splashes.push_back(splashOf(2e-3, 10.0, p.forces.liquid).value());
+    const std::string bytes = bytesOf(rained);
     const auto refuses = [](const std::string& text) {
         try {
             (void)stateFromBytes(text, "run.state");

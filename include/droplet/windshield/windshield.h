@@ -9,6 +9,7 @@
 #include "droplet/windshield/droplets.h"
 #include "droplet/windshield/mist.h"
 #include "droplet/windshield/parameters.h"
+#include "droplet/windshield/splash.h"
 
 namespace droplet {
 
@@ -33,6 +34,7 @@ struct WindshieldState {
     StillDroplets still;                   ///< still droplets
     std::vector<TrackPiece> tracks;        ///< paths of the last step, of droplets that moved, in the order of ids
     std::vector<StillDroplet> arriving;    ///< water of sprayers and fingers that meets the glass in the next step
+    std::vector<Splash> splashes;          ///< of raindrops that have just hit, in the order of their times
     Mist mist;                             ///< mist on the glass
     std::uint64_t next_id = 1;             ///< id of the next running droplet
     std::uint64_t next_raindrop = 0;       ///< number of the next raindrop
@@ -56,7 +58,7 @@ struct WindshieldState {
 WindshieldState startWindshield(const WindshieldParameters& parameters);
 
 /// Advances the state by dt:
-/// - Rain arrives (Poisson).
+/// - Rain arrives (Poisson). Large raindrops splash; splashes older than their lifetimes are removed.
 /// - Forces (wind/forces.h) move running droplets. The vehicle's acceleration acts as gravity does.
 /// - Running droplets absorb still ones along their tracks and merge where they touch.
 /// - Droplets that are too high for the wind at their height, relative to them (tearOffHeight), break up into parts of
