@@ -30,7 +30,14 @@ std::uint16_t signedLevel(double value)
     return unsignedLevel(0.5 * (value + 1.0));
 }
 
-std::vector<WaterDrop> dropsOf(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options)
+/// All that is drawn.
+struct MapWater {
+    std::vector<WaterDrop> drops;
+    std::vector<WaterStamp> rims;  ///< of splashes
+};
+
+MapWater waterOf(const WaterRaster& raster, const Glass& glass, const WindshieldState& state,
+                 const GlassMapOptions& options)
 {
     const Reliefs reliefs(glass, options.body, options.forces);
     std::vector<WaterDrop> drops;
@@ -43,7 +50,7 @@ std::vector<WaterDrop> dropsOf(const Glass& glass, const WindshieldState& state,
                          runningShape(running.volume, length(running.velocity), options.shape), true,
                          relief ? std::make_shared<const BodyRelief>(*relief) : nullptr});
     }
-    return drops;
+    return {std::move(drops), raster.rimsOf(state.splashes, state.time)};
 }
 
 /// A pixel of the maps.
@@ -54,8 +61,9 @@ struct MapPixel {
 
 /// Sums up the pixels and calls take(row, its pixels), in parallel, once for each row.
 template <typename Take>
-void forRows(const WaterRaster& raster, const std::vector<WaterDrop>& drops, const Take& take)
+void forRows(const WaterRaster& raster, const MapWater& water, const Take& take)
 {
+    const std::vector<WaterDrop>& drops = water.drops;
     const auto width = static_cast<std::size_t>(raster.width());
     const auto height = static_cast<std::size_t>(raster.height());
     constexpr std::size_t kDropsPerBlock = 1024;
@@ -75,6 +83,9 @@ void forRows(const WaterRaster& raster, const std::vector<WaterDrop>& drops, con
             sums[stamp.pixel].water.add(stamp.water, 1);
             sums[stamp.pixel].motion.add(stamp.motion);
         }
+    }
+    for (const WaterStamp& stamp : water.rims) {
+        sums[stamp.pixel].water.add(stamp.water, 1);
     }
     tbb::parallel_for(std::size_t{0}, height, [&](std::size_t row) {
         take(static_cast<int>(row), std::span(std::as_const(sums)).subspan(row * width, width));
@@ -133,7 +144,7 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
     maps.normal.levels.resize(3 * pixels);
     maps.thickness.levels.resize(pixels);
     maps.velocity.levels.resize(3 * pixels);
-    forRows(raster, dropsOf(glass, state, options), [&](int row, std::span<const MapPixel> held) {
+    forRows(raster, waterOf(raster, glass, state, options), [&](int row, std::span<const MapPixel> held) {
         // The rounding error goes to the next wet pixel of the row; else thin water would vanish.
         double left_over = 0.0;
         std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
@@ -177,7 +188,7 @@ GlassFloatMaps glassFloatMaps(const Glass& glass, const WindshieldState& state, 
     maps.normal.values.resize(3 * pixels);
     maps.thickness.values.resize(pixels);
     maps.velocity.values.resize(3 * pixels);
-    forRows(raster, dropsOf(glass, state, options), [&](int row, std::span<const MapPixel> held) {
+    forRows(raster, waterOf(raster, glass, state, options), [&](int row, std::span<const MapPixel> held) {
         std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
         for (const MapPixel& pixel : held) {
             const Vec3f normal = pixel.water.normal();

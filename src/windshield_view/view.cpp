@@ -18,6 +18,7 @@
 #include "windshield_view/body_relief.h"
 #include "windshield_view/defocus.h"
 #include "windshield_view/running_rays.h"
+#include "windshield_view/splash_view.h"
 #include "windshield_view/still_samples.h"
 #include "windshield_view/view_context.h"
 #include "windshield_view/water_optics.h"
@@ -155,7 +156,11 @@ private:
 
 struct DriversView::Content {
     Content(const Glass& glass, const ViewOptions& options)
-        : scene(glass, options), stills(std::in_place, scene), running(std::in_place, scene), wipers(scene)
+        : scene(glass, options),
+          stills(std::in_place, scene),
+          running(std::in_place, scene),
+          wipers(scene),
+          splashes(scene)
     {
         bare.width = options.width;
         bare.height = options.height;
@@ -290,6 +295,9 @@ struct DriversView::Content {
                 drawRays(*in_tile.rays, light);
             }
         }
+        if (splashes.reach(tile)) {
+            drawSplashes(tile, light);
+        }
         if (has_blades && moments == 1) {
             drawWipers(tile, 0, light, [](std::size_t) {});
         }
@@ -406,6 +414,35 @@ struct DriversView::Content {
                     float4(1.0F - light[pixel][3]) *
                     (water.is_bead ? throughBead(water, tile, scene.eye.ray(x, y))
                                    : throughFilm(water, film, static_cast<float>(x), static_cast<float>(y)));
+            }
+        });
+    }
+
+    /// Draws rings of splashes into the light of what rests.
+    void drawSplashes(std::size_t number, TileLight& light) const
+    {
+        const ViewTile& tile = scene.tiles[number];
+        forTile(number, [&](int x, int y, Vec2f place) {
+            const int across = scene.options.samples;
+            Float4 rims = float4(0.0F);
+            float inside = 0.0F;
+            for (int k = 0; k < across * across; ++k) {
+                const float u = scene.offset(k % across);
+                const float v = scene.offset(k / across);
+                const SplashMet met = splashes.at(
+                    number,
+                    {place.x + u * tile.right.x + v * tile.down.x, place.y + u * tile.right.y + v * tile.down.y},
+                    tile.pixel / static_cast<float>(across));
+                inside += met.inside;
+                if (met.rim.cover > 0.0F) {
+                    rims += throughBead(met.rim, tile, scene.eye.ray(x, y));
+                }
+            }
+            if (inside > 0.0F || rims[3] > 0.0F) {
+                const float share = 1.0F / static_cast<float>(across * across);
+                Float4& pixel = light[pixelInTile(x, y)];
+                pixel *= float4(1.0F - share * inside);
+                pixel = float4(share) * rims + float4(1.0F - share * rims[3]) * pixel;
             }
         });
     }
@@ -531,7 +568,8 @@ struct DriversView::Content {
             const EncodedLevels& levels = encodedLevels();
             for (int c = 0; c < tiles.columns(); ++c) {
                 const std::size_t tile = tiles.number(c, r);
-                if (stills->inTile(tile).empty() && running->inTile(tile).empty() && !wipers.reach(tile)) {
+                if (stills->inTile(tile).empty() && running->inTile(tile).empty() && !wipers.reach(tile) &&
+                    !splashes.reach(tile)) {
                     continue;
                 }
                 const int moments = drawResting(tile, light);
@@ -569,6 +607,7 @@ struct DriversView::Content {
     std::optional<StillSamples> stills;
     std::optional<RunningRays> running;
     WiperView wipers;
+    SplashView splashes;
     std::optional<Environment> around;
     bool has_picture = false;
     Picture bare;
@@ -666,6 +705,7 @@ void DriversView::show(const WindshieldState& state)
     content_->stills->update(StillCells::of(state.still));
     content_->running->update(state.droplets);
     content_->wipers.update(state.time);
+    content_->splashes.update(state.splashes, state.time);
 }
 
 const Picture& DriversView::bare() const

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace droplet {
@@ -222,6 +223,61 @@ void WaterRaster::draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) c
             }
         }
     }
+}
+
+void WaterRaster::draw(const SplashRim& rim, std::vector<WaterStamp>& stamps) const
+{
+    const auto d = [](float v) { return static_cast<double>(v); };
+    const double reach = d(rim.reach());
+    const Vec2 middle{d(rim.middle.x), d(rim.middle.y)};
+    const auto limited = [](double value, int count) {
+        return static_cast<int>(std::clamp(std::floor(value), -1.0, static_cast<double>(count)));
+    };
+    const int left = std::max(limited((middle.x - reach) / pixel_, width_), 0);
+    const int right = std::min(limited((middle.x + reach) / pixel_, width_), width_ - 1);
+    const int first = std::max(limited((top_ - middle.y - reach) / down_, height_), 0);
+    const int last = std::min(limited((top_ - middle.y + reach) / down_, height_), height_ - 1);
+    const double least = std::max(d(rim.radius - 2.0F * rim.half_width) - pixel_, 0.0);
+    const double most = reach + pixel_;
+    for (int row = first; row <= last; ++row) {
+        for (int column = left; column <= right; ++column) {
+            const Vec2 from{(column + 0.5) * pixel_ - middle.x, top_ - (row + 0.5) * down_ - middle.y};
+            const double squared = dot(from, from);
+            if (!(squared > least * least && squared < most * most)) {
+                continue;
+            }
+            const double far = std::sqrt(squared);
+            const double off = far - d(rim.radius);
+            const Vec2 outward = (1.0 / far) * from;
+            const double half = d(rim.halfWidthTowards({static_cast<float>(outward.x), static_cast<float>(outward.y)}));
+            // The part of the half disc in the pixel, over its radius.
+            const double begin = std::clamp((off - 0.5 * pixel_) / half, -1.0, 1.0);
+            const double end = std::clamp((off + 0.5 * pixel_) / half, -1.0, 1.0);
+            if (!(end > begin)) {
+                continue;
+            }
+            const double scale = d(rim.strength()) * half / pixel_;
+            // The normal at x has the components x and √(1 − x²); these are their integrals.
+            const auto integral = [](double x) { return 0.5 * (x * std::sqrt(1.0 - x * x) + std::asin(x)); };
+            const double aside = scale * 0.5 * (end * end - begin * begin);
+            WaterStamp& stamp = stamps.emplace_back();
+            stamp.pixel = static_cast<std::uint32_t>(row * width_ + column);
+            stamp.water.cover = share(scale * (end - begin));
+            stamp.water.slope = {share(aside * outward.x), share(aside * outward.y)};
+            stamp.water.up = share(scale * (integral(end) - integral(begin)));
+        }
+    }
+}
+
+std::vector<WaterStamp> WaterRaster::rimsOf(const std::vector<Splash>& splashes, double time) const
+{
+    std::vector<WaterStamp> stamps;
+    for (const Splash& splash : splashes) {
+        if (const std::optional<SplashRim> rim = SplashRim::of(splash, time)) {
+            draw(*rim, stamps);
+        }
+    }
+    return stamps;
 }
 
 }  // namespace droplet

@@ -14,6 +14,7 @@
 #include "droplet/vector.h"
 #include "droplet/windshield/glass.h"
 #include "windshield_view/body_relief.h"
+#include "windshield_view/splash_rim.h"
 
 namespace droplet {
 
@@ -39,6 +40,7 @@ struct WaterPixel {
 
     /// Adds another one, or with sign −1 takes it away.
     void add(const WaterPixel& other, int sign);
+    friend bool operator==(const WaterPixel&, const WaterPixel&) = default;
     /// Mean outward unit normal.
     [[nodiscard]] Vec3f normal() const;
 };
@@ -49,6 +51,7 @@ struct WaterMotion {
     std::array<std::int32_t, 2> velocity = {};  ///< in 2^-18 m/s
 
     void add(const WaterMotion& other);
+    friend bool operator==(const WaterMotion&, const WaterMotion&) = default;
 };
 
 /// Water of one droplet in a pixel.
@@ -56,6 +59,8 @@ struct WaterStamp {
     std::uint32_t pixel = 0;  ///< row by row from the upper left
     WaterPixel water;
     WaterMotion motion;
+
+    friend bool operator==(const WaterStamp&, const WaterStamp&) = default;
 };
 
 /// Nearly square pixels of a glass, upper edge up.
@@ -70,6 +75,11 @@ public:
     /// Appends the pixels that a droplet covers, by rows. At least seven sample places lie across it. Their thickness
     /// adds up to its volume, also beyond the edge and between sample places.
     void draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) const;
+    /// Appends the pixels that a splash's rim covers, without thickness: its water is in a droplet already. In a pixel
+    /// the rim is taken as straight.
+    void draw(const SplashRim& rim, std::vector<WaterStamp>& stamps) const;
+    /// Rims of all splashes at a time [s].
+    [[nodiscard]] std::vector<WaterStamp> rimsOf(const std::vector<Splash>& splashes, double time) const;
 
 private:
     struct Samples;

@@ -31,6 +31,7 @@ struct WindshieldMaps::Content {
     std::vector<WaterPixel> sums = {};  ///< of every pixel
     StillCells still = {};              ///< as drawn
     std::vector<Drawn> running = {};
+    std::vector<WaterStamp> rims = {};        ///< of splashes
     std::vector<std::uint32_t> changed = {};  ///< pixels since the last update
     std::vector<std::uint8_t> is_changed = {};
     std::vector<std::uint8_t> is_stale = {};  ///< for every tile
@@ -124,6 +125,16 @@ struct WindshieldMaps::Content {
         running = std::move(drawn);
     }
 
+    void update(const std::vector<Splash>& splashes, double time)
+    {
+        std::vector<WaterStamp> now = raster.rimsOf(splashes, time);
+        if (now != rims) {
+            add(rims, -1);
+            rims = std::move(now);
+            add(rims, 1);
+        }
+    }
+
     static bool looksAs(const RunningDroplet& a, const RunningDroplet& b)
     {
         return a.position == b.position && a.velocity == b.velocity && a.volume == b.volume;
@@ -191,6 +202,7 @@ const std::vector<MapTile>& WindshieldMaps::update(const WindshieldState& state,
     require(pixels.size() == wanted, "pixels.size", pixels.size(), "width x height x 4");
     content_->update(StillCells::of(state.still));
     content_->update(state.droplets);
+    content_->update(state.splashes, state.time);
     content_->write(pixels);
     return content_->tiles;
 }

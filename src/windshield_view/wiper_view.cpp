@@ -104,12 +104,6 @@ float size(Vec2f v)
     return std::sqrt(v.x * v.x + v.y * v.y);
 }
 
-/// Share of a pixel inside an edge, at a distance from it that is positive inside.
-float within(float distance, float pixel)
-{
-    return std::clamp(distance / pixel + 0.5F, 0.0F, 1.0F);
-}
-
 /// Progress of a wiper from `first` to `last` at an angle, 0 … 1; outside that range it never has this angle.
 float shareOfWay(const Wiper& wiper, float angle)
 {
@@ -120,19 +114,13 @@ float shareOfWay(const Wiper& wiper, float angle)
     return turned / way;
 }
 
-/// Half-round bead of water on the glass.
+/// Water that a blade has pushed together.
 /// @param across  distance from its near edge, in the given direction [m]
-WaterMet beadAt(float across, float width, Vec2f direction, float pixel)
+WaterMet pushedAt(float across, float width, Vec2f direction, float pixel)
 {
-    if (width < 0.3e-3F || across < -pixel || across > width + pixel) {
-        return {};
-    }
-    const float x = std::clamp(2.0F * across / width - 1.0F, -0.96F, 0.96F);
-    // Half an ellipse whose height is 0.35 of its width.
-    const float slope = -0.7F * x / std::sqrt(1.0F - x * x);
-    return {std::min(within(across, pixel), within(width - across, pixel)),
-            {slope * direction.x, slope * direction.y},
-            true};
+    constexpr float kHeight = 0.35F;       // over its width
+    constexpr float kNarrowest = 0.3e-3F;  // [m]
+    return width < kNarrowest ? WaterMet() : Bead{width, kHeight}.at(across, direction, pixel);
 }
 
 }  // namespace
@@ -371,7 +359,7 @@ WaterMet WiperView::wedge(const WiperState& one, Vec2f from, float pixel)
     const float width = 1.7F * kWidestBead * (0.35F + 0.65F * place) *
                         std::max(uneven.value * 0.6F + 0.5F - 1.1F * left, 0.0F) *
                         smoothstep(0.0F, 0.03F, std::min(radius - inner, outer - radius));
-    return beadAt(beyond, width, wedge.ahead, pixel);
+    return pushedAt(beyond, width, wedge.ahead, pixel);
 }
 
 WaterMet WiperView::waterLeft(TilePixel at, Vec2f place, float pixel) const
@@ -450,7 +438,7 @@ WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
             const float fades = isInOtherField(one, place) ? 1.0F - smoothstep(0.6F, 0.95F, blade.pushed) : 1.0F;
             const float width =
                 kWidestBead * blade.pushed * fades * (0.35F + 0.65F * uneven.value) * smoothstep(0.0F, 0.03F, end);
-            const WaterMet bead = beadAt(beyond, width, ahead, pixel);
+            const WaterMet bead = pushedAt(beyond, width, ahead, pixel);
             if (bead.cover > met.pushed.cover) {
                 met.pushed = bead;
             }

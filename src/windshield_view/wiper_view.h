@@ -9,16 +9,10 @@
 #include <vector>
 
 #include "droplet/windshield/wipers.h"
+#include "windshield_view/bead.h"
 #include "windshield_view/view_context.h"
 
 namespace droplet {
-
-/// Water that a ray meets on the glass.
-struct WaterMet {
-    float cover = 0.0F;    ///< share of the pixel
-    Vec2f slope;           ///< slope of its surface along the glass's x and y
-    bool is_bead = false;  ///< thick, like a droplet
-};
 
 /// Wiper that a ray meets at one moment.
 struct WiperMet {

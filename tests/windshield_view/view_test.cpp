@@ -58,6 +58,7 @@ WindshieldParameters heavyRain()
     parameters.vehicle = constantSpeed(17.0);
     parameters.forces.wetting.hysteresis = 0.2;
     parameters.wipers = tandemWipers(parameters.glass, 1.2);
+    parameters.splashes = true;
     return parameters;
 }
 
@@ -89,6 +90,47 @@ WindshieldState oneDroplet(const WindshieldParameters& parameters, double volume
     droplet.volume = volume;
     state.droplets.push_back(droplet);
     return state;
+}
+
+TEST(View, RingsOfSplashesHideTheirDroplets)
+{
+    WindshieldParameters parameters;
+    parameters.glass = Glass(Glass::Cylinder{.width = 0.6, .height = 0.4, .radius = kFlat, .slope = 90.0 * kDegree});
+    WindshieldState state = oneDroplet(parameters, kPi / 6.0 * 27e-9);
+    ViewOptions options = small();
+    options.eye_distance = 0.1;
+    DriversView view(parameters.glass, options);
+    view.setBackground(slanted(options.width, options.height));
+    view.show(state);
+    const Layer droplet = view.layer();
+    Splash splash = splashOf(3e-3, 12.0, parameters.forces.liquid).value();
+    splash.position = state.droplets.front().position;
+    state.splashes = {splash};
+    state.time = 0.2 * splash.lifetime;
+    view.show(state);
+    const Layer ringed = view.layer();
+    const SplashRing ring = ringOf(splash, state.time).value();
+    std::size_t rims = 0;
+    for (int y = 0; y < options.height; ++y) {
+        for (int x = 0; x < options.width; ++x) {
+            const Vec2 place = view.onGlass(x, y).value();
+            const double far = length(place - splash.position);
+            const std::size_t alpha = 4 * static_cast<std::size_t>(y * options.width + x) + 3;
+            constexpr double kPixel = 0.6e-3;  // and a little more
+            if (far > ring.radius + 2.0 * ring.half_width + kPixel) {
+                EXPECT_EQ(ringed.rgba[alpha], 0);
+            } else if (std::abs(far - ring.radius) < 0.1 * ring.half_width) {
+                ++rims;
+                EXPECT_GT(ringed.rgba[alpha], 100);
+            } else if (far < ring.radius - 2.0 * ring.half_width - kPixel) {
+                EXPECT_NEAR(ringed.rgba[alpha], 0.2 * droplet.rgba[alpha], 1.0);
+            }
+        }
+    }
+    EXPECT_GT(rims, 4U);
+    state.time = splash.lifetime;
+    view.show(state);
+    EXPECT_EQ(view.layer().rgba, droplet.rgba) << "then the droplet is there alone";
 }
 
 TEST(View, PixelsSeeTheGlassWhereTheirRaysMeetIt)
@@ -919,6 +961,7 @@ TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)
 {
     WindshieldParameters parameters = heavyRain();
     parameters.wipers.clear();
+    parameters.splashes = false;  // glass without water is bare
     // Torn droplets lie close together: with a smaller contact angle they would overlap.
     parameters.tear_off_weber = std::numeric_limits<double>::infinity();
     const WindshieldState state = rained(parameters, 20);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,7 @@ WindshieldParameters storm()
     parameters.vehicle = constantSpeed(17.0);
     parameters.forces.wetting.hysteresis = 0.2;
     parameters.wipers = tandemWipers(parameters.glass, 1.2);
+    parameters.splashes = true;
     return parameters;
 }
 
@@ -66,6 +68,42 @@ TEST(WindshieldMapsOf, AreThoseOfNewOnesAfterAnySteps)
     EXPECT_TRUE(kept.maps.update(state, kept.pixels).empty()) << "nothing has changed";
     kept.maps.update(startWindshield(parameters), kept.pixels);
     EXPECT_THAT(kept.pixels, ::testing::Each(0)) << "all is taken away again without a rest";
+}
+
+TEST(WindshieldMapsOf, HaveRimsOfSplashesWithoutWater)
+{
+    WindshieldParameters parameters;
+    parameters.glass = Glass(Glass::Cylinder{.width = 0.1, .height = 0.1, .radius = 5.0});
+    WindshieldState state = startWindshield(parameters);
+    Splash splash = splashOf(3e-3, 12.0, parameters.forces.liquid).value();
+    splash.position = {0.05, 0.05};
+    state.splashes = {splash};
+    state.time = 0.25 * splash.lifetime;
+    const SplashRing ring = ringOf(splash, state.time).value();
+    Map map(parameters.glass);
+    map.maps.update(state, map.pixels);
+    double wet = 0.0;
+    const double pixel = 0.1 / 300.0;
+    for (std::size_t k = 0; k < map.pixels.size() / 4; ++k) {
+        EXPECT_EQ(map.at(k, 2), 0.0F) << "its water is in a droplet";
+        const double x = (static_cast<double>(k % 300) + 0.5) * pixel - 0.05;
+        const double y = 0.05 - (static_cast<double>(k / 300) + 0.5) * pixel;
+        const double off = std::hypot(x, y) - ring.radius;
+        if (map.at(k, 3) > 0.0F) {
+            EXPECT_LT(std::abs(off), 2.0 * ring.half_width + pixel);
+            // Both flanks slope away from the middle of the rim.
+            const double outward =
+                (x * static_cast<double>(map.at(k, 0)) + y * static_cast<double>(map.at(k, 1))) / std::hypot(x, y);
+            EXPECT_GE(outward * off, -1e-6);
+        }
+        wet += static_cast<double>(map.at(k, 3)) * pixel * pixel;
+    }
+    // Knots change the width by chance, by a quarter of it at a quarter of its lifetime.
+    const double area = 2.0 * std::numbers::pi * ring.radius * 2.0 * ring.half_width * 0.75;
+    EXPECT_NEAR(wet, area, 0.25 * area);
+    state.time = splash.lifetime;
+    map.maps.update(state, map.pixels);
+    EXPECT_THAT(map.pixels, ::testing::Each(0)) << "the ring is gone without a rest";
 }
 
 TEST(WindshieldMapsOf, NameEveryTileThatChanges)

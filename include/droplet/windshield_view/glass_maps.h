@@ -51,7 +51,8 @@ struct GlassFloatMaps {
     FloatPicture velocity;
 };
 
-/// Draws maps; pixels are means over their areas. The water of overlapping droplets is added.
+/// Draws maps; pixels are means over their areas. The water of overlapping droplets is added. Rings of splashes change
+/// normals alone: their water is in droplets already.
 ///
 /// Guarantees: the same arguments give the same bytes with any number of threads.
 /// @param glass    glass of the simulation

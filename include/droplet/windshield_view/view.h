@@ -88,8 +88,8 @@ Picture defaultBackground(const ViewOptions& options, double travelled = 0.0);
 /// (Snell, Fresnel). Where a droplet of more than 90° overhangs its contact, the air below it is ignored. Running
 /// droplets are capsules (RunningShape) with exact intersections, or capillary bodies (DropletBodies). Still droplets
 /// are one map of the glass with the normals of caps, in which only cells that changed are drawn again. Where running
-/// droplets have swept it, the glass is bare: the Lotus tracks. Rays that lead back inside, by total reflection, are as
-/// dark as a cabin.
+/// droplets have swept it, the glass is bare: the Lotus tracks. Rings of splashes are flat inside, where they hide
+/// droplets at rest. Rays that lead back inside, by total reflection, are as dark as a cabin.
 ///
 /// The picture fills the frame: it is the view through dry glass. Refracted rays go far beyond it. Beyond its edge, at
 /// the tangent s₀, a direction with the tangent s shows the point of s₀²/s: the picture is mirrored at its edge, with
