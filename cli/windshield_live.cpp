@@ -36,6 +36,7 @@ constexpr std::array<std::string_view, 29> kKnown{"--live",
                                                   "--slope",
                                                   "--hysteresis",
                                                   "--still-diameter",
+                                                  "--splashes",
                                                   "--film",
                                                   "--contact-angle",
                                                   "--viscosity-factor",
@@ -86,11 +87,11 @@ std::string valuesOf(const WindshieldOptions& options)
     std::string text = fmt::format(
         R"({{"preset":"{}","parameters":{{"speed":{},"rain":{},"mist":{},"noise":{},"wiperPeriod":{},"seed":{},)"
         R"("glassWidth":{},"glassHeight":{},"glassRadius":{},"slope":{},"hysteresis":{},"stillDiameter":{},"film":{},)"
-        R"("contactAngle":{},"viscosityFactor":{},"kineticFraction":{},"gravity":{}}})",
+        R"("splashes":{},"contactAngle":{},"viscosityFactor":{},"kineticFraction":{},"gravity":{}}})",
         options.preset, p.vehicle.speedAt(0.0), p.rainfall, p.mist, p.fluctuation.acceleration,
         options.wiper.value_or(0.0), p.seed, options.cylinder.width, options.cylinder.height, options.cylinder.radius,
-        options.cylinder.slope, wetting.hysteresis, p.still_diameter, p.streaks.film, wetting.contact_angle,
-        wetting.viscosity_factor, wetting.kinetic_fraction, p.forces.gravity);
+        options.cylinder.slope, wetting.hysteresis, p.still_diameter, p.streaks.film, p.splashes ? 1 : 0,
+        wetting.contact_angle, wetting.viscosity_factor, wetting.kinetic_fraction, p.forces.gravity);
     const auto add = [&](const char* option, const char* name, double value) {
         if (options.live->given.contains(option)) {
             text += fmt::format(R"(,"{}":{})", name, value);
@@ -115,7 +116,9 @@ void checkLive(const CommandLine& line)
     }
     for (const auto& [name, value] : line.given()) {
         if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
-            refuse("--live and " + name + " exclude each other: the page has no use for it");
+            refuse("--live and " + name + " exclude each other: " +
+                   (name == "--surface" ? "the glass of the page is always bent as a cylinder"
+                                        : "the page has no use for it"));
         }
     }
 }

@@ -91,6 +91,8 @@ void declare(CommandLine& line, WindshieldOptions& options)
              into(options.parameters.fluctuation.acceleration, kNoise));
     line.add(kCar, "--wiper-period,--wiper", "DURATION", "At least 1.2s; without it there are no wipers",
              into(options.wiper, kPeriod));
+    line.addFlag(kCar, "--splashes", "Show rings where large raindrops hit, for some milliseconds",
+                 options.parameters.splashes);
     line.add(kCar, "--seed", "N", "Random seed", seedInto(options.parameters.seed));
     constexpr const char* kGlass = "Glass";
     line.add(kGlass, "--glass-width", "LENGTH", "Width of the glass, along its bend",
@@ -102,7 +104,7 @@ void declare(CommandLine& line, WindshieldOptions& options)
     line.add(kGlass, "--slope", "ANGLE", "Slope of the glass, from horizontal", into(options.cylinder.slope, kSlope));
     line.add(kGlass, "--surface", "FILE",
              "Mesh instead of that glass: .glb or .gltf, its front +Z, normals outward, with texture coordinates that "
-             "roll it out flat",
+             "roll it out flat; not with --live, whose glass is a cylinder's",
              into(options.surface));
     constexpr const char* kDroplets = "Droplets";
     line.add(kDroplets, "--hysteresis", "NUMBER",

@@ -7,7 +7,7 @@ import { pageSystem } from './page_system.js';
 const kCodes = [undefined, 'Internal', 'InvalidArgument', 'InvalidInput', 'OutputFailed', 'NoSuchDroplet', 'OutOfMemory'];
 /** Parameters, as droplet_windshield_set() has them; those of the glass come first, before others depend on it. */
 const kParameters = ['glass-width', 'glass-height', 'glass-radius', 'slope', 'seed', 'speed', 'rain', 'noise', 'wiper-period', 'gravity',
-    'contact-angle', 'hysteresis', 'kinetic-fraction', 'viscosity-factor', 'film', 'still-diameter', 'mist'];
+    'contact-angle', 'hysteresis', 'kinetic-fraction', 'viscosity-factor', 'film', 'still-diameter', 'mist', 'splashes'];
 const camelCase = (name) => name.replace(/-(\w)/g, (_, letter) => letter.toUpperCase());
 const kNames = new Map(kParameters.map((name) => [camelCase(name), name]));
 /** Bytes of the largest structure of the interface, DropletPlace. */

@@ -30,6 +30,8 @@ export interface WindshieldValues {
     stillDiameter?: number;
     /** Growth of the mist's thickness [m/s], up to 1e-6; it ends at 10 µm */
     mist?: number;
+    /** 1: maps have the rings of large raindrops that have just hit; 0: they have not */
+    splashes?: number;
     /** Width of the glass along its bend, 0.05 to 5 m; as all of the glass, only before the first step */
     glassWidth?: number;
     /** Height of the glass along its slope, 0.05 to 5 m */

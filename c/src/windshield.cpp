@@ -180,6 +180,9 @@ const std::vector<Parameter>& parameters()
             "still-diameter", 1.1e-4, 2e-3, [](auto& p) -> auto& { return p.still_diameter; }),
         number(
             "mist", 0.0, 1e-6, [](auto& p) -> auto& { return p.mist; }),
+        {"splashes", 0.0, 1.0, false,
+         [](const DropletWindshield& windshield) { return windshield.parameters.splashes ? 1.0 : 0.0; },
+         [](DropletWindshield& windshield, double value) { windshield.parameters.splashes = value > 0.0; }},
         ofGlass("glass-width", 0.05, 5.0, &droplet::Glass::Cylinder::width),
         ofGlass("glass-height", 0.05, 5.0, &droplet::Glass::Cylinder::height),
         ofGlass("glass-radius", 0.1, 1e6, &droplet::Glass::Cylinder::radius),

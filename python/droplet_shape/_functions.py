@@ -677,6 +677,7 @@ _WINDSHIELD = {
     "wind_model": "text",
     "noise": "m/s2",
     "wiper_period": "s",
+    "splashes": "flag",
     "seed": "number",
     "glass_width": "m",
     "glass_height": "m",
@@ -742,6 +743,7 @@ def windshield(
     wind_model: Literal["turned", "projected"] | None = None,
     noise: str | float | None = None,
     wiper_period: str | float | None = None,
+    splashes: bool = False,
     seed: str | int | None = None,
     glass_width: str | float | None = None,
     glass_height: str | float | None = None,
@@ -815,6 +817,7 @@ def windshield(
         along the glass (default: turned)
       noise [m/s²]: Root mean square of the car's vibration (default: 0.5m/s2)
       wiper_period [s]: At least 1.2s; without it there are no wipers
+      splashes: Show rings where large raindrops hit, for some milliseconds
       seed: Random seed (default: 1)
 
     Glass:
@@ -823,7 +826,7 @@ def windshield(
       glass_radius [m]: Radius of the glass's bend across the car (default: 5m)
       slope [rad]: Slope of the glass, from horizontal (default: 45deg)
       surface: Mesh instead of that glass: .glb or .gltf, its front +Z, normals outward, with texture coordinates that
-        roll it out flat
+        roll it out flat; not with live, whose glass is a cylinder's
 
     Droplets:
       hysteresis: Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle (default: by

@@ -690,6 +690,7 @@ class WindshieldRain(_Report):
     rainfall_m_per_s: float
     rainfall_mm_per_h: float
     still_diameter_m: float
+    splashes: bool  # Whether rings are shown where large raindrops hit
     seed: int  # Random seed
 
 

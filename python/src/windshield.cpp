@@ -202,8 +202,8 @@ Positions are on the unrolled glass: x to the driver's right, y up the glass
 first step. Numbers are in SI units, texts have a unit: speed="50km/h".
 
 speed, rain, noise, wiper_period, seed, gravity, contact_angle, hysteresis,
-kinetic_fraction, viscosity_factor, film, still_diameter, mist, glass_width,
-glass_height, glass_radius, slope: docs/engines.md has their ranges.)")
+kinetic_fraction, viscosity_factor, film, still_diameter, mist, splashes,
+glass_width, glass_height, glass_radius, slope: docs/engines.md has their ranges.)")
         .def("get", &Windshield::get, py::arg("name"), "Value of a parameter of set().")
         .def("advance", &Windshield::advance, py::arg("seconds"),
              "Advances the rain by a time [s]; at most 1/30 is advised.")

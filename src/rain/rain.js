@@ -23,7 +23,7 @@ const kCalm = 3500;              // [ms] until the bar hides
 
 /** Names of the library's parameters that the page sets. */
 const kParameters = ['speed', 'rain', 'noise', 'wiperPeriod', 'seed', 'gravity', 'contactAngle', 'hysteresis', 'kineticFraction',
-    'viscosityFactor', 'film', 'stillDiameter', 'mist', 'glassWidth', 'glassHeight', 'glassRadius', 'slope'];
+    'viscosityFactor', 'film', 'stillDiameter', 'mist', 'splashes', 'glassWidth', 'glassHeight', 'glassRadius', 'slope'];
 
 /**
  * Fills an element with the rain.
@@ -127,8 +127,8 @@ class Rain {
     /** Values of a figure of the thesis. */
     show(figure) {
         this.preset = `figure-${figure}`;
-        const { wind, distance, blur, exposure, mist, glassWidth, glassHeight, seed } = this.values;
-        this.values = { wind: 0, distance, blur, exposure, mist, glassWidth, glassHeight, seed };
+        const { wind, distance, blur, exposure, mist, splashes, glassWidth, glassHeight, seed } = this.values;
+        this.values = { wind: 0, distance, blur, exposure, mist, splashes, glassWidth, glassHeight, seed };
         this.restart();
         for (const name of kParameters) {
             this.values[name] ??= this.windshield.get(name);

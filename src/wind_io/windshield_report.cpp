@@ -77,6 +77,7 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
     json["rain"] = {{"rainfall_m_per_s", parameters.rainfall},
                     {"rainfall_mm_per_h", parameters.rainfall / kMillimetrePerHour},
                     {"still_diameter_m", parameters.still_diameter},
+                    {"splashes", parameters.splashes},
                     {"seed", parameters.seed}};
     json["forces"] = forcesSection(parameters.forces);
     json["fluctuation"] = {{"acceleration_m_per_s2", parameters.fluctuation.acceleration},

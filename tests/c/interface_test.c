@@ -104,6 +104,10 @@ static void rain(void)
     HOLDS(value_of(windshield, "glass-width") == 0.7);
     HOLDS(droplet_windshield_set(windshield, "rain", 50.0 / 3.6e6) == DROPLET_OK);
     HOLDS(droplet_windshield_set(windshield, "mist", 1e-6) == DROPLET_OK);
+    HOLDS(value_of(windshield, "splashes") == 0.0);
+    HOLDS(droplet_windshield_set(windshield, "splashes", 1.0) == DROPLET_OK);
+    HOLDS(value_of(windshield, "splashes") == 1.0);
+    HOLDS(droplet_windshield_set(windshield, "splashes", 2.0) == DROPLET_INVALID_ARGUMENT);
     HOLDS(droplet_windshield_set(windshield, "wiper-period", 1.5) == DROPLET_OK);
     HOLDS(droplet_windshield_set(windshield, "wiper-period", 1.0) == DROPLET_INVALID_ARGUMENT);
     HOLDS(droplet_windshield_set(windshield, "hysteresis", -1.0) == DROPLET_INVALID_ARGUMENT);

@@ -141,6 +141,7 @@ DROPLET_API void droplet_windshield_delete(DropletWindshield* windshield);
 /// | film | m | at least 0 | thickness of the water that running droplets leave behind |
 /// | still-diameter | m | 0 to 2 mm | smaller raindrops never move |
 /// | mist | m/s | 0 to 1e-6 | growth of the mist's thickness, which ends at 10 µm |
+/// | splashes | 1 | 0 or 1 | 1: maps have the rings of large raindrops that have just hit |
 /// | glass-width | m | 0.05 to 5 | the glass |
 /// | glass-height | m | 0.05 to 5 | the glass |
 /// | glass-radius | m | 0.1 to 1e6 | the glass, bend across |
