@@ -38,9 +38,10 @@ MotionStep advance(const DropletForces& forces, Vec2 driving, Vec2 velocity, dou
     }
     const double m = forces.mass;
     const double x = forces.viscous * dt / m;
-    const double decay = std::exp(-x);
+    const double lost = -std::expm1(-x);
+    const double decay = 1.0 - lost;
     // Single and double integral of e^(−x s) over [0, 1].
-    const double once = x > 0.0 ? -std::expm1(-x) / x : 1.0;
+    const double once = x > 0.0 ? lost / x : 1.0;
     const double twice =
         x > 0.02 ? (1.0 - once) / x : 0.5 - x / 6.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0 * (1.0 - x / 6.0)));
     const Vec2 free = decay * velocity + (once * dt / m) * driving;
