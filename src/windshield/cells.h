@@ -38,12 +38,25 @@ struct Cells {
     {
         const double low = std::min(a.y, b.y) - radius;
         const double high = std::max(a.y, b.y) + radius;
-        if (high < 0.0 || low > static_cast<double>(rows) * width) {
+        const double leftmost = std::min(a.x, b.x) - radius;
+        const double rightmost = std::max(a.x, b.x) + radius;
+        if (high < 0.0 || low > static_cast<double>(rows) * width || rightmost < 0.0 ||
+            leftmost > static_cast<double>(columns) * width) {
             return;
         }
         const Vec2 along = b - a;
-        const double per_y = along.y != 0.0 ? 1.0 / along.y : 0.0;
         const std::uint32_t top = row(high);
+        if (std::abs(along.x) <= width) {
+            // A short segment crosses few cells; its rows differ too little to be told apart.
+            const std::uint32_t first = column(leftmost);
+            const std::uint32_t last = column(rightmost);
+            for (std::uint32_t r = row(low); r <= top; ++r) {
+                const std::size_t start = std::size_t{r} * columns;
+                visit(start + first, start + last);
+            }
+            return;
+        }
+        const double per_y = along.y != 0.0 ? 1.0 / along.y : 0.0;
         for (std::uint32_t r = row(low); r <= top; ++r) {
             double from = 0.0;
             double to = 1.0;

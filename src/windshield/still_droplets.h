@@ -83,11 +83,12 @@ template <class Visit>
 void visitNear(const StillCells& still, Vec2 a, Vec2 b, double radius, const Visit& visit)
 {
     // In units of places, from the corner of the glass.
-    const double scale = kPlaces / still.cell;
+    const Cells grid = still.grid();
+    const double scale = kPlaces * grid.per_metre;
     const Segment segment(scale * a, scale * b);
     constexpr double kHalfDiagonal = 0.7072;
     const double near = scale * radius * (1.0 + 1e-9) + kHalfDiagonal;
-    still.grid().visitAround(a, b, radius, [&](std::size_t first, std::size_t last) {
+    grid.visitAround(a, b, radius, [&](std::size_t first, std::size_t last) {
         // Signed numbers of 32 bits are converted fastest.
         const auto row = static_cast<std::uint32_t>(first) / still.columns;
         const auto column = static_cast<std::int32_t>(static_cast<std::uint32_t>(first) - row * still.columns);

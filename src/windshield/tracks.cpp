@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "windshield/tracks.h"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -78,8 +79,14 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> TrackCells::touchingPairs()
     // The difference of two uniform motions is a segment; its distance from the origin is the smallest distance.
     const auto meet = [this](std::uint32_t a, std::uint32_t b) {
         const double touching = tracks_.reach[a] + tracks_.reach[b];
-        return Segment(tracks_.from[a] - tracks_.from[b], tracks_.to[a] - tracks_.to[b]).squaredDistance({}) <=
-               touching * touching;
+        const Vec2 from = tracks_.from[a] - tracks_.from[b];
+        const Vec2 to = tracks_.to[a] - tracks_.to[b];
+        // Most pairs are apart along an axis all the time.
+        if (std::min(from.x, to.x) > touching || std::max(from.x, to.x) < -touching ||
+            std::min(from.y, to.y) > touching || std::max(from.y, to.y) < -touching) {
+            return false;
+        }
+        return Segment(from, to).squaredDistance({}) <= touching * touching;
     };
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
     for (std::size_t cell = 0; cell < cells_.count(); ++cell) {

@@ -386,11 +386,12 @@ private:
     void tearOff()
     {
         std::vector<Torn> torn;
-        double fastest = 0.0;
+        double fastest = 0.0;  // squared
         for (std::size_t i = 0; i < wind_.size(); ++i) {
-            fastest = std::max(fastest, sizeOf(wind_[i] - s_.droplets[i].velocity));
+            const Vec2 relative = wind_[i] - s_.droplets[i].velocity;
+            fastest = std::max(fastest, dot(relative, relative));
         }
-        const double least = stableVolume(fastest);
+        const double least = stableVolume(std::sqrt(fastest));
         for (std::uint32_t i = 0; i < wind_.size(); ++i) {
             if (s_.droplets[i].volume > least && wind_[i] != Vec2{}) {
                 if (Torn one = tornFrom(i); !one.parts.empty()) {
