@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Options that the page begins with, and those of every run.
-constexpr std::array<std::string_view, 29> kKnown{"--live",
+constexpr std::array<std::string_view, 30> kKnown{"--live",
                                                   "--preset",
                                                   "--rain",
                                                   "--mist",
