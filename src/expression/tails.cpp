@@ -18,8 +18,8 @@ namespace {
 /// Points of a skeleton.
 constexpr std::size_t kPoints = 12;
 
-/// Distance of a particle from the middle of its droplet, in radii of the droplet, from which on tails get shorter; they
-/// are gone at twice that. A row of three particles has 1.1, one of five 1.7. At 1.5 tails of torn sheets pop.
+/// Distance of a particle from the middle of its droplet, in radii of the droplet, from which on tails get shorter;
+/// they are gone at twice that. A row of three particles has 1.1, one of five 1.7. At 1.5 tails of torn sheets pop.
 constexpr double kCompact = 1.25;
 
 /// Length of a tail, in radii of its droplet, below which it is none.

@@ -296,8 +296,8 @@ private:
 
     static Vec2 placeOf(const LatticeShape& shape, std::size_t k)
     {
-        return shape.lower +
-               shape.step * Vec2{static_cast<double>(k % shape.columns), static_cast<double>(k / shape.columns)};
+        const std::size_t row = k / shape.columns;
+        return shape.lower + shape.step * Vec2{static_cast<double>(k % shape.columns), static_cast<double>(row)};
     }
 
     /// Averages values of cells with their neighbours, along both axes; those at the rim stay.

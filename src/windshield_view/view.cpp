@@ -355,8 +355,9 @@ struct DriversView::Content {
         const ViewTile& tile = scene.tiles[number];
         const auto columns = static_cast<std::size_t>(scene.tiles.columns());
         const float half = 0.5F * kTile;
-        const Vec3f ray = unit(eye.rayAt(static_cast<float>(number % columns) * kTile + half,
-                                         static_cast<float>(number / columns) * kTile + half));
+        const std::size_t row = number / columns;
+        const Vec3f ray = unit(
+            eye.rayAt(static_cast<float>(number % columns) * kTile + half, static_cast<float>(row) * kTile + half));
         const auto through = [&](Vec2f slope) {
             const Interface out = beyond({1.0F, slope}, tile, ray);
             const float scale = 1.0F / (std::max(out.transmitted.y, 1e-3F) * eye.tangent());
