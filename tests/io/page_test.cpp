@@ -91,7 +91,8 @@ TEST(Page, KeepsTheNoticesOfItsLicences)
 
 TEST(Page, StaysSmall)
 {
-    EXPECT_LT(page(content()).size(), 710'000U);
+    // Most of it is three.js; the player of `flow`, with three's BatchedMesh, takes 28 000 bytes.
+    EXPECT_LT(page(content()).size(), 745'000U);
 }
 
 TEST(Page, HoldsTheModelByteForByte)
