@@ -78,8 +78,9 @@ void declare(CommandLine& line, Liquid2dOptions& options)
              into(options.gravity, kGravity));
     line.add(kLiquid, "--surface-tension", "TENSION", "Surface tension instead of the scene's",
              into(options.surface_tension, kTension));
-    line.add(kLiquid, "--solver", "Method that finds the pressure: a grid, or particles alone by divergence-free SPH",
-             into(options.solver, {{"grid", droplet::PressureSolver::Grid}, {"dfsph", droplet::PressureSolver::Dfsph}}));
+    line.add(
+        kLiquid, "--solver", "Method that finds the pressure: a grid, or particles alone by divergence-free SPH",
+        into(options.solver, {{"grid", droplet::PressureSolver::Grid}, {"dfsph", droplet::PressureSolver::Dfsph}}));
     line.add(kLiquid, "--particles", "PATH",
              "Particles of another simulation, such as sim/%04d.vtp or a single file, instead of a scene: .csv, .vtk, "
              ".vtp, .vtu or .bgeo");
@@ -145,7 +146,8 @@ void readLiquid(const CommandLine& line, Liquid2dOptions& options)
     if (const auto particles = line.value("--particles")) {
         options.particles = particles->text;
         options.particle_files = NumberedPath::of(particles->text, "--particles");
-        for (const char* option : {"--particle-count", "--walls", "--gravity", "--surface-tension", "--solver", "--time"}) {
+        for (const char* option :
+             {"--particle-count", "--walls", "--gravity", "--surface-tension", "--solver", "--time"}) {
             if (line.value(option)) {
                 refuse(std::string(option) + " needs --scene, not --particles");
             }

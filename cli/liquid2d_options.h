@@ -34,9 +34,9 @@ struct Liquid2dOptions {
     std::optional<NumberedPath> mask_files;  ///< set unless masks go to standard output
     std::string scene = "splash";            ///< name of a preset, or path of a file
     std::optional<std::size_t> particle_count;
-    std::optional<std::string> walls;            ///< path of a mask
-    std::optional<double> gravity;               ///< [m/s²]
-    std::optional<double> surface_tension;       ///< [N/m]
+    std::optional<std::string> walls;       ///< path of a mask
+    std::optional<double> gravity;          ///< [m/s²]
+    std::optional<double> surface_tension;  ///< [N/m]
     droplet::PressureSolver solver = droplet::FluidOptions{}.solver;
     std::optional<std::string> particles;        ///< path or pattern of another simulation instead of a scene
     std::optional<NumberedPath> particle_files;  ///< set if `particles` is a pattern

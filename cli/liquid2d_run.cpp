@@ -143,7 +143,10 @@ public:
                                           [&](const auto& emitter) { return emitter.end > state_.time; });
         return state_.position.empty() && state_.counts.removed > 0 && !may_come;
     }
-    [[nodiscard]] double stepsPerFrame() const override { return 1.0 / (fps_ * droplet::longestStep(state_, scene_, fluid_options_)); }
+    [[nodiscard]] double stepsPerFrame() const override
+    {
+        return 1.0 / (fps_ * droplet::longestStep(state_, scene_, fluid_options_));
+    }
     [[nodiscard]] std::size_t frames() const override { return frames_; }
     [[nodiscard]] Vec2 size() const override { return scene_.size; }
     [[nodiscard]] std::vector<droplet::Region> walls() const override

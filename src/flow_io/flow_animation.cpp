@@ -58,7 +58,10 @@ DropletMesh partOf(const Surface& surface, const std::vector<Triangle>& triangle
 struct Shown {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;  ///< first frame without it
-    friend auto operator<=>(const Shown&, const Shown&) = default;
+    friend bool operator<(const Shown& a, const Shown& b)
+    {
+        return std::pair(a.begin, a.end) < std::pair(b.begin, b.end);
+    }
 };
 
 /// Adds a mesh that appears in one frame and vanishes in another; returns its node.

@@ -24,6 +24,7 @@
 #include "blocks.h"
 #include "grid_pressure.h"
 #include "grid_shape.h"
+#include "grid_viscosity.h"
 #include "kernel.h"
 #include "reorder.h"
 #include "wall_distance.h"
@@ -137,12 +138,7 @@ public:
             dt = std::min(
                 dt, 0.4 * std::sqrt(scene_.density * h * h * h / (2.0 * std::numbers::pi * scene_.surface_tension)));
         }
-        for (const Wall& wall : scene_.walls) {
-            if (wall.motion) {
-                dt = std::min(dt, wall.motion->period / 16.0);
-            }
-        }
-        return dt;
+        return std::min(dt, walls_.longestStep(state.time));
     }
 
     void step(FluidState& state, double dt) override
@@ -453,29 +449,19 @@ private:
         }
     }
 
-    /// Viscosity, explicitly, in as many parts as are stable.
     void diffuse(double viscosity)
     {
-        const double rate = viscosity * dt_ / (grid_.cell * grid_.cell);
-        const int parts = static_cast<int>(std::min(std::ceil(rate / 0.2), 1000.0));
-        for (int part = 0; part < parts; ++part) {
-            for (Sides* sides : {&u_, &v_}) {
-                const std::vector<double> before = sides->value;
-                const std::size_t columns = sides->shape.columns;
-                for (std::size_t k = columns; k + columns < before.size(); ++k) {
-                    if (sides->known[k] == 0) {
-                        continue;
-                    }
-                    double change = 0.0;
-                    for (const std::size_t other : {k - 1, k + 1, k - columns, k + columns}) {
-                        if (sides->known[other] != 0) {
-                            change += before[other] - before[k];
-                        }
-                    }
-                    sides->value[k] += rate / parts * change;
-                }
+        const auto met = [](const Sides& sides) {
+            std::vector<std::uint8_t> has(sides.value.size());
+            for (std::size_t k = 0; k < has.size(); ++k) {
+                has[k] = sides.open[k] > 0.0 && sides.weight[k] > kLeastWeight ? 1 : 0;
             }
-        }
+            return has;
+        };
+        const std::vector<std::uint8_t> has_across = met(u_);
+        const std::vector<std::uint8_t> has_up = met(v_);
+        applyViscosity(grid_, viscosity * dt_ / (grid_.cell * grid_.cell),
+                       {u_.value, v_.value, has_across, has_up, filled_});
     }
 
     /// Curvature of the surface at the cells' middles, for surface tension.
@@ -847,8 +833,8 @@ private:
                  [&](std::size_t begin, std::size_t end) {
                      Block result;
                      for (std::size_t i = begin; i < end; ++i) {
-                         moveOne(state, density, i);
-                         result.rescued += keepOutOfWalls(state, i) ? 1 : 0;
+                         const bool is_rescued = flies_[i] != 0 ? fly(state, i) : flow(state, density, i);
+                         result.rescued += is_rescued ? 1 : 0;
                          if (flies_[i] == 0) {
                              result.fastest = std::max(result.fastest, dot(state.velocity[i], state.velocity[i]));
                          }
@@ -863,16 +849,28 @@ private:
         fastest_ = 0.0;
     }
 
-    void moveOne(FluidState& state, const std::vector<double>& density, std::size_t i) const
+    /// Moves a particle that flies, in parts of half a cell, so that it meets walls; returns whether one stopped it.
+    [[nodiscard]] bool fly(FluidState& state, std::size_t i) const
+    {
+        state.affine[i] = {};
+        state.pressure[i] = 0.0;
+        state.density[i] = 0.0;
+        constexpr double kMostParts = 1000.0;
+        const double parts = std::clamp(std::ceil(2.0 * length(state.velocity[i]) * dt_ / grid_.cell), 1.0, kMostParts);
+        bool is_rescued = false;
+        for (double part = 0.5; part < parts; part += 1.0) {
+            // The velocity is that at the end of the step.
+            const Vec2 mean = state.velocity[i] - (dt_ * (1.0 - part / parts)) * acceleration_[i];
+            state.position[i] = state.position[i] + (dt_ / parts) * mean;
+            is_rescued = keepOutOfWalls(state, i) || is_rescued;
+        }
+        return is_rescued;
+    }
+
+    /// Moves a particle with the liquid; returns whether it came into a wall.
+    [[nodiscard]] bool flow(FluidState& state, const std::vector<double>& density, std::size_t i) const
     {
         const Vec2 x = state.position[i];
-        if (flies_[i] != 0) {
-            state.position[i] = x + dt_ * (state.velocity[i] - (0.5 * dt_) * acceleration_[i]);
-            state.affine[i] = {};
-            state.pressure[i] = 0.0;
-            state.density[i] = 0.0;
-            return;
-        }
         const Bilinear across = Bilinear::of(u_.shape, x);
         const Bilinear up = Bilinear::of(v_.shape, x);
         const Vec2 v{across.in(u_.value, u_.shape.columns), up.in(v_.value, v_.shape.columns)};
@@ -888,6 +886,7 @@ private:
         const Vec2 third = velocityAt(x + (0.75 * dt_) * second);
         const Vec2 apart{across.in(across_, u_.shape.columns), up.in(up_, v_.shape.columns)};
         state.position[i] = x + (dt_ / 9.0) * (2.0 * v + 3.0 * second + 4.0 * third) + apart + shift_[i];
+        return keepOutOfWalls(state, i);
     }
 
     /// Puts a particle back that came into a wall.

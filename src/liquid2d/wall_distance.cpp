@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "droplet/liquid2d/fluid.h"
@@ -12,6 +13,12 @@
 
 namespace droplet {
 namespace {
+
+/// Thickness of walls that is told from greater ones, in cells.
+constexpr double kThickest = 8.0;
+
+/// Part of a wall's thickness that it may go in a step: liquid is put back to the nearer side.
+constexpr double kWay = 0.35;
 
 /// Whether places lie in a region, for many places.
 class Inside {
@@ -81,16 +88,43 @@ WallDistance::WallDistance(const FluidScene& scene, double cell) : scene_(scene)
     for (const Wall& wall : scene.walls) {
         std::vector<std::uint8_t>& thin = thin_.emplace_back();
         const Inside inside(wall.region);
+        double thickness = kThickest;  // in cells
+        double reach = 0.0;
         for (const std::vector<Vec2>& loop : wall.region.loops) {
             const double side = isInsideOnLeft(wall.region, loop) ? 1.0 : -1.0;
             for (std::size_t i = 0; i < loop.size(); ++i) {
                 const Vec2 along = loop[(i + 1) % loop.size()] - loop[i];
                 const double size = length(along);
                 const Vec2 into = size > 0.0 ? (side * cell / size) * Vec2{-along.y, along.x} : Vec2{};
-                thin.push_back(inside(loop[i] + 0.5 * along + into) ? 0 : 1);
+                const Vec2 middle = loop[i] + 0.5 * along;
+                thin.push_back(inside(middle + into) ? 0 : 1);
+                while (thickness > 1.0 && !inside(middle + thickness * into)) {
+                    thickness *= 0.5;
+                }
+                reach = wall.motion ? std::max(reach, length(loop[i] - wall.motion->pivot)) : 0.0;
             }
         }
+        if (wall.motion) {
+            moving_.push_back({&*wall.motion, reach, kWay * thickness * cell});
+        }
     }
+}
+
+double WallDistance::longestStep(double time) const
+{
+    double step = std::numeric_limits<double>::max();
+    for (const auto& [motion, reach, way] : moving_) {
+        const WallPose pose = poseAt(*motion, time);
+        const double speed = length(pose.shift_velocity) + std::abs(pose.angle_velocity) * reach;
+        // The fade adds up to a half to the greatest acceleration.
+        const double rate = 2.0 * std::numbers::pi / motion->period;
+        const double acceleration = 1.5 * rate * rate * (length(motion->amplitude) + std::abs(motion->swing) * reach);
+        if (speed > 0.0 || acceleration > 0.0) {
+            // speed t + acceleration t²/2 = way
+            step = std::min(step, 2.0 * way / (speed + std::sqrt(speed * speed + 2.0 * acceleration * way)));
+        }
+    }
+    return step;
 }
 
 WallField WallDistance::at(double time, const GridShape& grid) const

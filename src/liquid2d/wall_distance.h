@@ -29,12 +29,20 @@ public:
 
     /// Distances at a time.
     [[nodiscard]] WallField at(double time, const GridShape& grid) const;
+    /// Longest step from a time in which no wall goes so far that liquid comes nearer to its other side [s].
+    [[nodiscard]] double longestStep(double time) const;
     /// Velocity of a wall's matter at a place [m/s].
     [[nodiscard]] Vec2 velocity(const WallField& field, std::uint32_t wall, Vec2 place) const;
 
 private:
     const FluidScene& scene_;
+    struct Moving {
+        const WallMotion* motion = nullptr;
+        double reach = 0.0;  ///< of its corners from the pivot [m]
+        double way = 0.0;    ///< that it may go in a step [m]
+    };
     std::vector<std::vector<std::uint8_t>> thin_;  ///< of each wall: whether each side has a thin wall behind it
+    std::vector<Moving> moving_;
 };
 
 }  // namespace droplet

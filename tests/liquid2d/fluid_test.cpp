@@ -190,6 +190,64 @@ TEST(Fluid, LiquidOnAGridKeepsItsArea)
     EXPECT_NEAR(late, early, 0.005 * level);
 }
 
+/// A thin wall that goes fast: in steps of frames it would pass through the liquid.
+TEST(Fluid, LiquidStaysOnItsSideOfAWallThatMovesFast)
+{
+    FluidScene scene = tank(2.0, 0.6, 0.02);
+    scene.liquid = {{droplet::rectangle({0.0, 0.0}, {0.9, 0.5}), {}, 0.0}};
+    scene.walls.push_back(
+        {droplet::rectangle({0.97, -0.2}, {1.03, 3.0}), droplet::WallMotion{{0.3, 0.0}, 0.0, {}, 1.0, 0.0, 0.0}, true});
+    FluidOptions options;
+    options.solver = PressureSolver::Grid;
+    FluidState state = startFluid(scene);
+    for (int frame = 1; frame <= 25; ++frame) {
+        state = advanceFluid(std::move(state), scene, 0.1 * frame, options);
+        const double face = wallAt(scene.walls.back(), state.time).loops.front()[0].x;
+        for (const Vec2 x : state.position) {
+            EXPECT_LT(x.x, face + 0.5 * scene.spacing);
+        }
+    }
+}
+
+/// Viscosity takes no part of a rigid motion, and all of a shear if it is large.
+TEST(Fluid, ViscosityOnAGridTakesShearAndLeavesTurnsAndFalls)
+{
+    FluidScene scene = weightless(0.01);
+    scene.gravity = {0.0, -kGravity};
+    scene.liquid = {{droplet::circle({1.0, 1.0}, 0.2), {0.3, 0.5}, 2.0}};
+    scene.viscosity = 1e3;
+    FluidOptions options;
+    options.solver = PressureSolver::Grid;
+    options.courant = 0.5;
+    constexpr double kTime = 0.1;
+    const FluidState start = startFluid(scene);
+    const FluidState state = advanceFluid(start, scene, kTime, options);
+    const auto count = static_cast<double>(start.position.size());
+    // The masses of the sides are those of the smoothed density, not quite those of the particles.
+    EXPECT_NEAR(momentum(state).x / count, 0.3, 5e-3);
+    EXPECT_NEAR(momentum(state).y / count, 0.5 - kGravity * kTime, 5e-3);
+    Vec2 centre;
+    for (const Vec2 x : state.position) {
+        centre = centre + (1.0 / count) * x;
+    }
+    double inertia = 0.0;
+    double turning = 0.0;
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        const Vec2 arm = state.position[i] - centre;
+        inertia += dot(arm, arm);
+        turning += cross(arm, state.velocity[i]);
+    }
+    const double spin = turning / inertia;
+    EXPECT_NEAR(spin, 2.0, 0.1);
+    double strain = 0.0;
+    for (std::size_t i = 0; i < state.position.size(); ++i) {
+        const Vec2 arm = state.position[i] - centre;
+        const Vec2 rigid = (1.0 / count) * momentum(state) + spin * Vec2{-arm.y, arm.x};
+        strain = std::max(strain, length(state.velocity[i] - rigid));
+    }
+    EXPECT_LT(strain, 0.02);
+}
+
 TEST(Fluid, PlateThinnerThanACellOfTheGridHoldsLiquid)
 {
     FluidScene scene = tank(1.0, 0.5, 0.02);
