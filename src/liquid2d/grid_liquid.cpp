@@ -894,8 +894,9 @@ private:
     {
         const double clearance = kClearance * scene_.spacing;
         bool is_rescued = false;
-        // Twice, because out of one wall may lead into another one.
-        for (int round = 0; round < 2; ++round) {
+        // Out of one wall may lead into another one; in a corner the way is halved each time.
+        constexpr int kRounds = 8;
+        for (int round = 0; round < kRounds; ++round) {
             const Vec2 x = state.position[i];
             const Bilinear at = Bilinear::of(corners_, x);
             const double distance = at.in(field_.distance, corners_.columns);
