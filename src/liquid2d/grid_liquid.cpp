@@ -856,11 +856,12 @@ private:
         state.pressure[i] = 0.0;
         state.density[i] = 0.0;
         constexpr double kMostParts = 1000.0;
-        const double parts = std::clamp(std::ceil(2.0 * length(state.velocity[i]) * dt_ / grid_.cell), 1.0, kMostParts);
+        const int parts = static_cast<int>(
+            std::clamp(std::ceil(2.0 * length(state.velocity[i]) * dt_ / grid_.cell), 1.0, kMostParts));
         bool is_rescued = false;
-        for (double part = 0.5; part < parts; part += 1.0) {
+        for (int part = 0; part < parts; ++part) {
             // The velocity is that at the end of the step.
-            const Vec2 mean = state.velocity[i] - (dt_ * (1.0 - part / parts)) * acceleration_[i];
+            const Vec2 mean = state.velocity[i] - (dt_ * (1.0 - (part + 0.5) / parts)) * acceleration_[i];
             state.position[i] = state.position[i] + (dt_ / parts) * mean;
             is_rescued = keepOutOfWalls(state, i) || is_rescued;
         }

@@ -20,7 +20,7 @@ constexpr double kLeastMass = 0.05;
 /// Unknown velocities, and the quadratic form of them.
 class Form {
 public:
-    Form(const GridShape& grid, double rate, const ViscousSides& sides) : grid_(grid), rate_(rate), sides_(sides)
+    Form(const GridShape& grid, double rate, const ViscousSides& sides) : rate_(rate), sides_(sides)
     {
         across_ = numbersOf(sides.has_across);
         up_ = numbersOf(sides.has_up);
@@ -107,7 +107,6 @@ private:
         }
     }
 
-    const GridShape& grid_;
     double rate_;
     const ViscousSides& sides_;
     std::vector<int> across_;
