@@ -20,6 +20,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "blocks.h"
 #include "grid_pressure.h"
@@ -155,11 +156,13 @@ public:
         findSurface();
         u_.before = u_.value;
         v_.before = v_.value;
-        project(state);
+        // Pressures and displacements that mend the density have the same equations.
+        const GridEquations whole = join(std::vector<std::uint8_t>(grid_.cells(), 0));
+        project(state, whole);
         extend(u_);
         extend(v_);
         restrainAtWalls();
-        spread(state);
+        spread(state, whole);
         shift(state);
         move(state);
     }
@@ -198,11 +201,11 @@ private:
         grid_.columns = static_cast<std::size_t>(std::floor(upper.x / h) - left) + 1 + kPad;
         grid_.rows = static_cast<std::size_t>(std::floor(upper.y / h) - bottom) + 1 + kPad;
         const std::size_t count = state.position.size();
-        std::vector<std::uint32_t> cell(count);
+        cell_.resize(count);
         begin_.assign(grid_.cells() + 1, 0);
         for (std::size_t i = 0; i < count; ++i) {
-            cell[i] = static_cast<std::uint32_t>(cellOf(state.position[i]));
-            ++begin_[cell[i] + 1];
+            cell_[i] = static_cast<std::uint32_t>(cellOf(state.position[i]));
+            ++begin_[cell_[i] + 1];
         }
         for (std::size_t k = 0; k < grid_.cells(); ++k) {
             begin_[k + 1] += begin_[k];
@@ -210,7 +213,7 @@ private:
         std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
         std::vector<std::uint32_t> order(count);
         for (std::uint32_t i = 0; i < count; ++i) {
-            order[next[cell[i]]++] = i;
+            order[next[cell_[i]]++] = i;
         }
         reorder(state.position, order);
         reorder(state.velocity, order);
@@ -218,7 +221,7 @@ private:
         reorder(state.id, order);
         reorder(state.pressure, order);
         reorder(acceleration_, order);
-        cell_.resize(count);
+        reorder(cell_, order);
         flies_.resize(count);
         for (std::size_t k = 0; k < grid_.cells(); ++k) {
             if (begin_[k] == begin_[k + 1]) {
@@ -229,7 +232,6 @@ private:
                 near += begin_[row + 2] - begin_[row - 1];
             }
             for (std::uint32_t i = begin_[k]; i < begin_[k + 1]; ++i) {
-                cell_[i] = static_cast<std::uint32_t>(k);
                 flies_[i] = near < kFlying ? 1 : 0;
             }
         }
@@ -402,6 +404,7 @@ private:
             });
             kind_[k] = is_beside ? Cell::Fringe : Cell::Flying;
         }
+        std::vector<std::size_t> enclosed;
         for (std::size_t k = grid_.columns + 1; k + grid_.columns + 1 < cells; ++k) {
             if (kind_[k] == Cell::Fringe) {
                 bool is_closed = true;
@@ -409,15 +412,14 @@ private:
                     is_closed = is_closed && (sides.open[s] == 0.0 || kind_[other] == Cell::Liquid);
                 });
                 if (is_closed) {
-                    enclosed_.push_back(k);
+                    enclosed.push_back(k);
                 }
             }
         }
-        for (const std::size_t k : enclosed_) {
+        for (const std::size_t k : enclosed) {
             kind_[k] = Cell::Liquid;
             filled_[k] = std::max(filled_[k], 0.5);
         }
-        enclosed_.clear();
         for (std::size_t k = 0; k < cells; ++k) {
             if (kind_[k] == Cell::Liquid) {
                 liquid_.push_back(k);
@@ -508,30 +510,38 @@ private:
         return std::clamp(part, kLeastPart, 1.0);
     }
 
+    /// Curvature of the surface between a liquid cell and another one.
+    [[nodiscard]] double curvatureAt(std::size_t liquid, std::size_t other, double part) const
+    {
+        return (1.0 - part) * curvature_[liquid] + part * curvature_[other];
+    }
+
     /// Takes from the velocities what would compress liquid.
-    void project(FluidState& state)
+    /// @param whole  equations of all liquid cells
+    void project(FluidState& state, const GridEquations& whole)
     {
         const double h = grid_.cell;
         const double capillary = scene_.surface_tension / scene_.density * dt_ / h;  // of pressures below
         std::vector<double> pressure(grid_.cells(), 0.0);                            // times dt/(density h) [m/s]
-        for (const std::size_t k : liquid_) {
-            pressure[k] = 0.0;
-        }
         guess(state, pressure);
         std::vector<std::uint8_t> free(grid_.cells(), 0);
+        std::optional<GridEquations> rest;  // without these cells
         constexpr int kRounds = 3;
         for (int round = 0; round < kRounds; ++round) {
+            const GridEquations& equations = round == 0 ? whole : rest.emplace(join(free));
             std::vector<double> rhs(grid_.cells(), 0.0);
             double flow = 0.0;
-            GridEquations equations = join(free, [&](std::size_t k, std::size_t other, double w, double part) {
-                const double curvature = (1.0 - part) * curvature_[k] + part * curvature_[other];
-                rhs[k] += w / part * capillary * curvature;
-            });
             for (const std::size_t k : liquid_) {
                 if (free[k] != 0) {
                     pressure[k] = 0.0;
                     continue;
                 }
+                forSides(k, [&](const Sides& sides, std::size_t other, std::size_t s, double) {
+                    if (sides.open[s] > 0.0 && kind_[other] != Cell::Liquid) {
+                        const double part = partTo(k, other);
+                        rhs[k] += sides.open[s] / part * capillary * curvatureAt(k, other, part);
+                    }
+                });
                 forSides(k, [&](const Sides& sides, std::size_t, std::size_t s, double sign) {
                     const double w = sides.open[s];
                     if (w > 0.0) {
@@ -586,10 +596,8 @@ private:
     }
 
     /// Equations of the liquid cells.
-    /// @param free     cells in which the pressure is 0
-    /// @param surface  takes (liquid cell, cell beyond the surface, open part of the side, part of the way)
-    template <typename Surface>
-    [[nodiscard]] GridEquations join(const std::vector<std::uint8_t>& free, const Surface& surface)
+    /// @param free  cells in which the pressure is 0
+    [[nodiscard]] GridEquations join(const std::vector<std::uint8_t>& free)
     {
         GridEquations equations(grid_);
         for (const std::size_t k : liquid_) {
@@ -603,9 +611,7 @@ private:
                     return;
                 }
                 if (kind_[other] != Cell::Liquid) {
-                    const double part = partTo(k, other);
-                    equations.hold(k, w / part);
-                    surface(k, other, w, part);
+                    equations.hold(k, w / partTo(k, other));
                 } else if (free[other] != 0) {
                     equations.hold(k, w);
                 } else if (sign > 0.0) {
@@ -631,7 +637,7 @@ private:
                     value += potential[k] - potential[other];
                 } else {
                     const double part = free[k] != 0 ? 1.0 : partTo(k, other);
-                    const double beyond = capillary * ((1.0 - part) * curvature_[k] + part * curvature_[other]);
+                    const double beyond = capillary * curvatureAt(k, other, part);
                     value += sign * (potential[k] - (free[k] != 0 ? 0.0 : beyond)) / part;
                 }
             });
@@ -727,7 +733,8 @@ private:
     }
 
     /// Finds displacements of the sides that mend the density.
-    void spread(FluidState& state)
+    /// @param equations  of all liquid cells
+    void spread(FluidState& state, const GridEquations& equations)
     {
         const double h = grid_.cell;
         std::vector<double> rhs(grid_.cells(), 0.0);
@@ -742,14 +749,12 @@ private:
             rhs[k] = h * std::clamp(density - 1.0, is_inside ? -kMostGap : 0.0, kMostCompression);
         }
         state.density_error = mean / std::max(static_cast<double>(liquid_.size()), 1.0);
-        const std::vector<std::uint8_t> none(grid_.cells(), 0);
-        const GridEquations equations = join(none, [](std::size_t, std::size_t, double, double) {});
         std::vector<double> potential(grid_.cells(), 0.0);
         const auto solved = equations.solve(rhs, potential, 1e-3 * h);
         state.counts.density_iterations += static_cast<std::uint64_t>(solved.iterations);
         across_.assign(u_.value.size(), 0.0);
         up_.assign(v_.value.size(), 0.0);
-        changeSides(across_, up_, potential, none, 0.0);
+        changeSides(across_, up_, potential, std::vector<std::uint8_t>(grid_.cells(), 0), 0.0);
         extend(across_, u_.solved, u_.shape.columns);
         extend(up_, v_.solved, v_.shape.columns);
     }
@@ -828,6 +833,7 @@ private:
             double fastest = 0.0;
             std::uint64_t rescued = 0;
         };
+        double fastest = 0.0;
         for (const Block& block : mapBlocks<Block>(
                  count,
                  [&](std::size_t begin, std::size_t end) {
@@ -842,11 +848,10 @@ private:
                      return result;
                  },
                  kParticlesPerBlock)) {
-            fastest_ = std::max(fastest_, block.fastest);
+            fastest = std::max(fastest, block.fastest);
             state.counts.rescued += block.rescued;
         }
-        state.approach_speed = std::sqrt(fastest_);
-        fastest_ = 0.0;
+        state.approach_speed = std::sqrt(fastest);
     }
 
     /// Moves a particle that flies, in parts of half a cell, so that it meets walls; returns whether one stopped it.
@@ -940,7 +945,6 @@ private:
     std::vector<double> pressure_;      ///< over the density [m²/s²]
     std::vector<Cell> kind_;
     std::vector<std::size_t> liquid_;  ///< liquid cells
-    std::vector<std::size_t> enclosed_;
     std::vector<double> scratch_;
     // Of particles:
     std::vector<Vec2> acceleration_;
@@ -950,7 +954,6 @@ private:
     // Of sides: displacements that mend the density [m]
     std::vector<double> across_;
     std::vector<double> up_;
-    double fastest_ = 0.0;
 };
 
 }  // namespace
