@@ -19,7 +19,6 @@
 #include "content_hash.h"
 #include "droplet/error.h"
 #include "droplet/io/animation.h"
-#include "droplet/io/page.h"
 #include "droplet/render/contact_sheet.h"
 #include "droplet/render/render.h"
 #include "droplet/sequence/sequence_report.h"
@@ -27,6 +26,7 @@
 #include "droplet_report.h"
 #include "files.h"
 #include "film.h"
+#include "html_page.h"
 #include "mask_shape.h"
 #include "progress_display.h"
 #include "shape_command.h"
@@ -487,18 +487,10 @@ private:
 
     void writeHtml(std::ostream& out)
     {
-        droplet::PageContent page;
-        page.title = std::filesystem::path(isStream(*options_.html) || options_.files ? options_.inputs.front()
-                                                                                      : options_.output)
-                         .stem()
-                         .string();
-        std::ostringstream glb;
-        animation_->write(glb);
-        page.glb = std::move(glb).str();
-        std::ostringstream json;
-        writeSequenceReport(json, report_);
-        page.report = std::move(json).str();
-        droplet::writePage(out, page);
+        const bool has_name = !isStream(*options_.html) && !options_.files;
+        writeHtmlPage(out, {std::filesystem::path(has_name ? options_.output : options_.inputs.front()).stem().string(),
+                            [&](std::ostream& model) { animation_->write(model); },
+                            [&](std::ostream& report) { writeSequenceReport(report, report_); }});
     }
 
     void finish()

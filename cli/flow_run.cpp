@@ -12,7 +12,6 @@
 #include <optional>
 #include <ostream>
 #include <span>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,12 +23,12 @@
 #include "droplet/flow_io/flow_table.h"
 #include "droplet/flow_io/streak_ribbons.h"
 #include "droplet/flow_io/wet_maps.h"
-#include "droplet/io/page.h"
 #include "droplet_report.h"
 #include "files.h"
 #include "film.h"
 #include "flow_files.h"
 #include "flow_plan.h"
+#include "html_page.h"
 #include "object_options.h"
 #include "option_values.h"
 #include "stage_clock.h"
@@ -390,17 +389,10 @@ void FlowRun::showStreaks()
 void FlowRun::writeHtml(std::ostream& out)
 {
     showStreaks();
-    droplet::PageContent page;
-    page.title = std::filesystem::path(isStream(*options_.html) || options_.files ? report_.input : options_.output)
-                     .stem()
-                     .string();
-    std::ostringstream glb;
-    animation_->write(glb);
-    page.glb = std::move(glb).str();
-    std::ostringstream json;
-    writeFlowReport(json, report_);
-    page.report = std::move(json).str();
-    droplet::writePage(out, page);
+    const bool has_name = !isStream(*options_.html) && !options_.files;
+    writeHtmlPage(out, {std::filesystem::path(has_name ? options_.output : report_.input).stem().string(),
+                        [&](std::ostream& model) { animation_->write(model); },
+                        [&](std::ostream& report) { writeFlowReport(report, report_); }});
 }
 
 void FlowRun::warnOfLostVolume()

@@ -23,12 +23,12 @@
 #include "droplet/error.h"
 #include "droplet/io/evolver.h"
 #include "droplet/io/gltf.h"
-#include "droplet/io/page.h"
 #include "droplet/surface/onto.h"
 #include "droplet/units.h"
 #include "droplet_report.h"
 #include "file_droplets.h"
 #include "files.h"
+#include "html_page.h"
 #include "library_message.h"
 #include "mask_shape.h"
 #include "picture_watch.h"
@@ -116,23 +116,19 @@ struct Extras {
 void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOptions& options, const Extras& extras,
                const droplet::Report& report)
 {
-    droplet::PageContent page;
-    if (report.input.type && report.input.type->text) {
-        page.title = *report.input.type->text;
-    } else {
-        page.title = isStream(options.input) ? "droplet" : std::filesystem::path(options.input).stem().string();
-    }
-    std::ostringstream glb;
-    droplet::writeGltf(surface, glb,
-                       {.material = options.settings.material,
-                        .closed = report.output.topology.closed,
-                        .droplets = extras.droplets,
-                        .texture = extras.texture});
-    page.glb = std::move(glb).str();
-    std::ostringstream json;
-    droplet::writeReport(json, report);
-    page.report = std::move(json).str();
-    droplet::writePage(out, page);
+    const bool is_text = report.input.type && report.input.type->text;
+    const auto name = [&] {
+        return isStream(options.input) ? "droplet" : std::filesystem::path(options.input).stem().string();
+    };
+    writeHtmlPage(out, {is_text ? *report.input.type->text : name(),
+                        [&](std::ostream& model) {
+                            droplet::writeGltf(surface, model,
+                                               {.material = options.settings.material,
+                                                .closed = report.output.topology.closed,
+                                                .droplets = extras.droplets,
+                                                .texture = extras.texture});
+                        },
+                        [&](std::ostream& json) { droplet::writeReport(json, report); }});
 }
 
 /// Subject of the preview.
