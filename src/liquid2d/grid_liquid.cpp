@@ -147,7 +147,7 @@ public:
         dt_ = dt;
         accelerate(state);
         sort(state);
-        placeWalls(state.time + dt);
+        placeWalls(state.time);
         collect(state);
         classify();
         if (scene_.viscosity.value_or(0.0) > 0.0) {
@@ -163,6 +163,9 @@ public:
         extend(v_);
         restrainAtWalls();
         spread(state, whole);
+        if (walls_.areMoving()) {
+            field_ = walls_.at(state.time + dt, grid_);
+        }
         shift(state);
         move(state);
     }
@@ -250,13 +253,16 @@ private:
     /// Open parts of the cells' sides, and the part of cells that walls take, smoothed as the liquid's density.
     void placeWalls(double time)
     {
+        // Liquid lies beside the walls as they are at the start, and goes the way that they go in the step.
         field_ = walls_.at(time, grid_);
+        field_.poses = walls_.posesAt(time + 0.5 * dt_);
         const std::size_t corner_columns = grid_.cornerColumns();
         const double h = grid_.cell;
-        // Velocity of the nearest wall at the middle of a side.
+        // Velocity of the wall at the middle of a side; of two walls, of that which is nearer to liquid.
         const auto velocity = [&](std::size_t a, std::size_t b, Vec2 place) {
-            const std::size_t nearer = field_.distance[a] <= field_.distance[b] ? a : b;
-            return walls_.velocity(field_, field_.wall[nearer], place);
+            const bool is_closed = std::max(field_.distance[a], field_.distance[b]) <= 0.0;
+            const bool is_a_less = field_.distance[a] <= field_.distance[b];
+            return walls_.velocity(field_, field_.wall[is_a_less == is_closed ? b : a], place);
         };
         for (std::size_t row = 0; row < grid_.rows; ++row) {
             for (std::size_t column = 0; column <= grid_.columns; ++column) {
@@ -287,6 +293,10 @@ private:
                             field_.distance[a + corner_columns + 1]);
                 solid_[grid_.at(column, row)] = std::clamp(0.5 - middle / h, 0.0, 1.0);
             }
+        }
+        room_.resize(grid_.cells());
+        for (std::size_t k = 0; k < room_.size(); ++k) {
+            room_[k] = 1.0 - solid_[k];
         }
         // The integral of a hat function over its cell is 3/4, over the next ones 1/8.
         smooth(solid_, 0.125, 0.75);
@@ -394,6 +404,7 @@ private:
                 kind_[k] = Cell::Liquid;
             }
         }
+        floodRims();
         for (std::size_t k = grid_.columns + 1; k + grid_.columns + 1 < cells; ++k) {
             if (kind_[k] == Cell::Liquid || begin_[k] == begin_[k + 1] || flies_[begin_[k]] != 0) {
                 continue;
@@ -436,6 +447,38 @@ private:
             for (std::size_t column = 1; column + 1 < grid_.columns; ++column) {
                 const std::size_t k = grid_.at(column, row);
                 mark(v_, row * v_.shape.columns + column, k - grid_.columns, k);
+            }
+        }
+    }
+
+    /// Cells that are mostly wall may have no room for a particle: they are liquid if the next one is. Air there would
+    /// let liquid flow into the wall.
+    void floodRims()
+    {
+        std::vector<std::pair<std::size_t, std::size_t>> flooded;  // and the next ones
+        // In a corner of walls the next one is such a cell, too.
+        constexpr int kRounds = 2;
+        for (int round = 0; round < kRounds; ++round) {
+            flooded.clear();
+            for (std::size_t k = grid_.columns + 1; k + grid_.columns + 1 < grid_.cells(); ++k) {
+                if (kind_[k] == Cell::Liquid || !(room_[k] < 0.5)) {
+                    continue;
+                }
+                double widest = 0.0;
+                std::size_t next = k;
+                forSides(k, [&](const Sides& sides, std::size_t other, std::size_t s, double) {
+                    if (sides.open[s] > widest) {
+                        widest = sides.open[s];
+                        next = other;
+                    }
+                });
+                if (kind_[next] == Cell::Liquid) {
+                    flooded.emplace_back(k, next);
+                }
+            }
+            for (const auto& [k, next] : flooded) {
+                kind_[k] = Cell::Liquid;
+                filled_[k] = filled_[next];
             }
         }
     }
@@ -543,12 +586,13 @@ private:
                     }
                 });
                 forSides(k, [&](const Sides& sides, std::size_t, std::size_t s, double sign) {
-                    const double w = sides.open[s];
-                    if (w > 0.0) {
-                        rhs[k] -= sign * w * (sides.value[s] - sides.wall[s]);
+                    if (const double w = sides.open[s]; w > 0.0) {
+                        rhs[k] -= sign * w * sides.value[s];
                         flow = std::max(flow, std::abs(sides.value[s]));
                     }
                 });
+                const std::size_t right = k + k / grid_.columns;
+                rhs[k] += swept(u_, right, right + 1) + swept(v_, k, k + grid_.columns);
             }
             const auto solved = equations.solve(rhs, pressure, kTolerance * flow);
             state.counts.divergence_iterations += static_cast<std::uint64_t>(solved.iterations);
@@ -580,6 +624,13 @@ private:
         for (double& p : pressure_) {
             p *= h / dt_;
         }
+    }
+
+    /// What a wall sweeps between two opposite sides of a cell: its velocity is that at the side it closes more.
+    static double swept(const Sides& sides, std::size_t low, std::size_t high)
+    {
+        const double wall = sides.open[low] < sides.open[high] ? sides.wall[low] : sides.wall[high];
+        return wall * (sides.open[high] - sides.open[low]);
     }
 
     /// First guess: pressures that the particles had.
@@ -933,13 +984,14 @@ private:
     GridShape grid_;
     LatticeShape middles_;
     LatticeShape corners_;
-    Sides u_;  ///< across
-    Sides v_;  ///< up
-    WallField field_;
+    Sides u_;          ///< across
+    Sides v_;          ///< up
+    WallField field_;  ///< at the start of a step, and at its end when particles move
     // Of cells:
     std::vector<std::uint32_t> begin_;  ///< their first particles
     std::vector<double> density_;       ///< of liquid, relative to that at rest
     std::vector<double> solid_;         ///< part that walls take, smoothed likewise
+    std::vector<double> room_;          ///< part outside of walls
     std::vector<double> filled_;        ///< density over what walls leave free
     std::vector<double> curvature_;     ///< of the surface [1/m]
     std::vector<double> pressure_;      ///< over the density [m²/s²]

@@ -127,19 +127,28 @@ double WallDistance::longestStep(double time) const
     return step;
 }
 
+std::vector<WallPose> WallDistance::posesAt(double time) const
+{
+    std::vector<WallPose> poses;
+    for (const Wall& wall : scene_.walls) {
+        poses.push_back(wall.motion ? poseAt(*wall.motion, time) : WallPose{});
+    }
+    return poses;
+}
+
 WallField WallDistance::at(double time, const GridShape& grid) const
 {
     const double reach = kReach * grid.cell;
     const std::size_t columns = grid.cornerColumns();
     const std::size_t rows = grid.rows + 1;
     WallField field;
+    field.poses = posesAt(time);
     field.distance.assign(grid.corners(), reach);
     field.wall.assign(grid.corners(), 0);
     std::vector<double> near;
     std::vector<double> crossed;
     for (std::uint32_t w = 0; w < scene_.walls.size(); ++w) {
         const Wall& wall = scene_.walls[w];
-        field.poses.push_back(wall.motion ? poseAt(*wall.motion, time) : WallPose{});
         const Region region = wallAt(wall, time);
         near.assign(grid.corners(), reach);
         std::size_t number = 0;

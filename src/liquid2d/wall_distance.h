@@ -29,6 +29,10 @@ public:
 
     /// Distances at a time.
     [[nodiscard]] WallField at(double time, const GridShape& grid) const;
+    /// Poses of all walls at a time.
+    [[nodiscard]] std::vector<WallPose> posesAt(double time) const;
+    /// Whether any wall moves.
+    [[nodiscard]] bool areMoving() const { return !moving_.empty(); }
     /// Longest step from a time in which no wall goes so far that liquid comes nearer to its other side [s].
     [[nodiscard]] double longestStep(double time) const;
     /// Velocity of a wall's matter at a place [m/s].

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/liquid2d_io/fluid_presets.h"
 #include "liquid2d/cell_grid.h"
 
 namespace {
@@ -55,6 +56,12 @@ Vec2 momentum(const FluidState& state)
 {
     return std::accumulate(state.velocity.begin(), state.velocity.end(), Vec2{},
                            [](Vec2 sum, Vec2 v) { return sum + v; });
+}
+
+Vec2 centre(const FluidState& state)
+{
+    const Vec2 sum = std::accumulate(state.position.begin(), state.position.end(), Vec2{});
+    return (1.0 / static_cast<double>(state.position.size())) * sum;
 }
 
 double angularMomentum(const FluidState& state)
@@ -413,6 +420,89 @@ TEST_P(FluidOf, MovingWallPushesLiquidAndNoneLeaksThroughIt)
     }
     EXPECT_GT(highest, 0.45);
     EXPECT_EQ(state.counts.removed, 0U);
+}
+
+/// A piston in a channel without gravity: all liquid before it goes as fast as it does while that grows.
+TEST_P(FluidOf, LiquidBeforeAPistonHasItsVelocity)
+{
+    FluidScene scene = weightless(0.02);
+    scene.liquid = {{droplet::rectangle({0.207, 0.793}, {0.807, 1.207}), {}, 0.0}};
+    // The channel is as high as the rows of particles, so that no air is left in it.
+    const auto [low, high] = [&] {
+        const FluidState alone = startFluid(scene);
+        const auto [first, last] =
+            std::minmax_element(alone.position.begin(), alone.position.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; });
+        return std::pair(first->y - 0.5 * scene.spacing, last->y + 0.5 * scene.spacing);
+    }();
+    scene.walls = {{droplet::rectangle({-0.2, low - 0.2}, {2.2, low}), {}, true},
+                   {droplet::rectangle({-0.2, high}, {2.2, high + 0.2}), {}, true},
+                   {droplet::rectangle({0.0, low - 0.1}, {0.207, high + 0.1}),
+                    droplet::WallMotion{{1.0, 0.0}, 0.0, {}, 2.0, 0.0, 0.0}, true}};
+    FluidState state = startFluid(scene);
+    const double start = centre(state).x;
+    for (int k = 1; k <= 9; ++k) {
+        state = advanceFluid(std::move(state), scene, 0.04 * k, options());
+        const auto face = [&](double time) { return wallAt(scene.walls[2], time).loops.front()[1].x; };
+        EXPECT_NEAR(centre(state).x - start, face(state.time) - 0.207, 0.4 * scene.spacing) << k;
+        // A velocity is the mean of its step.
+        const double speed = (face(state.time) - face(state.time - state.step)) / state.step;
+        const Vec2 mean = (1.0 / static_cast<double>(state.position.size())) * momentum(state);
+        EXPECT_NEAR(mean.x, speed, 0.05) << k;
+        EXPECT_NEAR(mean.y, 0.0, 0.02) << k;
+    }
+}
+
+/// A pool whose floor rises to the surface: cells there are cut at all heights.
+TEST_P(FluidOf, SlopeHoldsLiquidAtRest)
+{
+    FluidScene scene = tank(2.0, 0.5, 0.02);
+    scene.walls.push_back({droplet::Region{{{{0.6, -0.1}, {2.1, 0.55}, {2.1, -0.1}}}}, {}, true});
+    scene.liquid = {{droplet::rectangle({0.0, 0.0}, {2.0, 0.4}), {}, 0.0}};
+    FluidState state = startFluid(scene);
+    const double start = centre(state).y;
+    for (int part = 1; part <= 8; ++part) {
+        state = advanceFluid(std::move(state), scene, 0.25 * part, options());
+        EXPECT_LT(state.density_error, 0.006);
+        EXPECT_NEAR(centre(state).y, start, 0.02 * 0.4);
+        double square = 0.0;
+        for (const Vec2 v : state.velocity) {
+            square += dot(v, v);
+        }
+        EXPECT_LT(square, 0.0025 * kGravity * 0.4 * static_cast<double>(state.position.size()));
+    }
+}
+
+/// The grid makes the wave that particles make: its energies and heights.
+TEST(Fluid, PaddleMakesTheSameWaveByBothSolvers)
+{
+    struct Wave {
+        std::vector<double> kinetic;
+        std::vector<double> height;
+    };
+    const auto wave_by = [](PressureSolver solver) {
+        FluidScene scene = droplet::fluidPresetNamed("wave").scene;
+        scene.spacing = 0.04;
+        FluidOptions options;
+        options.solver = solver;
+        FluidState state = startFluid(scene);
+        Wave wave;
+        for (const double time : {1.0, 1.5, 2.0}) {
+            state = advanceFluid(std::move(state), scene, time, options);
+            double kinetic = 0.0;
+            for (const Vec2 v : state.velocity) {
+                kinetic += 0.5 * dot(v, v) / static_cast<double>(state.velocity.size());
+            }
+            wave.kinetic.push_back(kinetic);
+            wave.height.push_back(centre(state).y);
+        }
+        return wave;
+    };
+    const Wave grid = wave_by(PressureSolver::Grid);
+    const Wave dfsph = wave_by(PressureSolver::Dfsph);
+    for (std::size_t k = 0; k < grid.kinetic.size(); ++k) {
+        EXPECT_NEAR(grid.kinetic[k], dfsph.kinetic[k], 0.15 * dfsph.kinetic[k]) << k;
+        EXPECT_NEAR(grid.height[k], dfsph.height[k], 0.02 * dfsph.height[k]) << k;
+    }
 }
 
 TEST(Fluid, BodiesThatOverlapHaveOneParticleInAPlace)
