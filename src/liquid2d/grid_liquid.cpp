@@ -20,8 +20,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
-#include <optional>
+#include <utility>
+#include <vector>
 
 #include "blocks.h"
 #include "grid_pressure.h"
@@ -43,8 +45,11 @@ constexpr double kCourant = 4.0;
 /// Longest step at that way, in times in which liquid falls freely through half a cell.
 constexpr double kFall = 0.5;
 
-/// Cells around the particles: those of a step's way, and one for the surface.
+/// Cells around the particles that matter: those of a step's way, and one for the surface.
 constexpr std::size_t kPad = 5;
+
+/// Cells by which the grid grows beyond them: it need not grow in every step.
+constexpr std::int64_t kGrowth = 16;
 
 /// Particles in nine cells below which liquid flies.
 constexpr std::uint32_t kFlying = 4;
@@ -78,33 +83,132 @@ constexpr double kLeastWeight = 1e-9;
 /// Part of the sides' greatest flow that may be left over.
 constexpr double kTolerance = 1e-4;
 
+/// Range of indices: [begin, end).
+struct Span {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+};
+
+/// Calls work(index) for all indices of spans.
+template <typename Work>
+void forSpans(const std::vector<Span>& spans, const Work& work)
+{
+    for (const Span& span : spans) {
+        for (std::size_t k = span.begin; k < span.end; ++k) {
+            work(k);
+        }
+    }
+}
+
+/// Gives values within spans a value.
+template <typename Value>
+void fillSpans(const std::vector<Span>& spans, std::vector<Value>& values, Value value)
+{
+    for (const Span& span : spans) {
+        std::fill(values.begin() + static_cast<std::ptrdiff_t>(span.begin),
+                  values.begin() + static_cast<std::ptrdiff_t>(span.end), value);
+    }
+}
+
+/// What is known of a value that is continued.
+enum class Reached : std::uint8_t {
+    No,
+    Yes,
+    Next,     ///< in the present layer
+    Outside,  ///< of the spans
+};
+
 /// Values on the sides of cells that face one axis.
 struct Sides {
     std::size_t columns = 0;
-    Vec2 lower{};                      ///< middle of the first one [m]
-    std::vector<double> value;         ///< velocity along the axis, or a displacement
-    std::vector<double> weight;        ///< of the particles near
+    Vec2 first{};                      ///< middle of the first one, in cells from the grid's corner
+    std::vector<Span> spans;           ///< near particles: what all others have is of no account
     std::vector<double> open;          ///< part outside of walls
     std::vector<double> wall;          ///< velocity of the wall along the axis
+    std::vector<double> value;         ///< velocity along the axis
+    std::vector<double> weight;        ///< of the particles near
     std::vector<double> before;        ///< value before the pressure changed it
+    std::vector<double> change;        ///< of the value by the pressure
+    std::vector<double> shift;         ///< displacement along the axis that mends the density [m]
     std::vector<std::uint8_t> solved;  ///< whether the pressure acts on it
     std::vector<std::uint8_t> known;
+    std::vector<Reached> reached;
+    std::vector<std::size_t> layer;
+    std::vector<std::size_t> next_layer;
 
-    void reset(Vec2 first, std::size_t across, std::size_t up)
+    Sides() = default;
+    Sides(Vec2 middle, std::size_t across, std::size_t up) : columns(across), first(middle)
     {
-        lower = first;
-        columns = across;
         const std::size_t count = across * up;
-        value.assign(count, 0.0);
-        weight.assign(count, 0.0);
-        open.assign(count, 1.0);
-        wall.assign(count, 0.0);
+        for (std::vector<double>* values : {&open, &wall, &value, &weight, &before, &change, &shift}) {
+            values->assign(count, 0.0);
+        }
         solved.assign(count, 0);
         known.assign(count, 0);
+        reached.assign(count, Reached::Outside);
     }
-    [[nodiscard]] Vec2 placeOf(std::size_t k, double cell) const
+
+    /// Forgets what particles brought.
+    void clear()
     {
-        return lower + cell * Vec2{static_cast<double>(k % columns), static_cast<double>(k / columns)};
+        for (std::vector<double>* values : {&value, &weight, &shift}) {
+            fillSpans(spans, *values, 0.0);
+        }
+        fillSpans(spans, solved, std::uint8_t{0});
+        fillSpans(spans, known, std::uint8_t{0});
+        fillSpans(spans, reached, Reached::Outside);
+        spans.clear();
+    }
+
+    [[nodiscard]] Vec2 placeOf(std::size_t k, const GridShape& grid) const
+    {
+        return grid.placeOf(first.x + static_cast<double>(k % columns), first.y + static_cast<double>(k / columns));
+    }
+
+    /// Gives values that are not given the mean of those beside them, layer by layer.
+    void extend(std::vector<double>& values, const std::vector<std::uint8_t>& given)
+    {
+        forSpans(spans, [&](std::size_t k) { reached[k] = given[k] != 0 ? Reached::Yes : Reached::No; });
+        layer.clear();
+        forSpans(spans, [&](std::size_t k) {
+            if (reached[k] == Reached::No && isBesideReached(k)) {
+                reached[k] = Reached::Next;
+                layer.push_back(k);
+            }
+        });
+        for (std::size_t pass = 0; pass + 1 < kPad; ++pass) {
+            for (const std::size_t k : layer) {
+                double sum = 0.0;
+                double count = 0.0;
+                for (const std::size_t other : {k - 1, k + 1, k - columns, k + columns}) {
+                    if (reached[other] == Reached::Yes) {
+                        sum += values[other];
+                        count += 1.0;
+                    }
+                }
+                values[k] = sum / count;
+            }
+            for (const std::size_t k : layer) {
+                reached[k] = Reached::Yes;
+            }
+            next_layer.clear();
+            for (const std::size_t k : layer) {
+                for (const std::size_t other : {k - 1, k + 1, k - columns, k + columns}) {
+                    if (reached[other] == Reached::No) {
+                        reached[other] = Reached::Next;
+                        next_layer.push_back(other);
+                    }
+                }
+            }
+            layer.swap(next_layer);
+        }
+    }
+
+private:
+    [[nodiscard]] bool isBesideReached(std::size_t k) const
+    {
+        return reached[k - 1] == Reached::Yes || reached[k + 1] == Reached::Yes ||
+               reached[k - columns] == Reached::Yes || reached[k + columns] == Reached::Yes;
     }
 };
 
@@ -157,23 +261,26 @@ public:
     {
         dt_ = dt;
         accelerate(state);
+        if (growTo(state) || walls_.areMoving()) {
+            placeWalls(state.time);
+        }
         sort(state);
-        placeWalls(state.time);
         collect(state);
         classify();
         if (scene_.viscosity.value_or(0.0) > 0.0) {
             diffuse(*scene_.viscosity);
         }
         findSurface();
-        u_.before = u_.value;
-        v_.before = v_.value;
+        for (Sides* sides : {&u_, &v_}) {
+            forSpans(sides->spans, [&](std::size_t k) { sides->before[k] = sides->value[k]; });
+        }
         // Pressures and displacements that mend the density have the same equations.
-        const GridEquations whole = join(std::vector<std::uint8_t>(grid_.cells(), 0));
-        project(state, whole);
+        join(whole_);
+        project(state);
         extend(u_);
         extend(v_);
         restrainAtWalls();
-        spread(state, whole);
+        spread(state);
         if (walls_.areMoving()) {
             field_ = walls_.at(state.time + dt, grid_);
         }
@@ -198,8 +305,8 @@ private:
         }
     }
 
-    /// Sets the grid around the particles, and sorts them by its cells.
-    void sort(FluidState& state)
+    /// Makes the grid large enough for the particles; returns whether it is a new one.
+    [[nodiscard]] bool growTo(const FluidState& state)
     {
         const double h = grid_.cell;
         Vec2 lower = state.position.empty() ? Vec2{} : state.position.front();
@@ -208,55 +315,121 @@ private:
             lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
             upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
         }
-        // Cells are always at the same places.
-        const double left = std::floor(lower.x / h) - double{kPad};
-        const double bottom = std::floor(lower.y / h) - double{kPad};
-        grid_.lower = {left * h, bottom * h};
-        grid_.columns = static_cast<std::size_t>(std::floor(upper.x / h) - left) + 1 + kPad;
-        grid_.rows = static_cast<std::size_t>(std::floor(upper.y / h) - bottom) + 1 + kPad;
+        // One more than what matters, which has neighbours then.
+        constexpr auto kMargin = static_cast<std::int64_t>(kPad) + 1;
+        const auto number = [h](double x) { return static_cast<std::int64_t>(std::floor(x / h)); };
+        const auto right = grid_.left + static_cast<std::int64_t>(grid_.columns);
+        const auto top = grid_.bottom + static_cast<std::int64_t>(grid_.rows);
+        const bool is_empty = grid_.columns == 0;
+        const auto grown = [is_empty](std::int64_t bound, std::int64_t needed, std::int64_t outwards) {
+            const bool holds = !is_empty && outwards * bound >= outwards * needed;
+            return holds ? bound : needed + outwards * kGrowth;
+        };
+        const std::int64_t new_left = grown(grid_.left, number(lower.x) - kMargin, -1);
+        const std::int64_t new_bottom = grown(grid_.bottom, number(lower.y) - kMargin, -1);
+        const std::int64_t new_right = grown(right, number(upper.x) + 1 + kMargin, 1);
+        const std::int64_t new_top = grown(top, number(upper.y) + 1 + kMargin, 1);
+        if (!is_empty && new_left == grid_.left && new_bottom == grid_.bottom && new_right == right && new_top == top) {
+            return false;
+        }
+        grid_ = {h, new_left, new_bottom, static_cast<std::size_t>(new_right - new_left),
+                 static_cast<std::size_t>(new_top - new_bottom)};
+        u_ = Sides({0.0, 0.5}, grid_.columns + 1, grid_.rows);
+        v_ = Sides({0.5, 0.0}, grid_.columns, grid_.rows + 1);
+        spans_.clear();
+        for (std::vector<double>* values :
+             {&density_, &solid_, &room_, &total_, &filled_, &curvature_, &pressure_, &potential_, &rhs_}) {
+            values->assign(grid_.cells(), 0.0);
+        }
+        kind_.assign(grid_.cells(), Cell::Empty);
+        free_.assign(grid_.cells(), 0);
+        whole_ = GridEquations(grid_);
+        rest_ = GridEquations(grid_);
+        return true;
+    }
+
+    /// Sorts the particles by the grid's cells, and forgets what they brought to it.
+    void sort(FluidState& state)
+    {
         const std::size_t count = state.position.size();
         cell_.resize(count);
         begin_.assign(grid_.cells() + 1, 0);
         for (std::size_t i = 0; i < count; ++i) {
-            cell_[i] = static_cast<std::uint32_t>(cellOf(state.position[i]));
+            cell_[i] = static_cast<std::uint32_t>(GridPlace(grid_, state.position[i]).cell());
             ++begin_[cell_[i] + 1];
         }
         for (std::size_t k = 0; k < grid_.cells(); ++k) {
             begin_[k + 1] += begin_[k];
         }
-        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-        std::vector<std::uint32_t> order(count);
+        next_.assign(begin_.begin(), begin_.end() - 1);
+        order_.resize(count);
         for (std::uint32_t i = 0; i < count; ++i) {
-            order[next[cell_[i]]++] = i;
+            order_[next_[cell_[i]]++] = i;
         }
-        reorder(state.position, order);
-        reorder(state.velocity, order);
-        reorder(state.affine, order);
-        reorder(state.id, order);
-        reorder(state.pressure, order);
-        reorder(acceleration_, order);
-        reorder(cell_, order);
+        reorder(state.position, order_);
+        reorder(state.velocity, order_);
+        reorder(state.affine, order_);
+        reorder(state.id, order_);
+        reorder(state.pressure, order_);
+        reorder(acceleration_, order_);
+        reorder(cell_, order_);
         flies_.resize(count);
-        for (std::size_t k = 0; k < grid_.cells(); ++k) {
-            if (begin_[k] == begin_[k + 1]) {
-                continue;
-            }
+        clearSpans();
+        std::vector<Span> columns(grid_.rows);  // of the particles that do not fly
+        for (std::uint32_t i = 0; i < count;) {
+            const std::size_t k = cell_[i];
             std::uint32_t near = 0;
             for (const std::size_t row : {k - grid_.columns, k, k + grid_.columns}) {
                 near += begin_[row + 2] - begin_[row - 1];
             }
-            for (std::uint32_t i = begin_[k]; i < begin_[k + 1]; ++i) {
-                flies_[i] = near < kFlying ? 1 : 0;
+            const bool flies = near < kFlying;
+            if (!flies) {
+                Span& row = columns[k / grid_.columns];
+                const std::size_t column = k % grid_.columns;
+                row = row.end == 0 ? Span{column, column + 1} : Span{row.begin, column + 1};
+            }
+            for (; i < begin_[k + 1]; ++i) {
+                flies_[i] = flies ? 1 : 0;
             }
         }
-        u_.reset(grid_.lower + Vec2{0.0, 0.5 * h}, grid_.columns + 1, grid_.rows);
-        v_.reset(grid_.lower + Vec2{0.5 * h, 0.0}, grid_.columns, grid_.rows + 1);
+        setSpans(columns);
     }
 
-    [[nodiscard]] std::size_t cellOf(Vec2 place) const
+    void clearSpans()
     {
-        return grid_.at(static_cast<std::size_t>((place.x - grid_.lower.x) / grid_.cell),
-                        static_cast<std::size_t>((place.y - grid_.lower.y) / grid_.cell));
+        for (std::vector<double>* values : {&density_, &filled_, &curvature_, &pressure_}) {
+            fillSpans(spans_, *values, 0.0);
+        }
+        fillSpans(spans_, kind_, Cell::Empty);
+        spans_.clear();
+        u_.clear();
+        v_.clear();
+    }
+
+    /// Sets what matters in every row: the particles and the cells around them.
+    /// @param columns  of the particles in every row
+    void setSpans(const std::vector<Span>& columns)
+    {
+        const auto hull = [](Span a, Span b) {
+            return a.end == 0 ? b : b.end == 0 ? a : Span{std::min(a.begin, b.begin), std::max(a.end, b.end)};
+        };
+        Span below;
+        for (std::size_t row = 0; row < grid_.rows; ++row) {
+            Span near;
+            for (std::size_t r = row < kPad ? 0 : row - kPad; r <= row + kPad && r < grid_.rows; ++r) {
+                near = hull(near, columns[r]);
+            }
+            if (near.end > 0) {
+                near = {near.begin - kPad, near.end + kPad};
+                const std::size_t first = row * grid_.columns;
+                spans_.push_back({first + near.begin, first + near.end});
+                u_.spans.push_back({first + row + near.begin, first + row + near.end + 1});
+            }
+            if (const Span both = hull(below, near); both.end > 0) {
+                v_.spans.push_back({row * grid_.columns + both.begin, row * grid_.columns + both.end});
+            }
+            below = near;
+        }
     }
 
     /// Open parts of the cells' sides, and the part of cells that walls take, smoothed as the liquid's density.
@@ -278,9 +451,7 @@ private:
                 const std::size_t k = row * u_.columns + column;
                 const std::size_t a = grid_.cornerAt(column, row);
                 u_.open[k] = openPart(field_.distance[a] / h, field_.distance[a + corner_columns] / h);
-                if (u_.open[k] < 1.0) {
-                    u_.wall[k] = velocity(a, a + corner_columns, u_.placeOf(k, h)).x;
-                }
+                u_.wall[k] = u_.open[k] < 1.0 ? velocity(a, a + corner_columns, u_.placeOf(k, grid_)).x : 0.0;
             }
         }
         for (std::size_t row = 0; row <= grid_.rows; ++row) {
@@ -288,24 +459,19 @@ private:
                 const std::size_t k = row * v_.columns + column;
                 const std::size_t a = grid_.cornerAt(column, row);
                 v_.open[k] = openPart(field_.distance[a] / h, field_.distance[a + 1] / h);
-                if (v_.open[k] < 1.0) {
-                    v_.wall[k] = velocity(a, a + 1, v_.placeOf(k, h)).y;
-                }
+                v_.wall[k] = v_.open[k] < 1.0 ? velocity(a, a + 1, v_.placeOf(k, grid_)).y : 0.0;
             }
         }
-        solid_.assign(grid_.cells(), 0.0);
         for (std::size_t row = 0; row < grid_.rows; ++row) {
             for (std::size_t column = 0; column < grid_.columns; ++column) {
                 const std::size_t a = grid_.cornerAt(column, row);
                 const double middle =
                     0.25 * (field_.distance[a] + field_.distance[a + 1] + field_.distance[a + corner_columns] +
                             field_.distance[a + corner_columns + 1]);
-                solid_[grid_.at(column, row)] = std::clamp(0.5 - middle / h, 0.0, 1.0);
+                const std::size_t k = grid_.at(column, row);
+                solid_[k] = std::clamp(0.5 - middle / h, 0.0, 1.0);
+                room_[k] = 1.0 - solid_[k];
             }
-        }
-        room_.resize(grid_.cells());
-        for (std::size_t k = 0; k < room_.size(); ++k) {
-            room_[k] = 1.0 - solid_[k];
         }
         // The integral of a hat function over its cell is 3/4, over the next ones 1/8.
         smooth(solid_, 0.125, 0.75);
@@ -325,7 +491,6 @@ private:
     /// Brings density and velocity of the particles to the grid.
     void collect(const FluidState& state)
     {
-        density_.assign(grid_.cells(), 0.0);
         // Bands of rows that do not reach into one another's next but one are worked on at once.
         constexpr std::size_t kBand = 4;
         const std::size_t bands = (grid_.rows + kBand - 1) / kBand;
@@ -342,11 +507,11 @@ private:
             });
         }
         for (Sides* sides : {&u_, &v_}) {
-            for (std::size_t k = 0; k < sides->value.size(); ++k) {
+            forSpans(sides->spans, [&](std::size_t k) {
                 if (sides->weight[k] > kLeastWeight) {
                     sides->value[k] /= sides->weight[k];
                 }
-            }
+            });
         }
     }
 
@@ -391,14 +556,10 @@ private:
 
     void classify()
     {
-        const std::size_t cells = grid_.cells();
-        kind_.assign(cells, Cell::Empty);
-        filled_.assign(cells, 0.0);
         liquid_.clear();
-        // No cell at the rim has particles or neighbours of particles in the density's reach.
-        for (std::size_t k = grid_.columns + 1; k + grid_.columns + 1 < cells; ++k) {
+        forSpans(spans_, [&](std::size_t k) {
             if (!(density_[k] > 0.0)) {
-                continue;
+                return;
             }
             filled_[k] = density_[k] / std::max(1.0 - solid_[k], 0.25);
             double open = 0.0;
@@ -406,52 +567,45 @@ private:
             if (filled_[k] >= 0.5 && open > 0.0) {
                 kind_[k] = Cell::Liquid;
             }
-        }
+        });
         floodRims();
-        for (std::size_t k = grid_.columns + 1; k + grid_.columns + 1 < cells; ++k) {
+        std::vector<std::size_t> fringe;
+        forSpans(spans_, [&](std::size_t k) {
             if (kind_[k] == Cell::Liquid || begin_[k] == begin_[k + 1] || flies_[begin_[k]] != 0) {
-                continue;
+                return;
             }
             bool is_beside = false;
             forSides(k, [&](const Sides& sides, std::size_t other, std::size_t s, double) {
                 is_beside = is_beside || (sides.open[s] > 0.0 && kind_[other] == Cell::Liquid);
             });
             kind_[k] = is_beside ? Cell::Fringe : Cell::Flying;
-        }
-        std::vector<std::size_t> enclosed;
-        for (std::size_t k = grid_.columns + 1; k + grid_.columns + 1 < cells; ++k) {
-            if (kind_[k] == Cell::Fringe) {
-                bool is_closed = true;
-                forSides(k, [&](const Sides& sides, std::size_t other, std::size_t s, double) {
-                    is_closed = is_closed && (sides.open[s] == 0.0 || kind_[other] == Cell::Liquid);
-                });
-                if (is_closed) {
-                    enclosed.push_back(k);
-                }
+            if (is_beside) {
+                fringe.push_back(k);
             }
-        }
-        for (const std::size_t k : enclosed) {
+        });
+        const auto is_open = [&](std::size_t k) {
+            bool is_closed = true;
+            forSides(k, [&](const Sides& sides, std::size_t other, std::size_t s, double) {
+                is_closed = is_closed && (sides.open[s] == 0.0 || kind_[other] == Cell::Liquid);
+            });
+            return !is_closed;
+        };
+        fringe.erase(std::remove_if(fringe.begin(), fringe.end(), is_open), fringe.end());
+        for (const std::size_t k : fringe) {
             kind_[k] = Cell::Liquid;
             filled_[k] = std::max(filled_[k], 0.5);
         }
-        for (std::size_t k = 0; k < cells; ++k) {
+        forSpans(spans_, [&](std::size_t k) {
             if (kind_[k] == Cell::Liquid) {
                 liquid_.push_back(k);
             }
-        }
+        });
         // Velocities are known at liquid, and where liquid falls freely.
-        for (std::size_t row = 1; row + 1 < grid_.rows; ++row) {
-            for (std::size_t column = 1; column < grid_.columns; ++column) {
-                const std::size_t k = grid_.at(column, row);
-                mark(u_, row * u_.columns + column, k - 1, k);
-            }
-        }
-        for (std::size_t row = 1; row < grid_.rows; ++row) {
-            for (std::size_t column = 1; column + 1 < grid_.columns; ++column) {
-                const std::size_t k = grid_.at(column, row);
-                mark(v_, row * v_.columns + column, k - grid_.columns, k);
-            }
-        }
+        forSpans(u_.spans, [&](std::size_t s) {
+            const std::size_t k = s - s / u_.columns;
+            mark(u_, s, k - 1, k);
+        });
+        forSpans(v_.spans, [&](std::size_t s) { mark(v_, s, s - grid_.columns, s); });
     }
 
     /// Cells that are mostly wall may have no room for a particle: they are liquid if the next one is. Air there would
@@ -463,9 +617,9 @@ private:
         constexpr int kRounds = 2;
         for (int round = 0; round < kRounds; ++round) {
             flooded.clear();
-            for (std::size_t k = grid_.columns + 1; k + grid_.columns + 1 < grid_.cells(); ++k) {
+            forSpans(spans_, [&](std::size_t k) {
                 if (kind_[k] == Cell::Liquid || !(room_[k] < 0.5)) {
-                    continue;
+                    return;
                 }
                 double widest = 0.0;
                 std::size_t next = k;
@@ -478,7 +632,7 @@ private:
                 if (kind_[next] == Cell::Liquid) {
                     flooded.emplace_back(k, next);
                 }
-            }
+            });
             for (const auto& [k, next] : flooded) {
                 kind_[k] = Cell::Liquid;
                 filled_[k] = filled_[next];
@@ -515,7 +669,6 @@ private:
     /// Curvature of the surface at the cells' middles, for surface tension.
     void findSurface()
     {
-        curvature_.assign(grid_.cells(), 0.0);
         if (!(scene_.surface_tension > 0.0)) {
             return;
         }
@@ -534,7 +687,7 @@ private:
             const double size = length(slope);
             return size > 1e-6 ? (1.0 / size) * slope : Vec2{};
         };
-        for (std::size_t k = columns + 1; k + columns + 1 < level.size(); ++k) {
+        forSpans(spans_, [&](std::size_t k) {
             if (level[k] > 0.02 && level[k] < 0.98) {
                 const Vec2 a = normal(k - columns - 1);
                 const Vec2 b = normal(k - columns);
@@ -544,7 +697,7 @@ private:
                 // The level rises into the liquid, so round liquid has a negative divergence.
                 curvature_[k] = std::clamp(-spread, -1.0 / h, 1.0 / h);
             }
-        }
+        });
     }
 
     /// Way to the surface from a liquid cell's middle to another one's, as a part of the whole.
@@ -563,41 +716,41 @@ private:
     }
 
     /// Takes from the velocities what would compress liquid.
-    /// @param whole  equations of all liquid cells
-    void project(FluidState& state, const GridEquations& whole)
+    void project(FluidState& state)
     {
         const double h = grid_.cell;
         const double capillary = scene_.surface_tension / scene_.density * dt_ / h;  // of pressures below
-        std::vector<double> pressure(grid_.cells(), 0.0);                            // times dt/(density h) [m/s]
+        std::vector<double>& pressure = pressure_;                                   // times dt/(density h) [m/s]
         guess(state, pressure);
-        std::vector<std::uint8_t> free(grid_.cells(), 0);
-        std::optional<GridEquations> rest;  // without these cells
         constexpr int kRounds = 3;
         for (int round = 0; round < kRounds; ++round) {
-            const GridEquations& equations = round == 0 ? whole : rest.emplace(join(free));
-            std::vector<double> rhs(grid_.cells(), 0.0);
+            GridEquations& equations = round == 0 ? whole_ : rest_;
+            if (round > 0) {
+                join(rest_);
+            }
             double flow = 0.0;
             for (const std::size_t k : liquid_) {
-                if (free[k] != 0) {
+                rhs_[k] = 0.0;
+                if (free_[k] != 0) {
                     pressure[k] = 0.0;
                     continue;
                 }
                 forSides(k, [&](const Sides& sides, std::size_t other, std::size_t s, double) {
                     if (sides.open[s] > 0.0 && kind_[other] != Cell::Liquid) {
                         const double part = partTo(k, other);
-                        rhs[k] += sides.open[s] / part * capillary * curvatureAt(k, other, part);
+                        rhs_[k] += sides.open[s] / part * capillary * curvatureAt(k, other, part);
                     }
                 });
                 forSides(k, [&](const Sides& sides, std::size_t, std::size_t s, double sign) {
                     if (const double w = sides.open[s]; w > 0.0) {
-                        rhs[k] -= sign * w * sides.value[s];
+                        rhs_[k] -= sign * w * sides.value[s];
                         flow = std::max(flow, std::abs(sides.value[s]));
                     }
                 });
                 const std::size_t right = k + k / grid_.columns;
-                rhs[k] += swept(u_, right, right + 1) + swept(v_, k, k + grid_.columns);
+                rhs_[k] += swept(u_, right, right + 1) + swept(v_, k, k + grid_.columns);
             }
-            const auto solved = equations.solve(rhs, pressure, kTolerance * flow);
+            const auto solved = equations.solve(rhs_, pressure, kTolerance * flow);
             state.counts.divergence_iterations += static_cast<std::uint64_t>(solved.iterations);
             // Walls do not hold liquid back.
             double highest = 0.0;
@@ -607,13 +760,13 @@ private:
             const double least = -std::max(2.0 * capillary / h, 0.02 * highest);
             bool is_held = false;
             for (const std::size_t k : liquid_) {
-                if (free[k] == 0 && pressure[k] < least) {
+                if (free_[k] == 0 && pressure[k] < least) {
                     bool at_wall = false;
                     forSides(k, [&](const Sides& sides, std::size_t, std::size_t s, double) {
                         at_wall = at_wall || sides.open[s] < 1.0;
                     });
                     if (at_wall) {
-                        free[k] = 1;
+                        free_[k] = 1;
                         is_held = true;
                     }
                 }
@@ -622,10 +775,10 @@ private:
                 break;
             }
         }
-        changeSides(u_.value, v_.value, pressure, free, capillary);
-        pressure_ = std::move(pressure);
-        for (double& p : pressure_) {
-            p *= h / dt_;
+        changeSides(&Sides::value, pressure, capillary);
+        for (const std::size_t k : liquid_) {
+            pressure[k] *= h / dt_;
+            free_[k] = 0;
         }
     }
 
@@ -649,13 +802,12 @@ private:
         }
     }
 
-    /// Equations of the liquid cells.
-    /// @param free  cells in which the pressure is 0
-    [[nodiscard]] GridEquations join(const std::vector<std::uint8_t>& free)
+    /// Sets the equations of the liquid cells but for those in which the pressure is 0.
+    void join(GridEquations& equations)
     {
-        GridEquations equations(grid_);
+        equations.clear();
         for (const std::size_t k : liquid_) {
-            if (free[k] != 0) {
+            if (free_[k] != 0) {
                 continue;
             }
             equations.add(k);
@@ -666,7 +818,7 @@ private:
                 }
                 if (kind_[other] != Cell::Liquid) {
                     equations.hold(k, w / partTo(k, other));
-                } else if (free[other] != 0) {
+                } else if (free_[other] != 0) {
                     equations.hold(k, w);
                 } else if (sign > 0.0) {
                     other == k + 1 ? equations.joinRight(k, w) : equations.joinAbove(k, w);
@@ -674,25 +826,23 @@ private:
             });
         }
         equations.factorise();
-        return equations;
     }
 
-    /// Adds differences of a potential to the values at the sides of liquid cells.
-    void changeSides(std::vector<double>& across, std::vector<double>& up, const std::vector<double>& potential,
-                     const std::vector<std::uint8_t>& free, double capillary)
+    /// Adds differences of a potential to values at the sides of liquid cells.
+    void changeSides(std::vector<double> Sides::*values, const std::vector<double>& potential, double capillary)
     {
         for (const std::size_t k : liquid_) {
-            forSides(k, [&](const Sides& sides, std::size_t other, std::size_t s, double sign) {
+            forSides(k, [&](Sides& sides, std::size_t other, std::size_t s, double sign) {
                 if (!(sides.open[s] > 0.0) || (sign < 0.0 && kind_[other] == Cell::Liquid)) {
                     return;
                 }
-                double& value = (&sides == &u_ ? across : up)[s];
+                double& value = (sides.*values)[s];
                 if (kind_[other] == Cell::Liquid) {
                     value += potential[k] - potential[other];
                 } else {
-                    const double part = free[k] != 0 ? 1.0 : partTo(k, other);
+                    const double part = free_[k] != 0 ? 1.0 : partTo(k, other);
                     const double beyond = capillary * curvatureAt(k, other, part);
-                    value += sign * (potential[k] - (free[k] != 0 ? 0.0 : beyond)) / part;
+                    value += sign * (potential[k] - (free_[k] != 0 ? 0.0 : beyond)) / part;
                 }
             });
         }
@@ -702,96 +852,53 @@ private:
     /// its own velocity, and the pressure changes it as that of the next sides.
     static void extend(Sides& sides)
     {
-        std::vector<double> change(sides.value.size(), 0.0);
-        for (std::size_t k = 0; k < change.size(); ++k) {
-            change[k] = sides.solved[k] != 0 ? sides.value[k] - sides.before[k] : 0.0;
-        }
-        extend(change, sides.solved, sides.columns);
-        for (std::size_t k = 0; k < change.size(); ++k) {
+        forSpans(sides.spans, [&](std::size_t k) {
+            sides.change[k] = sides.solved[k] != 0 ? sides.value[k] - sides.before[k] : 0.0;
+        });
+        sides.extend(sides.change, sides.solved);
+        forSpans(sides.spans, [&](std::size_t k) {
             if (sides.known[k] == 0 && sides.open[k] > 0.0 && sides.weight[k] > kLeastWeight) {
-                sides.value[k] = sides.before[k] + change[k];
+                sides.value[k] = sides.before[k] + sides.change[k];
                 sides.known[k] = 1;
             }
-        }
-        extend(sides.value, sides.known, sides.columns);
-    }
-
-    /// Gives unknown values layer by layer the mean of the known ones beside them.
-    static void extend(std::vector<double>& value, std::vector<std::uint8_t> known, std::size_t columns)
-    {
-        constexpr std::uint8_t kNext = 2;  // in the present layer
-        const auto inside = [&](std::size_t k) { return k >= columns && k + columns < value.size(); };
-        std::vector<std::uint32_t> layer;
-        for (std::size_t k = columns; k + columns < value.size(); ++k) {
-            if (known[k] == 0 &&
-                (known[k - 1] == 1 || known[k + 1] == 1 || known[k - columns] == 1 || known[k + columns] == 1)) {
-                known[k] = kNext;
-                layer.push_back(static_cast<std::uint32_t>(k));
-            }
-        }
-        for (std::size_t pass = 0; pass + 1 < kPad; ++pass) {
-            for (const std::size_t k : layer) {
-                double sum = 0.0;
-                double count = 0.0;
-                for (const std::size_t other : {k - 1, k + 1, k - columns, k + columns}) {
-                    if (known[other] == 1) {
-                        sum += value[other];
-                        count += 1.0;
-                    }
-                }
-                value[k] = sum / count;
-            }
-            for (const std::size_t k : layer) {
-                known[k] = 1;
-            }
-            std::vector<std::uint32_t> next;
-            for (const std::size_t k : layer) {
-                for (const std::size_t other : {k - 1, k + 1, k - columns, k + columns}) {
-                    if (known[other] == 0 && inside(other)) {
-                        known[other] = kNext;
-                        next.push_back(static_cast<std::uint32_t>(other));
-                    }
-                }
-            }
-            layer = std::move(next);
-        }
+        });
+        sides.extend(sides.value, sides.known);
     }
 
     /// Gives velocities in walls the walls' part along their normals.
     void restrainAtWalls()
     {
-        const std::vector<double> across = u_.value;
-        const std::vector<double> up = v_.value;
+        for (Sides* sides : {&u_, &v_}) {
+            forSpans(sides->spans, [&](std::size_t k) { sides->before[k] = sides->value[k]; });
+        }
         for (const bool is_across : {true, false}) {
             Sides& sides = is_across ? u_ : v_;
-            for (std::size_t k = 0; k < sides.value.size(); ++k) {
-                if (sides.open[k] > 0.0) {
-                    continue;
+            forSpans(sides.spans, [&](std::size_t k) {
+                if (sides.open[k] > 0.0 || sides.reached[k] != Reached::Yes) {
+                    return;
                 }
-                const Vec2 place = sides.placeOf(k, grid_.cell);
+                const Vec2 place = sides.placeOf(k, grid_);
                 const GridPlace in_grid(grid_, place);
                 const Bilinear at = in_grid.amongCorners();
                 const Vec2 slope = at.slopeIn(field_.distance);
                 const double size = length(slope);
                 if (!(size > 0.0)) {
                     sides.value[k] = sides.wall[k];
-                    continue;
+                    return;
                 }
                 const Vec2 normal = (1.0 / size) * slope;
-                const Vec2 velocity = {in_grid.amongLeftSides().in(across), in_grid.amongLowerSides().in(up)};
+                const Vec2 velocity = {in_grid.amongLeftSides().in(u_.before), in_grid.amongLowerSides().in(v_.before)};
                 const Vec2 wall = walls_.velocity(field_, field_.wall[at.first], place);
                 const double into = dot(velocity - wall, normal);
                 sides.value[k] -= into * (is_across ? normal.x : normal.y);
-            }
+            });
         }
     }
 
     /// Finds displacements of the sides that mend the density.
-    /// @param equations  of all liquid cells
-    void spread(FluidState& state, const GridEquations& equations)
+    void spread(FluidState& state)
     {
         const double h = grid_.cell;
-        std::vector<double> rhs(grid_.cells(), 0.0);
         double mean = 0.0;
         for (const std::size_t k : liquid_) {
             const double density = density_[k] + solid_[k];
@@ -800,17 +907,17 @@ private:
             forSides(k, [&](const Sides& sides, std::size_t other, std::size_t s, double) {
                 is_inside = is_inside && (!(sides.open[s] > 0.0) || kind_[other] == Cell::Liquid);
             });
-            rhs[k] = h * std::clamp(density - 1.0, is_inside ? -kMostGap : 0.0, kMostCompression);
+            rhs_[k] = h * std::clamp(density - 1.0, is_inside ? -kMostGap : 0.0, kMostCompression);
         }
         state.density_error = mean / std::max(static_cast<double>(liquid_.size()), 1.0);
-        std::vector<double> potential(grid_.cells(), 0.0);
-        const auto solved = equations.solve(rhs, potential, 1e-3 * h);
+        const auto solved = whole_.solve(rhs_, potential_, 1e-3 * h);
         state.counts.density_iterations += static_cast<std::uint64_t>(solved.iterations);
-        across_.assign(u_.value.size(), 0.0);
-        up_.assign(v_.value.size(), 0.0);
-        changeSides(across_, up_, potential, std::vector<std::uint8_t>(grid_.cells(), 0), 0.0);
-        extend(across_, u_.solved, u_.columns);
-        extend(up_, v_.solved, v_.columns);
+        changeSides(&Sides::shift, potential_, 0.0);
+        for (const std::size_t k : liquid_) {
+            potential_[k] = 0.0;
+        }
+        u_.extend(u_.shift, u_.solved);
+        v_.extend(v_.shift, v_.solved);
     }
 
     /// Finds displacements that part particles which are closer than on the lattice at rest: the grid does not see how
@@ -846,7 +953,7 @@ private:
         lanes_x_.assign(count + kLanes, kFar);
         lanes_y_.assign(count + kLanes, kFar);
         for (std::size_t i = 0; i < count; ++i) {
-            const Vec2 place = (1.0 / reach) * (state.position[i] - grid_.lower);
+            const Vec2 place = (1.0 / reach) * state.position[i];
             lanes_x_[i] = static_cast<float>(place.x);
             lanes_y_[i] = static_cast<float>(place.y);
         }
@@ -908,10 +1015,7 @@ private:
     {
         const std::size_t count = state.position.size();
         state.density.resize(count);
-        std::vector<double> density(grid_.cells());
-        for (std::size_t k = 0; k < density.size(); ++k) {
-            density[k] = density_[k] + solid_[k];
-        }
+        forSpans(spans_, [&](std::size_t k) { total_[k] = density_[k] + solid_[k]; });
         constexpr std::size_t kParticlesPerBlock = 2048;
         struct Block {
             double fastest = 0.0;
@@ -923,7 +1027,7 @@ private:
                  [&](std::size_t begin, std::size_t end) {
                      Block result;
                      for (std::size_t i = begin; i < end; ++i) {
-                         const bool is_rescued = flies_[i] != 0 ? fly(state, i) : flow(state, density, i);
+                         const bool is_rescued = flies_[i] != 0 ? fly(state, i) : flow(state, i);
                          result.rescued += is_rescued ? 1 : 0;
                          if (flies_[i] == 0) {
                              result.fastest = std::max(result.fastest, dot(state.velocity[i], state.velocity[i]));
@@ -958,7 +1062,7 @@ private:
     }
 
     /// Moves a particle with the liquid; returns whether it came into a wall.
-    [[nodiscard]] bool flow(FluidState& state, const std::vector<double>& density, std::size_t i) const
+    [[nodiscard]] bool flow(FluidState& state, std::size_t i) const
     {
         const Vec2 x = state.position[i];
         const GridPlace place(grid_, x);
@@ -970,11 +1074,11 @@ private:
         state.affine[i] = {inverse * across.slopeIn(u_.value), inverse * up.slopeIn(v_.value)};
         const Bilinear middle = place.amongMiddles();
         state.pressure[i] = middle.in(pressure_);
-        state.density[i] = middle.in(density);
+        state.density[i] = middle.in(total_);
         // Ralston's method of third order.
         const Vec2 second = velocityAt(x + (0.5 * dt_) * v);
         const Vec2 third = velocityAt(x + (0.75 * dt_) * second);
-        const Vec2 apart{across.in(across_), up.in(up_)};
+        const Vec2 apart{across.in(u_.shift), up.in(v_.shift)};
         state.position[i] = x + (dt_ / 9.0) * (2.0 * v + 3.0 * second + 4.0 * third) + apart + shift_[i];
         return keepOutOfWalls(state, i);
     }
@@ -1015,30 +1119,36 @@ private:
     WallDistance walls_;
     double dt_ = 0.0;
     GridShape grid_;
-    Sides u_;          ///< across
-    Sides v_;          ///< up
-    WallField field_;  ///< at the start of a step, and at its end when particles move
+    Sides u_;                  ///< across
+    Sides v_;                  ///< up
+    std::vector<Span> spans_;  ///< of cells near particles: what all others have is of no account
+    GridEquations whole_;      ///< of all liquid cells
+    GridEquations rest_;       ///< without those in which the pressure is 0
+    WallField field_;          ///< at the start of a step, and at its end when particles move
     // Of cells:
     std::vector<std::uint32_t> begin_;  ///< their first particles
+    std::vector<std::uint32_t> next_;   ///< where the next particle goes
     std::vector<double> density_;       ///< of liquid, relative to that at rest
     std::vector<double> solid_;         ///< part that walls take, smoothed likewise
+    std::vector<double> total_;         ///< both of them
     std::vector<double> room_;          ///< part outside of walls
     std::vector<double> filled_;        ///< density over what walls leave free
     std::vector<double> curvature_;     ///< of the surface [1/m]
     std::vector<double> pressure_;      ///< over the density [m²/s²]
+    std::vector<double> potential_;     ///< of displacements
+    std::vector<double> rhs_;
     std::vector<Cell> kind_;
+    std::vector<std::uint8_t> free_;   ///< whether the pressure is 0, as walls do not hold liquid back
     std::vector<std::size_t> liquid_;  ///< liquid cells
     std::vector<double> scratch_;
     // Of particles:
     std::vector<Vec2> acceleration_;
     std::vector<std::uint32_t> cell_;
+    std::vector<std::uint32_t> order_;
     std::vector<std::uint8_t> flies_;
     std::vector<float> lanes_x_;  ///< places from the grid's corner, in distances on the lattice
     std::vector<float> lanes_y_;
     std::vector<Vec2> shift_;  ///< displacements that part particles [m]
-    // Of sides: displacements that mend the density [m]
-    std::vector<double> across_;
-    std::vector<double> up_;
 };
 
 }  // namespace

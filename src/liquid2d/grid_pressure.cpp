@@ -23,12 +23,24 @@ constexpr double kEnclosed = 1e-9;
 
 GridEquations::GridEquations(const GridShape& grid)
     : columns_(grid.columns),
-      count_(grid.cells()),
-      diagonal_(count_, 0.0),
-      right_(count_, 0.0),
-      up_(count_, 0.0),
-      inverse_(count_, 0.0)
+      diagonal_(grid.cells(), 0.0),
+      right_(grid.cells(), 0.0),
+      up_(grid.cells(), 0.0),
+      inverse_(grid.cells(), 0.0),
+      residual_(grid.cells(), 0.0),
+      search_(grid.cells(), 0.0),
+      product_(grid.cells(), 0.0)
 {
+}
+
+void GridEquations::clear()
+{
+    for (const std::size_t k : cells_) {
+        for (std::vector<double>* values : {&diagonal_, &right_, &up_, &inverse_, &residual_, &search_, &product_}) {
+            (*values)[k] = 0.0;
+        }
+    }
+    cells_.clear();
 }
 
 void GridEquations::factorise()
@@ -36,7 +48,7 @@ void GridEquations::factorise()
     for (const std::size_t k : cells_) {
         const double left = right_[k - 1] * inverse_[k - 1];
         const double down = up_[k - columns_] * inverse_[k - columns_];
-        const double diagonal = diagonal_[k] * (1.0 + kEnclosed);
+        const double diagonal = diagonal_[k] *= 1.0 + kEnclosed;
         const double rest =
             diagonal - left * left - down * down -
             kModified * (left * up_[k - 1] * inverse_[k - 1] + down * right_[k - columns_] * inverse_[k - columns_]);
@@ -45,8 +57,11 @@ void GridEquations::factorise()
     }
 }
 
-void GridEquations::precondition(const std::vector<double>& r, std::vector<double>& z) const
+/// Puts the preconditioned residual into product_.
+void GridEquations::precondition()
 {
+    const std::vector<double>& r = residual_;
+    std::vector<double>& z = product_;
     for (const std::size_t k : cells_) {
         z[k] = inverse_[k] * (r[k] - right_[k - 1] * inverse_[k - 1] * z[k - 1] -
                               up_[k - columns_] * inverse_[k - columns_] * z[k - columns_]);
@@ -57,27 +72,24 @@ void GridEquations::precondition(const std::vector<double>& r, std::vector<doubl
     }
 }
 
-GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::vector<double>& x,
-                                           double tolerance) const
+GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::vector<double>& x, double tolerance)
 {
     Solved solved;
-    std::vector<double> r(count_, 0.0);
-    std::vector<double> z(count_, 0.0);
-    std::vector<double> s(count_, 0.0);
+    std::vector<double>& r = residual_;
+    std::vector<double>& z = product_;
+    std::vector<double>& s = search_;
     const auto times = [&](const std::vector<double>& a, std::size_t k) {
-        return diagonal_[k] * (1.0 + kEnclosed) * a[k] + right_[k] * a[k + 1] + right_[k - 1] * a[k - 1] +
-               up_[k] * a[k + columns_] + up_[k - columns_] * a[k - columns_];
+        return diagonal_[k] * a[k] + right_[k] * a[k + 1] + right_[k - 1] * a[k - 1] + up_[k] * a[k + columns_] +
+               up_[k - columns_] * a[k - columns_];
     };
     for (const std::size_t k : cells_) {
-        if (inverse_[k] > 0.0) {
-            r[k] = rhs[k] - times(x, k);
-            solved.residual = std::max(solved.residual, std::abs(r[k]));
-        }
+        r[k] = inverse_[k] > 0.0 ? rhs[k] - times(x, k) : 0.0;
+        solved.residual = std::max(solved.residual, std::abs(r[k]));
     }
     if (solved.residual <= tolerance) {
         return solved;
     }
-    precondition(r, z);
+    precondition();
     double rho = 0.0;
     for (const std::size_t k : cells_) {
         s[k] = z[k];
@@ -103,7 +115,7 @@ GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::
         if (solved.residual <= tolerance) {
             break;
         }
-        precondition(r, z);
+        precondition();
         double next = 0.0;
         for (const std::size_t k : cells_) {
             next += r[k] * z[k];

@@ -11,9 +11,11 @@ namespace droplet {
 /// Symmetric five-point equations for the liquid cells of a grid, and their solution by conjugate gradients.
 class GridEquations {
 public:
-    /// @param grid  must outlive this
+    GridEquations() = default;
     explicit GridEquations(const GridShape& grid);
 
+    /// Takes all cells and equations out again.
+    void clear();
     /// Makes a cell one of the unknowns; cells are added in rising order.
     void add(std::size_t cell) { cells_.push_back(static_cast<std::uint32_t>(cell)); }
     /// Adds w (x_cell − x_right) to a cell's equation, and its negative to that of the cell on its right.
@@ -44,18 +46,20 @@ public:
     /// @param rhs        for every cell of the grid
     /// @param x          first guess, and solution; 0 where there is no equation
     /// @param tolerance  greatest residual
-    Solved solve(const std::vector<double>& rhs, std::vector<double>& x, double tolerance) const;
+    Solved solve(const std::vector<double>& rhs, std::vector<double>& x, double tolerance);
 
 private:
-    void precondition(const std::vector<double>& r, std::vector<double>& z) const;
+    void precondition();
 
-    std::size_t columns_;
-    std::size_t count_;
+    std::size_t columns_ = 0;
     std::vector<std::uint32_t> cells_;
     std::vector<double> diagonal_;
     std::vector<double> right_;    ///< coefficient of the cell on the right
     std::vector<double> up_;       ///< of the cell above
     std::vector<double> inverse_;  ///< of the roots of the factor's diagonal
+    std::vector<double> residual_;
+    std::vector<double> search_;
+    std::vector<double> product_;  ///< of the equations and the search direction, or the preconditioned residual
 };
 
 }  // namespace droplet

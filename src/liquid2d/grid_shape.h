@@ -2,15 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "droplet/vector.h"
 
 namespace droplet {
 
-/// Grid of square cells over a part of the plane.
+/// Grid of square cells over a part of the plane. Cells are always at the same places, whatever part it is: a corner of
+/// cells is at the origin.
 struct GridShape {
-    Vec2 lower{};       ///< lower left corner [m]
-    double cell = 0.0;  ///< side of a cell [m]
+    double cell = 0.0;        ///< side of a cell [m]
+    std::int64_t left = 0;    ///< number of the first column of cells, from the origin
+    std::int64_t bottom = 0;  ///< number of the first row
     std::size_t columns = 0;
     std::size_t rows = 0;
 
@@ -21,6 +24,11 @@ struct GridShape {
     [[nodiscard]] std::size_t cornerColumns() const { return columns + 1; }
     /// Number of all corners.
     [[nodiscard]] std::size_t corners() const { return (columns + 1) * (rows + 1); }
+    /// Place of a point, in columns and rows from the lower left corner; half ones are between corners [m].
+    [[nodiscard]] Vec2 placeOf(double column, double row) const
+    {
+        return {cell * (static_cast<double>(left) + column), cell * (static_cast<double>(bottom) + row)};
+    }
     /// Index of a cell's lower left corner.
     [[nodiscard]] std::size_t cornerAt(std::size_t column, std::size_t row) const
     {
@@ -62,10 +70,13 @@ class GridPlace {
 public:
     GridPlace(const GridShape& grid, Vec2 place)
         : columns_(grid.columns),
-          x_((place.x - grid.lower.x) / grid.cell, grid.columns),
-          y_((place.y - grid.lower.y) / grid.cell, grid.rows)
+          x_(place.x / grid.cell, grid.left, grid.columns),
+          y_(place.y / grid.cell, grid.bottom, grid.rows)
     {
     }
+
+    /// Cell around the place.
+    [[nodiscard]] std::size_t cell() const { return y_.whole * columns_ + x_.whole; }
 
     /// Among the corners of cells.
     [[nodiscard]] Bilinear amongCorners() const
@@ -91,19 +102,26 @@ public:
 private:
     /// A coordinate in cells, among their rims and among their middles.
     struct Coordinate {
-        Coordinate(double at, std::size_t cells)
+        Coordinate(double at, std::int64_t first, std::size_t cells)
         {
-            const auto most = static_cast<double>(cells) - 0.5 - 1e-9;
-            const double inside = at > 0.5 ? (at < most ? at : most) : 0.5;  // of NaN, too
-            whole = static_cast<std::size_t>(inside);
-            part = inside - static_cast<double>(whole);
-            half = static_cast<std::size_t>(inside - 0.5);
-            half_part = inside - 0.5 - static_cast<double>(half);
+            const double least = static_cast<double>(first) + 0.5;
+            const double most = static_cast<double>(first + static_cast<std::int64_t>(cells)) - 0.5 - 1e-9;
+            const double inside = at > least ? (at < most ? at : most) : least;  // of NaN, too
+            // Parts do not depend on where the grid begins.
+            split(inside, first, whole, part);
+            split(inside - 0.5, first, half, half_part);
         }
-        std::size_t whole;
-        double part;
-        std::size_t half;
-        double half_part;
+        static void split(double at, std::int64_t first, std::size_t& index, double& rest)
+        {
+            const auto near_zero = static_cast<std::int64_t>(at);
+            const std::int64_t floor = near_zero - (static_cast<double>(near_zero) > at ? 1 : 0);
+            index = static_cast<std::size_t>(floor - first);
+            rest = at - static_cast<double>(floor);
+        }
+        std::size_t whole = 0;
+        double part = 0.0;
+        std::size_t half = 0;
+        double half_part = 0.0;
     };
     std::size_t columns_;
     Coordinate x_;

@@ -73,12 +73,14 @@ private:
     std::vector<std::vector<std::uint32_t>> strips_;  ///< sides that meet each strip of equal height
 };
 
-/// Range of a lattice's points from `low` to `high`, clipped: [first, second).
-std::pair<std::size_t, std::size_t> pointsBetween(double low, double high, double step, std::size_t count)
+/// Range of `count` numbers from `first` on, times a step, that lie from `low` to `high`: [first, second).
+std::pair<std::size_t, std::size_t> pointsBetween(double low, double high, double step, std::int64_t first,
+                                                  std::size_t count)
 {
-    const double last = static_cast<double>(count);
-    return {static_cast<std::size_t>(std::clamp(std::ceil(low / step), 0.0, last)),
-            static_cast<std::size_t>(std::clamp(std::floor(high / step) + 1.0, 0.0, last))};
+    const auto begin = static_cast<double>(first);
+    const auto last = static_cast<double>(count);
+    return {static_cast<std::size_t>(std::clamp(std::ceil(low / step) - begin, 0.0, last)),
+            static_cast<std::size_t>(std::clamp(std::floor(high / step) + 1.0 - begin, 0.0, last))};
 }
 
 }  // namespace
@@ -154,14 +156,15 @@ WallField WallDistance::at(double time, const GridShape& grid) const
         std::size_t number = 0;
         for (const std::vector<Vec2>& loop : region.loops) {
             for (std::size_t i = 0; i < loop.size(); ++i, ++number) {
-                const Vec2 a = loop[i] - grid.lower;
+                const Vec2 a = loop[i];
                 const Vec2 along = loop[(i + 1) % loop.size()] - loop[i];
                 const double square = dot(along, along);
                 const double thickened = thin_[w][number] != 0 ? 0.5 * grid.cell : 0.0;
-                const auto [low, high] = pointsBetween(std::min(a.y, a.y + along.y) - reach,
-                                                       std::max(a.y, a.y + along.y) + reach, grid.cell, rows);
+                const auto [low, high] =
+                    pointsBetween(std::min(a.y, a.y + along.y) - reach, std::max(a.y, a.y + along.y) + reach, grid.cell,
+                                  grid.bottom, rows);
                 for (std::size_t row = low; row < high; ++row) {
-                    const double y = static_cast<double>(row) * grid.cell;
+                    const double y = grid.placeOf(0.0, static_cast<double>(row)).y;
                     // Part of the side within reach of the row.
                     double from = 0.0;
                     double to = 1.0;
@@ -173,10 +176,10 @@ WallField WallDistance::at(double time, const GridShape& grid) const
                     }
                     const double begin = a.x + from * along.x;
                     const double end = a.x + to * along.x;
-                    const auto [left, right] =
-                        pointsBetween(std::min(begin, end) - reach, std::max(begin, end) + reach, grid.cell, columns);
+                    const auto [left, right] = pointsBetween(std::min(begin, end) - reach, std::max(begin, end) + reach,
+                                                             grid.cell, grid.left, columns);
                     for (std::size_t column = left; column < right; ++column) {
-                        const Vec2 arm = Vec2{static_cast<double>(column) * grid.cell, y} - a;
+                        const Vec2 arm = Vec2{grid.placeOf(static_cast<double>(column), 0.0).x, y} - a;
                         const double at = square > 0.0 ? std::clamp(dot(arm, along) / square, 0.0, 1.0) : 0.0;
                         const Vec2 way = arm - at * along;
                         double& least = near[row * columns + column];
@@ -190,10 +193,10 @@ WallField WallDistance::at(double time, const GridShape& grid) const
             }
         }
         for (std::size_t row = 0; row < rows; ++row) {
-            crossed = crossings(region, grid.lower.y + static_cast<double>(row) * grid.cell);
+            crossed = crossings(region, grid.placeOf(0.0, static_cast<double>(row)).y);
             std::size_t passed = 0;
             for (std::size_t column = 0; column < columns; ++column) {
-                const double x = grid.lower.x + static_cast<double>(column) * grid.cell;
+                const double x = grid.placeOf(static_cast<double>(column), 0.0).x;
                 while (passed < crossed.size() && crossed[passed] <= x) {
                     ++passed;
                 }

@@ -14,7 +14,8 @@ using droplet::GridShape;
 
 /// Equations of −∇²p on the inner cells of a square, 0 beyond them.
 struct Square {
-    explicit Square(std::size_t inner) : grid{{}, 1.0 / static_cast<double>(inner + 1), inner + 2, inner + 2}, all(grid)
+    explicit Square(std::size_t inner)
+        : grid{1.0 / static_cast<double>(inner + 1), 0, 0, inner + 2, inner + 2}, all(grid)
     {
         for (std::size_t row = 1; row <= inner; ++row) {
             for (std::size_t column = 1; column <= inner; ++column) {
@@ -39,7 +40,7 @@ TEST(GridEquations, SolvePoissonsEquationWithSecondOrder)
 {
     std::vector<double> errors;
     for (const std::size_t inner : {15U, 31U, 63U}) {
-        const Square square(inner);
+        Square square(inner);
         const double h = square.grid.cell;
         std::vector<double> rhs(square.grid.cells());
         std::vector<double> exact(square.grid.cells());
@@ -67,7 +68,7 @@ TEST(GridEquations, SolvePoissonsEquationWithSecondOrder)
 /// Liquid that walls enclose has no pressure to begin with: any constant may be added.
 TEST(GridEquations, SolveEnclosedLiquid)
 {
-    const GridShape grid{{}, 1.0, 4, 3};
+    const GridShape grid{1.0, 0, 0, 4, 3};
     GridEquations equations(grid);
     const std::size_t left = grid.at(1, 1);
     equations.add(left);

@@ -16,15 +16,14 @@ using droplet::WallField;
 
 Vec2 cornerOf(const GridShape& grid, std::size_t k)
 {
-    return grid.lower + grid.cell * Vec2{static_cast<double>(k % grid.cornerColumns()),
-                                         static_cast<double>(k / grid.cornerColumns())};
+    return grid.placeOf(static_cast<double>(k % grid.cornerColumns()), static_cast<double>(k / grid.cornerColumns()));
 }
 
 TEST(WallDistance, OfACircleIsThatFromItsRim)
 {
     FluidScene scene;
     scene.walls = {{droplet::circle({0.5, 0.5}, 0.3), {}, true}};
-    const GridShape grid{{-0.2, -0.2}, 0.02, 70, 70};
+    const GridShape grid{0.02, -10, -10, 70, 70};
     const WallField field = WallDistance(scene, grid.cell).at(0.0, grid);
     const double reach = WallDistance::kReach * grid.cell;
     for (std::size_t k = 0; k < grid.corners(); ++k) {
@@ -43,7 +42,7 @@ TEST(WallDistance, FollowsAWallThatMovesAndTurns)
     motion.pivot = {0.5, 0.5};
     scene.walls = {{droplet::rectangle({0.4, 0.2}, {0.6, 0.8}), motion, true}};
     const WallDistance walls(scene, 0.02);
-    const GridShape grid{{0.0, 0.0}, 0.02, 50, 50};
+    const GridShape grid{0.02, 0, 0, 50, 50};
     constexpr double kTime = 1.3;
     constexpr double kLater = 1e-6;
     const WallField now = walls.at(kTime, grid);
@@ -73,7 +72,7 @@ TEST(WallDistance, HasNoSurfaceBetweenWallsThatAdjoin)
     FluidScene scene;
     scene.walls = {{droplet::rectangle({-1.0, -1.0}, {2.0, 0.0}), {}, true},
                    {droplet::rectangle({-1.0, 0.0}, {0.0, 2.0}), {}, true}};
-    const GridShape grid{{-0.4, -0.4}, 0.1, 10, 10};
+    const GridShape grid{0.1, -4, -4, 10, 10};
     const WallField field = WallDistance(scene, grid.cell).at(0.0, grid);
     for (std::size_t k = 0; k < grid.corners(); ++k) {
         const Vec2 place = cornerOf(grid, k);
@@ -87,7 +86,7 @@ TEST(WallDistance, TakesThinWallsAsOneCellThick)
 {
     FluidScene scene;
     scene.walls = {{droplet::rectangle({-1.0, 0.0}, {2.0, 0.01}), {}, true}};
-    const GridShape grid{{0.0, -0.4}, 0.1, 10, 10};
+    const GridShape grid{0.1, 0, -4, 10, 10};
     const WallField field = WallDistance(scene, grid.cell).at(0.0, grid);
     for (std::size_t k = 0; k < grid.corners(); ++k) {
         const double y = cornerOf(grid, k).y;
