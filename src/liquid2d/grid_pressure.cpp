@@ -26,17 +26,20 @@ GridEquations::GridEquations(const GridShape& grid)
       diagonal_(grid.cells(), 0.0),
       right_(grid.cells(), 0.0),
       up_(grid.cells(), 0.0),
-      inverse_(grid.cells(), 0.0),
+      scale_(grid.cells(), 0.0),
+      solution_(grid.cells(), 0.0),
       residual_(grid.cells(), 0.0),
       search_(grid.cells(), 0.0),
-      product_(grid.cells(), 0.0)
+      product_(grid.cells(), 0.0),
+      lower_(grid.cells(), 0.0)
 {
 }
 
 void GridEquations::clear()
 {
     for (const std::size_t k : cells_) {
-        for (std::vector<double>* values : {&diagonal_, &right_, &up_, &inverse_, &residual_, &search_, &product_}) {
+        for (std::vector<double>* values :
+             {&diagonal_, &right_, &up_, &scale_, &solution_, &residual_, &search_, &product_, &lower_}) {
             (*values)[k] = 0.0;
         }
     }
@@ -45,86 +48,101 @@ void GridEquations::clear()
 
 void GridEquations::factorise()
 {
+    // With unknowns and equations scaled so that the factor has ones on its diagonal, its other entries are those of
+    // the equations: A = L + D + L', and the preconditioner is (1 + L)(1 + L').
     for (const std::size_t k : cells_) {
-        const double left = right_[k - 1] * inverse_[k - 1];
-        const double down = up_[k - columns_] * inverse_[k - columns_];
+        const double left = right_[k - 1] * scale_[k - 1];
+        const double down = up_[k - columns_] * scale_[k - columns_];
         const double diagonal = diagonal_[k] *= 1.0 + kEnclosed;
         const double rest =
             diagonal - left * left - down * down -
-            kModified * (left * up_[k - 1] * inverse_[k - 1] + down * right_[k - columns_] * inverse_[k - columns_]);
+            kModified * (left * up_[k - 1] * scale_[k - 1] + down * right_[k - columns_] * scale_[k - columns_]);
         const double pivot = rest < kSafe * diagonal ? diagonal : rest;
-        inverse_[k] = pivot > 0.0 ? 1.0 / std::sqrt(pivot) : 0.0;
+        scale_[k] = pivot > 0.0 ? 1.0 / std::sqrt(pivot) : 0.0;
     }
-}
-
-/// Puts the preconditioned residual into product_.
-void GridEquations::precondition()
-{
-    const std::vector<double>& r = residual_;
-    std::vector<double>& z = product_;
     for (const std::size_t k : cells_) {
-        z[k] = inverse_[k] * (r[k] - right_[k - 1] * inverse_[k - 1] * z[k - 1] -
-                              up_[k - columns_] * inverse_[k - columns_] * z[k - columns_]);
-    }
-    for (std::size_t n = cells_.size(); n-- > 0;) {
-        const std::size_t k = cells_[n];
-        z[k] = inverse_[k] * (z[k] - inverse_[k] * (right_[k] * z[k + 1] + up_[k] * z[k + columns_]));
+        diagonal_[k] *= scale_[k] * scale_[k];
+        right_[k] *= scale_[k] * scale_[k + 1];
+        up_[k] *= scale_[k] * scale_[k + columns_];
     }
 }
 
 GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::vector<double>& x, double tolerance)
 {
     Solved solved;
+    // Unknowns are y = (1 + L') x, equations those of (1 + L)⁻¹ A (1 + L')⁻¹ y.
+    std::vector<double>& y = solution_;
     std::vector<double>& r = residual_;
-    std::vector<double>& z = product_;
     std::vector<double>& s = search_;
-    const auto times = [&](const std::vector<double>& a, std::size_t k) {
-        return diagonal_[k] * a[k] + right_[k] * a[k + 1] + right_[k - 1] * a[k - 1] + up_[k] * a[k + columns_] +
-               up_[k - columns_] * a[k - columns_];
+    std::vector<double>& t = product_;
+    for (const std::size_t k : cells_) {
+        y[k] = scale_[k] > 0.0 ? x[k] / scale_[k] : 0.0;
+        t[k] = 0.0;
+    }
+    // Residuals of the equations as they were joined.
+    const auto residual_at = [&](std::size_t k) {
+        return scale_[k] > 0.0
+                   ? std::abs(r[k] + right_[k - 1] * r[k - 1] + up_[k - columns_] * r[k - columns_]) / scale_[k]
+                   : 0.0;
     };
     for (const std::size_t k : cells_) {
-        r[k] = inverse_[k] > 0.0 ? rhs[k] - times(x, k) : 0.0;
-        solved.residual = std::max(solved.residual, std::abs(r[k]));
+        const double own = rhs[k] * scale_[k] - diagonal_[k] * y[k] - right_[k] * y[k + 1] - right_[k - 1] * y[k - 1] -
+                           up_[k] * y[k + columns_] - up_[k - columns_] * y[k - columns_];
+        solved.residual = std::max(solved.residual, scale_[k] > 0.0 ? std::abs(own) / scale_[k] : 0.0);
+        r[k] = own - up_[k - columns_] * r[k - columns_] - right_[k - 1] * r[k - 1];
     }
     if (solved.residual <= tolerance) {
         return solved;
     }
-    precondition();
     double rho = 0.0;
     for (const std::size_t k : cells_) {
-        s[k] = z[k];
-        rho += r[k] * z[k];
+        y[k] += right_[k] * y[k + 1] + up_[k] * y[k + columns_];
+        s[k] = r[k];
+        rho += r[k] * r[k];
     }
     while (solved.iterations < kMaxIterations && rho > 0.0) {
         ++solved.iterations;
+        // The product by one solution with each factor (Eisenstat: Efficient implementation of a class of
+        // preconditioned conjugate gradient methods. SIAM J. Sci. Stat. Comput. 2, 1981):
+        // (1 + L)⁻¹ A t = t + (1 + L)⁻¹ (s + (D - 2) t) with t = (1 + L')⁻¹ s.
+        for (std::size_t n = cells_.size(); n-- > 0;) {
+            const std::size_t k = cells_[n];
+            t[k] = s[k] - up_[k] * t[k + columns_] - right_[k] * t[k + 1];
+        }
         double curvature = 0.0;
         for (const std::size_t k : cells_) {
-            z[k] = times(s, k);
-            curvature += s[k] * z[k];
+            lower_[k] = s[k] + (diagonal_[k] - 2.0) * t[k] - up_[k - columns_] * lower_[k - columns_] -
+                        right_[k - 1] * lower_[k - 1];
+            t[k] += lower_[k];
+            curvature += s[k] * t[k];
         }
         if (!(curvature > 0.0)) {
             break;
         }
         const double alpha = rho / curvature;
+        double next = 0.0;
+        for (const std::size_t k : cells_) {
+            y[k] += alpha * s[k];
+            r[k] -= alpha * t[k];
+            next += r[k] * r[k];
+        }
         solved.residual = 0.0;
         for (const std::size_t k : cells_) {
-            x[k] += alpha * s[k];
-            r[k] -= alpha * z[k];
-            solved.residual = std::max(solved.residual, std::abs(r[k]));
+            solved.residual = std::max(solved.residual, residual_at(k));
         }
         if (solved.residual <= tolerance) {
             break;
         }
-        precondition();
-        double next = 0.0;
-        for (const std::size_t k : cells_) {
-            next += r[k] * z[k];
-        }
         const double beta = next / rho;
         for (const std::size_t k : cells_) {
-            s[k] = z[k] + beta * s[k];
+            s[k] = r[k] + beta * s[k];
         }
         rho = next;
+    }
+    for (std::size_t n = cells_.size(); n-- > 0;) {
+        const std::size_t k = cells_[n];
+        y[k] -= up_[k] * y[k + columns_] + right_[k] * y[k + 1];
+        x[k] = scale_[k] * y[k];
     }
     return solved;
 }

@@ -35,7 +35,7 @@ public:
     /// Adds w x_cell to a cell's equation.
     void hold(std::size_t cell, double w) { diagonal_[cell] += w; }
 
-    /// Factorises the equations after all have been joined.
+    /// Factorises the equations after all have been joined; none may be joined after that.
     void factorise();
 
     struct Solved {
@@ -49,17 +49,18 @@ public:
     Solved solve(const std::vector<double>& rhs, std::vector<double>& x, double tolerance);
 
 private:
-    void precondition();
-
     std::size_t columns_ = 0;
     std::vector<std::uint32_t> cells_;
     std::vector<double> diagonal_;
-    std::vector<double> right_;    ///< coefficient of the cell on the right
-    std::vector<double> up_;       ///< of the cell above
-    std::vector<double> inverse_;  ///< of the roots of the factor's diagonal
+    std::vector<double> right_;  ///< coefficient of the cell on the right
+    std::vector<double> up_;     ///< of the cell above
+    std::vector<double> scale_;  ///< of unknowns and equations
+    // Of the scaled and preconditioned equations:
+    std::vector<double> solution_;
     std::vector<double> residual_;
     std::vector<double> search_;
-    std::vector<double> product_;  ///< of the equations and the search direction, or the preconditioned residual
+    std::vector<double> product_;  ///< of the equations and the search direction
+    std::vector<double> lower_;    ///< its part by the lower factor
 };
 
 }  // namespace droplet

@@ -45,7 +45,7 @@ struct Bilinear {
 
     /// Value at the place.
     template <typename Values>
-    [[nodiscard]] double in(const Values& values) const
+    [[nodiscard]] inline double in(const Values& values) const
     {
         const double low = values[first] + u * (values[first + 1] - values[first]);
         const double high = values[first + columns] + u * (values[first + columns + 1] - values[first + columns]);
