@@ -926,7 +926,7 @@ private:
     {
         const double reach = latticeStep(scene_.spacing);
         placeLanes(state, reach);
-        shift_.assign(state.position.size(), {});
+        shift_.resize(state.position.size());
         constexpr std::size_t kParticlesPerBlock = 1024;
         forBlocks(
             state.position.size(),
@@ -950,8 +950,9 @@ private:
         const std::size_t count = state.position.size();
         // What is read beyond the last one is far away.
         constexpr float kFar = 1e6F;
-        lanes_x_.assign(count + kLanes, kFar);
-        lanes_y_.assign(count + kLanes, kFar);
+        lanes_x_.resize(count + kLanes);
+        lanes_y_.resize(count + kLanes);
+        std::fill(lanes_x_.end() - kLanes, lanes_x_.end(), kFar);
         for (std::size_t i = 0; i < count; ++i) {
             const Vec2 place = (1.0 / reach) * state.position[i];
             lanes_x_[i] = static_cast<float>(place.x);

@@ -45,7 +45,7 @@ struct Bilinear {
 
     /// Value at the place.
     template <typename Values>
-    [[nodiscard]] inline double in(const Values& values) const
+    [[nodiscard]] double in(const Values& values) const
     {
         const double low = values[first] + u * (values[first + 1] - values[first]);
         const double high = values[first + columns] + u * (values[first + columns + 1] - values[first + columns]);
@@ -108,15 +108,13 @@ private:
             const double most = static_cast<double>(first + static_cast<std::int64_t>(cells)) - 0.5 - 1e-9;
             const double inside = at > least ? (at < most ? at : most) : least;  // of NaN, too
             // Parts do not depend on where the grid begins.
-            split(inside, first, whole, part);
-            split(inside - 0.5, first, half, half_part);
-        }
-        static void split(double at, std::int64_t first, std::size_t& index, double& rest)
-        {
-            const auto near_zero = static_cast<std::int64_t>(at);
-            const std::int64_t floor = near_zero - (static_cast<double>(near_zero) > at ? 1 : 0);
-            index = static_cast<std::size_t>(floor - first);
-            rest = at - static_cast<double>(floor);
+            const auto near_zero = static_cast<std::int64_t>(inside);
+            const std::int64_t floor = near_zero - (static_cast<double>(near_zero) > inside ? 1 : 0);
+            whole = static_cast<std::size_t>(floor - first);
+            part = inside - static_cast<double>(floor);
+            const bool is_beyond = part >= 0.5;
+            half = whole - (is_beyond ? 0 : 1);
+            half_part = part + (is_beyond ? -0.5 : 0.5);
         }
         std::size_t whole = 0;
         double part = 0.0;
