@@ -62,8 +62,10 @@ Surroundings surroundingsOf(const ParticleFrame& frame)
     CellGrid cells(lower, upper, reach);
     const std::vector<std::uint32_t> order = cells.sort(frame.position);
     std::vector<Vec2> position(count);
+    std::vector<Vec2> velocity(count);
     for (std::size_t k = 0; k < count; ++k) {
         position[k] = frame.position[order[k]];
+        velocity[k] = frame.velocity[order[k]];
     }
     struct Pair {
         std::uint32_t a;
@@ -74,7 +76,6 @@ Surroundings surroundingsOf(const ParticleFrame& frame)
         [&](std::size_t begin, std::size_t end) {
             std::vector<Pair> connected;
             for (std::size_t k = begin; k < end; ++k) {
-                const std::uint32_t i = order[k];
                 const Vec2 x = position[k];
                 double coverage = kernel.area() * kernel(0.0);
                 Vec2 gradient;
@@ -93,17 +94,17 @@ Surroundings surroundingsOf(const ParticleFrame& frame)
                         const Kernel::Both near = kernel.both(std::max(distance, 1e-9 * reach));
                         coverage += kernel.area() * near.value;
                         gradient = gradient + (kernel.area() * near.slope_over_distance) * between;
-                        const std::uint32_t j = order[m];
-                        const Vec2 velocity = frame.velocity[i] - frame.velocity[j];
-                        const double speed = length(velocity);
                         if (distance > 0.0) {
-                            churn += kernel.area() * near.value * (speed - dot(velocity, between) / distance);
+                            const Vec2 relative = velocity[k] - velocity[m];
+                            const double speed = std::sqrt(dot(relative, relative));
+                            churn += kernel.area() * near.value * (speed - dot(relative, between) / distance);
                         }
                         if (m > k && distance < kConnected * frame.spacing) {
                             connected.push_back({static_cast<std::uint32_t>(k), m});
                         }
                     }
                 }
+                const std::uint32_t i = order[k];
                 result.coverage[i] = coverage;
                 result.outward[i] = (-frame.spacing) * gradient;
                 result.churn[i] = churn / frame.spacing;
