@@ -32,7 +32,7 @@ struct MorphCommandOptions {
     MorphOutput kind = MorphOutput::Model;
     std::optional<NumberedPath> files;  ///< set if every frame gets a mask or drawing
     std::size_t frames = 120;
-    std::size_t particles = 8000;
+    std::size_t particles = 12000;
     double rounding = 1.0;
     std::optional<int> width;  ///< of masks and drawings [px]; empty: that of the first picture
     droplet::LiquidLook look;

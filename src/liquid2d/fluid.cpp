@@ -172,7 +172,7 @@ public:
           taken_(lower_, upper_, kernel.support())
     {
         for (const Wall& wall : scene.walls) {
-            regions_.push_back(wallAt(wall, 0.0));
+            taken_regions_.emplace_back(wallAt(wall, 0.0));
         }
     }
 
@@ -187,7 +187,7 @@ public:
                 own.push_back(place);
             }
         });
-        bodies_.push_back(body);
+        taken_regions_.emplace_back(body);
         places_.insert(places_.end(), own.begin(), own.end());
         taken_order_ = taken_.sort(places_);
     }
@@ -195,9 +195,9 @@ public:
 private:
     [[nodiscard]] bool isFree(Vec2 place) const
     {
-        const auto holds = [place](const Region& region) { return contains(region, place); };
-        return std::none_of(regions_.begin(), regions_.end(), holds) &&
-               std::none_of(bodies_.begin(), bodies_.end(), holds) && !isAtWall(place) && !isAtParticle(place);
+        const auto holds = [place](const Interior& region) { return region.contains(place); };
+        return std::none_of(taken_regions_.begin(), taken_regions_.end(), holds) && !isAtWall(place) &&
+               !isAtParticle(place);
     }
 
     /// Calls meets(index) for what a grid has around a place, until it returns true.
@@ -239,13 +239,12 @@ private:
 
     const FluidScene& scene_;
     WallSamples walls_;
-    std::vector<Region> regions_;  ///< of the walls
-    Vec2 lower_;                   ///< beyond these corners particles are removed
+    std::vector<Interior> taken_regions_;  ///< of the walls, and of the bodies so far
+    Vec2 lower_;                           ///< beyond these corners particles are removed
     Vec2 upper_;
     CellGrid cells_;  ///< of the walls' samples
     std::vector<std::uint32_t> order_;
-    std::vector<Region> bodies_;  ///< so far
-    std::vector<Vec2> places_;    ///< of their particles
+    std::vector<Vec2> places_;  ///< of the bodies' particles so far
     CellGrid taken_;
     std::vector<std::uint32_t> taken_order_;
 };

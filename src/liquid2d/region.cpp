@@ -22,6 +22,12 @@ void forSides(const Region& region, const Work& work)
     }
 }
 
+/// Whether the ray from a point to the right meets a side.
+bool meetsRay(Vec2 a, Vec2 b, Vec2 point)
+{
+    return (a.y <= point.y) != (b.y <= point.y) && point.x < a.x + (b.x - a.x) * (point.y - a.y) / (b.y - a.y);
+}
+
 }  // namespace
 
 Region rectangle(Vec2 lower, Vec2 upper)
@@ -57,12 +63,42 @@ std::vector<double> crossings(const Region& region, double y)
 bool contains(const Region& region, Vec2 point)
 {
     bool is_inside = false;
-    forSides(region, [&](Vec2 a, Vec2 b) {
-        if ((a.y <= point.y) != (b.y <= point.y) && point.x < a.x + (b.x - a.x) * (point.y - a.y) / (b.y - a.y)) {
-            is_inside = !is_inside;
-        }
-    });
+    forSides(region, [&](Vec2 a, Vec2 b) { is_inside = is_inside != meetsRay(a, b, point); });
     return is_inside;
+}
+
+Interior::Interior(const Region& region)
+{
+    forSides(region, [&](Vec2 a, Vec2 b) {
+        sides_.push_back({a, b});
+        low_ = std::min(low_, a.y);
+        high_ = std::max(high_, a.y);
+    });
+    strips_.resize(std::max<std::size_t>(sides_.size() / 4, 1));
+    for (std::uint32_t k = 0; k < sides_.size(); ++k) {
+        const auto& [a, b] = sides_[k];
+        for (std::size_t s = strip(std::min(a.y, b.y)); s <= strip(std::max(a.y, b.y)); ++s) {
+            strips_[s].push_back(k);
+        }
+    }
+}
+
+bool Interior::contains(Vec2 point) const
+{
+    if (!(point.y >= low_ && point.y <= high_)) {
+        return false;
+    }
+    bool is_inside = false;
+    for (const std::uint32_t k : strips_[strip(point.y)]) {
+        is_inside = is_inside != meetsRay(sides_[k].a, sides_[k].b, point);
+    }
+    return is_inside;
+}
+
+std::size_t Interior::strip(double y) const
+{
+    const double part = high_ > low_ ? (y - low_) / (high_ - low_) : 0.0;
+    return std::min(static_cast<std::size_t>(part * static_cast<double>(strips_.size())), strips_.size() - 1);
 }
 
 bool isInsideOnLeft(const Region& region, const std::vector<Vec2>& loop)

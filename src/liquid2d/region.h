@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -10,6 +12,27 @@ namespace droplet {
 
 /// Whether a region contains a point.
 bool contains(const Region& region, Vec2 point);
+
+/// Interior of a region, for many points.
+class Interior {
+public:
+    explicit Interior(const Region& region);
+
+    /// As contains(), in time that does not grow with the number of sides.
+    [[nodiscard]] bool contains(Vec2 point) const;
+
+private:
+    struct Side {
+        Vec2 a;
+        Vec2 b;
+    };
+    [[nodiscard]] std::size_t strip(double y) const;
+
+    std::vector<Side> sides_;
+    double low_ = 1e300;
+    double high_ = -1e300;
+    std::vector<std::vector<std::uint32_t>> strips_;  ///< sides that meet each strip of equal height
+};
 
 /// Abscissae at which a region's sides cross a horizontal line, in order.
 std::vector<double> crossings(const Region& region, double y);

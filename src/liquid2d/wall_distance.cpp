@@ -20,59 +20,6 @@ constexpr double kThickest = 8.0;
 /// Part of a wall's thickness that it may go in a step: liquid is put back to the nearer side.
 constexpr double kWay = 0.35;
 
-/// Whether places lie in a region, for many places.
-class Inside {
-public:
-    explicit Inside(const Region& region)
-    {
-        for (const std::vector<Vec2>& loop : region.loops) {
-            for (std::size_t i = 0; i < loop.size(); ++i) {
-                sides_.push_back({loop[i], loop[(i + 1) % loop.size()]});
-                low_ = std::min(low_, loop[i].y);
-                high_ = std::max(high_, loop[i].y);
-            }
-        }
-        strips_.resize(std::max<std::size_t>(sides_.size() / 4, 1));
-        for (std::uint32_t k = 0; k < sides_.size(); ++k) {
-            const auto& [a, b] = sides_[k];
-            for (std::size_t s = strip(std::min(a.y, b.y)); s <= strip(std::max(a.y, b.y)); ++s) {
-                strips_[s].push_back(k);
-            }
-        }
-    }
-
-    [[nodiscard]] bool operator()(Vec2 place) const
-    {
-        if (!(place.y >= low_ && place.y <= high_)) {
-            return false;
-        }
-        bool is_inside = false;
-        for (const std::uint32_t k : strips_[strip(place.y)]) {
-            const auto& [a, b] = sides_[k];
-            if ((a.y <= place.y) != (b.y <= place.y) && place.x < a.x + (b.x - a.x) * (place.y - a.y) / (b.y - a.y)) {
-                is_inside = !is_inside;
-            }
-        }
-        return is_inside;
-    }
-
-private:
-    struct Side {
-        Vec2 a;
-        Vec2 b;
-    };
-    [[nodiscard]] std::size_t strip(double y) const
-    {
-        const double part = high_ > low_ ? (y - low_) / (high_ - low_) : 0.0;
-        return std::min(static_cast<std::size_t>(part * static_cast<double>(strips_.size())), strips_.size() - 1);
-    }
-
-    std::vector<Side> sides_;
-    double low_ = 1e300;
-    double high_ = -1e300;
-    std::vector<std::vector<std::uint32_t>> strips_;  ///< sides that meet each strip of equal height
-};
-
 /// Range of `count` numbers from `first` on, times a step, that lie from `low` to `high`: [first, second).
 std::pair<std::size_t, std::size_t> pointsBetween(double low, double high, double step, std::int64_t first,
                                                   std::size_t count)
@@ -89,7 +36,7 @@ WallDistance::WallDistance(const FluidScene& scene, double cell) : scene_(scene)
 {
     for (const Wall& wall : scene.walls) {
         std::vector<std::uint8_t>& thin = thin_.emplace_back();
-        const Inside inside(wall.region);
+        const Interior interior(wall.region);
         double thickness = kThickest;  // in cells
         double reach = 0.0;
         for (const std::vector<Vec2>& loop : wall.region.loops) {
@@ -99,8 +46,8 @@ WallDistance::WallDistance(const FluidScene& scene, double cell) : scene_(scene)
                 const double size = length(along);
                 const Vec2 into = size > 0.0 ? (side * cell / size) * Vec2{-along.y, along.x} : Vec2{};
                 const Vec2 middle = loop[i] + 0.5 * along;
-                thin.push_back(inside(middle + into) ? 0 : 1);
-                while (thickness > 1.0 && !inside(middle + thickness * into)) {
+                thin.push_back(interior.contains(middle + into) ? 0 : 1);
+                while (thickness > 1.0 && !interior.contains(middle + thickness * into)) {
                     thickness *= 0.5;
                 }
                 reach = wall.motion ? std::max(reach, length(loop[i] - wall.motion->pivot)) : 0.0;

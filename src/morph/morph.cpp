@@ -24,13 +24,13 @@ namespace {
 // Lengths are in roots of the liquid's area and times in durations of a transition. The constants were set by the
 // pictures of words that become rings and stars.
 
-/// Surface tension over density at MorphOptions::surface_tension = 1.
-constexpr double kTension = 5e-3;
+/// Surface tension over density at MorphOptions::surface_tension = 1: letters become drops before they meet.
+constexpr double kTension = 2e-2;
 /// Time in which a particle takes up the velocity that is asked of it, on the way and at the end.
 constexpr double kLoose = 0.05;
 constexpr double kFirm = 0.01;
 /// Part of the time, at the end, in which particles are steered one by one more and more.
-constexpr double kAlone = 0.4;
+constexpr double kAlone = 0.25;
 /// Radius in which the asked velocities are smoothed, in spacings.
 constexpr double kTogether = 4.0;
 /// Greatest rate at which the rest of a way is covered.
@@ -42,9 +42,17 @@ constexpr double kLastNewPlaces = 0.75;
 constexpr double kBlend = 0.2;
 /// Loops that enclose less than so many particles are dropped.
 constexpr double kSpeck = 4.0;
-/// Radii of the surface's kernel, in spacings: at the ends and halfway, where the liquid is stretched.
+/// Radius of the surface's kernel at the ends, in spacings.
 constexpr double kFine = 2.2;
-constexpr double kCoarse = 3.6;
+/// Radius of it halfway, where the liquid is stretched; at least so many spacings.
+constexpr double kCoarse = 0.05;
+constexpr double kLeastCoarse = 3.6;
+
+/// Slits up to this width fuse, on the way.
+constexpr double kSlit = 0.1;
+/// Parts of the time at both ends in which that width grows, and falls.
+constexpr double kFusing = 0.4;
+constexpr double kParting = 0.15;
 
 /// Part of the way after a part of the time, with the least jerk, and its derivative.
 double wayAt(double t)
@@ -186,7 +194,8 @@ public:
         const double d = scene_.spacing;
         const double t = state_.time;
         const double coarse = smoothRamp(2.0 * std::min(t, 1.0 - t), 0.0, 1.0);
-        const double radius = d * (kFine + (kCoarse - kFine) * coarse);
+        const double greatest = std::max(kCoarse, kLeastCoarse * d);
+        const double radius = kFine * d + (greatest - kFine * d) * coarse;
         const double of_from = 1.0 - smoothRamp(t / kBlend, 0.0, 1.0);
         const double of_to = 1.0 - smoothRamp((1.0 - t) / kBlend, 0.0, 1.0);
         Vec2 lower = state_.position.front();
@@ -203,7 +212,7 @@ public:
                 std::for_each(region->loops.begin(), region->loops.end(), include);
             }
         }
-        const Vec2 margin{2.0 * kCoarse * d, 2.0 * kCoarse * d};
+        const Vec2 margin{2.0 * greatest, 2.0 * greatest};
         MorphField field(lower - margin, upper + margin, 0.5 * d);
         field.add({state_.position, d * d, radius}, 1.0 - of_from - of_to);
         if (of_from > 0.0) {
@@ -212,6 +221,7 @@ public:
         if (of_to > 0.0) {
             field.add(to_, 2.0 * d, of_to);
         }
+        field.fill(kSlit * smoothRamp(t / kFusing, 0.0, 1.0) * smoothRamp((1.0 - t) / kParting, 0.0, 1.0));
         return field.loopsOfArea(1.0, kSpeck * d * d);
     }
 

@@ -13,6 +13,14 @@
 namespace droplet {
 namespace {
 
+/// Part of what is around a place that is liquid, above which the place is, too. It is more than a half, which is
+/// around a straight edge: slits of a standard deviation of the average are filled, holes of that radius close, and
+/// nothing grows outwards.
+constexpr double kFilled = 0.6;
+
+/// Difference from the field within which the average rounds it.
+constexpr double kRounded = 0.1;
+
 double areaOf(const std::vector<Loop>& loops)
 {
     double area = 0.0;
@@ -22,12 +30,38 @@ double areaOf(const std::vector<Loop>& loops)
     return area;
 }
 
-double distanceFromSide(Vec2 p, Vec2 a, Vec2 b)
+double squareFromSide(Vec2 p, Vec2 a, Vec2 b)
 {
     const Vec2 side = b - a;
     const double square = dot(side, side);
     const double t = square > 0.0 ? std::clamp(dot(p - a, side) / square, 0.0, 1.0) : 0.0;
-    return length(p - (a + t * side));
+    const Vec2 way = p - (a + t * side);
+    return dot(way, way);
+}
+
+/// Lines of a grid: their number and length, and the steps from one to the next and along them.
+struct Lines {
+    int count;
+    int length;
+    int next;
+    int along;
+};
+
+/// Gives every value the mean of those within `half` steps of it along its line; there is nothing beyond the ends.
+void averageLines(std::vector<double>& values, const Lines& lines, int half)
+{
+    std::vector<double> sums(indexOf(lines.length) + 1);
+    const double share = 1.0 / (2 * half + 1);
+    for (int n = 0; n < lines.count; ++n) {
+        const auto at = [&](int k) -> double& { return values[indexOf(n * lines.next) + indexOf(k * lines.along)]; };
+        for (int k = 0; k < lines.length; ++k) {
+            sums[indexOf(k + 1)] = sums[indexOf(k)] + at(k);
+        }
+        for (int k = 0; k < lines.length; ++k) {
+            at(k) =
+                share * (sums[indexOf(std::min(k + half + 1, lines.length))] - sums[indexOf(std::max(k - half, 0))]);
+        }
+    }
 }
 
 }  // namespace
@@ -81,7 +115,7 @@ void MorphField::add(const Particles& particles, double weight)
 void MorphField::add(const Region& region, double width, double weight)
 {
     const double reach = 0.5 * width;
-    std::vector<double> distance(values_.size(), reach);
+    std::vector<double> distance(values_.size(), reach * reach);  // squared
     std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rows_));
     for (const std::vector<Vec2>& loop : region.loops) {
         for (std::size_t k = 0; k < loop.size(); ++k) {
@@ -95,7 +129,7 @@ void MorphField::add(const Region& region, double width, double weight)
                 for (int i = std::max(column(std::min(a.x, b.x) - reach) + 1, 0); i <= i1; ++i) {
                     double& nearest = distance[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
                                                static_cast<std::size_t>(i)];
-                    nearest = std::min(nearest, distanceFromSide(place(i, j), a, b));
+                    nearest = std::min(nearest, squareFromSide(place(i, j), a, b));
                 }
             }
             // Rows at a.y or above, below b.y, or the reverse: a corner counts once.
@@ -116,10 +150,31 @@ void MorphField::add(const Region& region, double width, double weight)
             while (passed < row.size() && row[passed] <= place(i, j).x) {
                 ++passed;
             }
-            const double d = distance[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
-                                      static_cast<std::size_t>(i)];
+            const double d = std::sqrt(distance[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+                                                static_cast<std::size_t>(i)]);
             at(i, j) += weight * (0.5 + (passed % 2 == 1 ? d : -d) / width);
         }
+    }
+}
+
+void MorphField::fill(double width)
+{
+    // Three boxes make almost a Gaussian, of the width as its standard deviation.
+    const double side = std::sqrt(4.0 * width * width / (cell_ * cell_) + 1.0);
+    const int half = static_cast<int>(std::lround(0.5 * (side - 1.0)));
+    if (half < 1) {
+        return;
+    }
+    std::vector<double> mean(values_.size());
+    std::transform(values_.begin(), values_.end(), mean.begin(), [](double v) { return std::clamp(v, 0.0, 1.0); });
+    for (int pass = 0; pass < 3; ++pass) {
+        averageLines(mean, {rows_, columns_, columns_, 1}, half);
+        averageLines(mean, {columns_, rows_, 1, columns_}, half);
+    }
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+        // The larger one, but for a rounding where both are alike.
+        const double filled = mean[k] - kFilled + 0.5;
+        values_[k] = 0.5 * (values_[k] + filled + std::hypot(values_[k] - filled, kRounded));
     }
 }
 
@@ -164,21 +219,34 @@ std::vector<Loop> MorphField::loopsOfArea(double area, double min_area) const
 {
     // The area falls with the level. Loops that appear or vanish make it jump, by less than min_area each.
     constexpr double kClose = 1e-6;
-    constexpr int kHalvings = 40;
-    double low = 0.0;
-    double high = 1.5;
+    constexpr int kTrials = 40;
+    struct Bound {
+        double level;
+        double error;
+        bool is_tried;
+    };
+    Bound low{0.0, 0.0, false};
+    Bound high{1.5, 0.0, false};
+    double step = 0.05;
     std::vector<Loop> best;
     double best_error = std::numeric_limits<double>::max();
     double level = 0.5;
-    for (int k = 0; k < kHalvings && best_error > kClose * area; ++k) {
+    for (int k = 0; k < kTrials && best_error > kClose * area; ++k) {
         std::vector<Loop> found = loops(level, min_area);
         const double error = areaOf(found) - area;
         if (std::abs(error) < best_error) {
             best_error = std::abs(error);
             best = std::move(found);
         }
-        (error > 0.0 ? low : high) = level;
-        level = 0.5 * (low + high);
+        (error > 0.0 ? low : high) = {level, error, true};
+        if (low.is_tried && high.is_tried) {
+            // The chord's zero, but for every third time, lest one bound stays.
+            const double share = k % 3 == 2 ? 0.5 : low.error / (low.error - high.error);
+            level = low.level + share * (high.level - low.level);
+        } else {
+            level = std::clamp(level + (error > 0.0 ? step : -step), low.level, high.level);
+            step *= 2.0;
+        }
     }
     return best;
 }

@@ -31,6 +31,10 @@ public:
     /// @param width  of the ramp
     void add(const Region& region, double width, double weight);
 
+    /// Lets liquid fill slits narrower than a width, and holes of less than that radius, gradually: what is filled
+    /// changes with the width without jumps.
+    void fill(double width);
+
     /// Loops around places with more than `level`, but for those that enclose less than `min_area`.
     [[nodiscard]] std::vector<Loop> loops(double level, double min_area) const;
 

@@ -145,7 +145,8 @@ void exchange(const std::vector<Vec2>& sources, const std::vector<Vec2>& targets
         // Of |a − p|² + |b − q|² against |a − q|² + |b − p|² only the mixed products differ.
         const Vec2 way = targets[partner[j]] - targets[partner[i]];
         const Vec2 aside = sources[j] - sources[i];
-        if (dot(way, aside) < -1e-12 * length(way) * length(aside)) {
+        const double gain = -dot(way, aside);
+        if (gain > 0.0 && gain * gain > 1e-24 * dot(way, way) * dot(aside, aside)) {
             std::swap(partner[i], partner[j]);
             owner[partner[i]] = i;
             owner[partner[j]] = j;
@@ -196,6 +197,7 @@ void exchange(const std::vector<Vec2>& sources, const std::vector<Vec2>& targets
 void spread(const Region& region, double distance, std::vector<Vec2>& points)
 {
     constexpr int kSteps = 6;
+    const Interior interior(region);
     for (int step = 0; step < kSteps; ++step) {
         const NearPoints near(points);
         std::vector<Vec2> next = points;
@@ -206,7 +208,7 @@ void spread(const Region& region, double distance, std::vector<Vec2>& points)
                     next[i] = next[i] + 0.25 * (distance / away - 1.0) * (points[i] - points[found.index]);
                 }
             }
-            next[i] = contains(region, next[i]) ? next[i] : points[i];
+            next[i] = interior.contains(next[i]) ? next[i] : points[i];
         }
         points = std::move(next);
     }

@@ -132,6 +132,75 @@ TEST(Morph, RefusesWhatCannotFlow)
     EXPECT_THAT(run({disc, disc}, few), ThrowsMessage<droplet::Error>(HasSubstr("particles is 100")));
 }
 
+/// A hole that collapses stays round, and goes before the end: it is no cogwheel, and has no cracks.
+TEST(Morph, HoleOfARingCollapsesRoundly)
+{
+    const std::vector<LiquidShape> frames = framesOf({ring(), droplet::circle({0.5, 0.5}, 0.3)}, quick(41));
+    double before = 0.1;
+    for (std::size_t k = 1; k < 40; ++k) {
+        const std::vector<Loop>& loops = frames[k].liquid;
+        ASSERT_LE(loops.size(), 2U) << k;
+        if (loops.size() == 1) {
+            EXPECT_GT(k, 20U);
+            before = 0.0;
+            continue;
+        }
+        const Loop& hole = droplet::signedArea(loops[0]) < 0.0 ? loops[0] : loops[1];
+        double least = 1.0;
+        double most = 0.0;
+        for (const Vec2 p : hole.points) {
+            const double radius = droplet::length(p - Vec2{0.5, 0.5});
+            least = std::min(least, radius);
+            most = std::max(most, radius);
+        }
+        // Particles are 0.008 apart.
+        EXPECT_LT(most - least, 0.006) << k;
+        EXPECT_LT(most, before + 0.004) << k;
+        before = most;
+    }
+}
+
+TEST(MorphField, FillClosesSlitsAndHolesAndMovesNoStraightEdge)
+{
+    constexpr double kWidth = 0.1;
+    const auto area_with = [](const Region& region) {
+        MorphField field({-1.0, -1.0}, {1.0, 1.0}, 0.01);
+        field.add(region, 0.04, 1.0);
+        field.fill(kWidth);
+        double area = 0.0;
+        for (const Loop& loop : field.loops(0.5, 0.0)) {
+            area += droplet::signedArea(loop);
+        }
+        return area;
+    };
+    const auto halves = [](double gap) {
+        Region region = droplet::rectangle({-0.8, -0.8}, {-0.5 * gap, 0.8});
+        region.loops.push_back(droplet::rectangle({0.5 * gap, -0.8}, {0.8, 0.8}).loops[0]);
+        return region;
+    };
+    const double whole = 1.6 * 1.6;
+    // Corners are as they were, and slits are filled but for their ends, or left alone.
+    EXPECT_NEAR(area_with(droplet::rectangle({-0.8, -0.8}, {0.8, 0.8})), whole, 0.005 * whole);
+    EXPECT_NEAR(area_with(halves(0.5 * kWidth)), whole, 0.01 * whole);
+    EXPECT_NEAR(area_with(halves(3.0 * kWidth)), whole - 1.6 * 3.0 * kWidth, 0.01 * whole);
+    const auto hole = [&](double radius) {
+        Region region = droplet::rectangle({-0.8, -0.8}, {0.8, 0.8});
+        region.loops.push_back(droplet::circle({0.0, 0.0}, radius).loops[0]);
+        return area_with(droplet::rectangle({-0.8, -0.8}, {0.8, 0.8})) - area_with(region);
+    };
+    EXPECT_NEAR(hole(0.9 * kWidth), 0.0, 1e-4);
+    EXPECT_NEAR(hole(3.0 * kWidth), std::numbers::pi * 9.0 * kWidth * kWidth, 0.1 * 9.0 * kWidth * kWidth);
+    // It closes without a jump.
+    double before = hole(1.8 * kWidth);
+    for (int step = 35; step > 18; --step) {
+        const double part = 0.05 * step;
+        const double now = hole(part * kWidth);
+        EXPECT_LE(now, before + 1e-6) << part;
+        EXPECT_GT(now, before - 0.7 * kWidth * kWidth) << part;
+        before = now;
+    }
+}
+
 TEST(MorphField, LoopsOfARegionAreItsRim)
 {
     MorphField field({-0.2, -0.2}, {1.2, 1.2}, 0.01);

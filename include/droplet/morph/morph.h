@@ -12,10 +12,10 @@ namespace droplet {
 
 /// Options of morph().
 struct MorphOptions {
-    Vec2 size{20e-3, 10e-3};       ///< of the window, whose lower left corner is at the origin [m], > 0
-    std::size_t frames = 120;      ///< of the whole, at least three for every transition
-    std::size_t particles = 8000;  ///< of the liquid, 1000 … 200 000
-    double surface_tension = 1.0;  ///< how fast the liquid rounds itself on its way, 0 … 10
+    Vec2 size{20e-3, 10e-3};        ///< of the window, whose lower left corner is at the origin [m], > 0
+    std::size_t frames = 120;       ///< of the whole, at least three for every transition
+    std::size_t particles = 12000;  ///< of the liquid, 1000 … 200 000
+    double surface_tension = 1.0;   ///< how fast the liquid rounds itself on its way, 0 … 10
 
     /// @throws Error InvalidArgument, naming field, value and constraint
     void validate() const;
