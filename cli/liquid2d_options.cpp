@@ -6,6 +6,7 @@
 #include "command_line.h"
 #include "common_options.h"
 #include "droplet/liquid2d_io/fluid_presets.h"
+#include "droplet/liquid2d_io/write_particles.h"
 #include "droplet/units.h"
 #include "files.h"
 #include "option_values.h"
@@ -64,10 +65,11 @@ const CommandText& commandText()
 
 void declare(CommandLine& line, Liquid2dOptions& options)
 {
-    line.addArgument("OUTPUT",
-                     "Drawings of all frames, such as out/%04d.svg or out/%04d.png; an .svg or .png of the last frame; "
-                     "a .json with all frames as a Lottie animation, for web pages, apps and animation programs; or a "
-                     "video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; may be left out with --masks");
+    line.addArgument(
+        "OUTPUT",
+        "Drawings of all frames, such as out/%04d.svg or out/%04d.png; an .svg or .png of the last frame; "
+        "a .json with all frames as a Lottie animation, for web pages, apps and animation programs; or a "
+        "video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; may be left out with --masks or --particle-cache");
     constexpr const char* kLiquid = "Liquid";
     line.add(kLiquid, "--scene", presetNames().c_str(), "Scene to simulate", into(options.scene));
     line.add(kLiquid, "--particle-count", "N", "Number of particles at the start, up to 1M [the scene's]",
@@ -130,6 +132,8 @@ void declare(CommandLine& line, Liquid2dOptions& options)
              within(0.0, 50.0));
     line.add(kOut, "--masks", "PATH",
              "Masks of all frames, such as masks/%04d.png; - writes them to standard output, for animate");
+    line.add(kOut, "--particle-cache", "PATH",
+             "Particles of all frames, such as cache/%04d.bgeo: .bgeo, .vtp, .ply or .csv");
     declareVideoEncoding(line, kOut);
     declareVideoAlpha(line, kOut);
     line.add(kOut, "--json", "FILE", "Write a report; - is standard output", into(options.json));
@@ -205,7 +209,13 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
             }
         }
     }
-    if (!line.values("OUTPUT").empty() || !options.masks) {
+    if (const auto cache = line.value("--particle-cache")) {
+        options.cache_files = NumberedPath::of(cache->text, "--particle-cache");
+        if (!options.cache_files || !droplet::particleFormatOf(cache->text)) {
+            refuse(*cache, "a path such as cache/%04d.bgeo, .vtp, .ply or .csv");
+        }
+    }
+    if (!line.values("OUTPUT").empty() || !(options.masks || options.cache_files)) {
         options.output = line.argument("OUTPUT");
         options.files = NumberedPath::of(*options.output, "OUTPUT");
         const std::string extension = std::filesystem::path(*options.output).extension().string();
@@ -229,8 +239,8 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
         }
         keepAlpha(options.encoding, *options.output, "--alpha");
     }
-    const bool has_files =
-        options.kind == LiquidOutput::Drawings || (options.kind == LiquidOutput::None && options.mask_files);
+    const bool has_files = options.kind == LiquidOutput::Drawings ||
+                           (options.kind == LiquidOutput::None && (options.mask_files || options.cache_files));
     if (options.resume && (!has_files || (options.masks && !options.mask_files))) {
         refuse("--resume needs a file for every frame, such as out/%04d.svg, and no masks on standard output");
     }

@@ -18,7 +18,7 @@ namespace cli {
 
 /// What the output of `droplet-shape liquid2d` is.
 enum class LiquidOutput {
-    None,      ///< masks alone
+    None,      ///< masks or particles alone
     Drawings,  ///< an .svg or .png for every frame
     Drawing,   ///< an .svg or .png of the last frame
     Video,
@@ -29,10 +29,11 @@ enum class LiquidOutput {
 struct Liquid2dOptions {
     std::optional<std::string> output;  ///< path
     LiquidOutput kind = LiquidOutput::None;
-    std::optional<NumberedPath> files;       ///< set if every frame gets a drawing
-    std::optional<std::string> masks;        ///< path or kStandardStream
-    std::optional<NumberedPath> mask_files;  ///< set unless masks go to standard output
-    std::string scene = "splash";            ///< name of a preset, or path of a file
+    std::optional<NumberedPath> files;        ///< set if every frame gets a drawing
+    std::optional<std::string> masks;         ///< path or kStandardStream
+    std::optional<NumberedPath> mask_files;   ///< set unless masks go to standard output
+    std::optional<NumberedPath> cache_files;  ///< particles of every frame
+    std::string scene = "splash";             ///< name of a preset, or path of a file
     std::optional<std::size_t> particle_count;
     std::optional<std::string> walls;       ///< path of a mask
     std::optional<double> gravity;          ///< [m/s²]

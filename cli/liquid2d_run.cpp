@@ -22,6 +22,7 @@
 #include "droplet/liquid2d_io/liquid_drawing.h"
 #include "droplet/liquid2d_io/liquid_lottie.h"
 #include "droplet/liquid2d_io/read_scene.h"
+#include "droplet/liquid2d_io/write_particles.h"
 #include "droplet/mask/mask.h"
 #include "droplet/outline/outline.h"
 #include "droplet_report.h"
@@ -69,7 +70,7 @@ std::size_t frameCount(const Liquid2dOptions& options)
 std::vector<NumberedPath> resumableFrames(const Liquid2dOptions& options)
 {
     std::vector<NumberedPath> frames;
-    for (const std::optional<NumberedPath>* files : {&options.files, &options.mask_files}) {
+    for (const std::optional<NumberedPath>* files : {&options.files, &options.mask_files, &options.cache_files}) {
         if (*files && !(options.masks && !options.mask_files)) {
             frames.push_back(**files);
         }
@@ -436,11 +437,11 @@ private:
              static_cast<double>(particles.position.size()) * particles.spacing * particles.spacing, shape.area(),
              shape.liquid.size(), shape.foam.size(), shape.droplets.size()});
         if (!film_.isWritten(number)) {
-            save(number);
+            save(number, particles);
         }
     }
 
-    void save(std::size_t number)
+    void save(std::size_t number, const ParticleFrame& particles)
     {
         if (video_) {
             video_->add(liquidLayer({shown_->shape, shown_->walls}, view_, options_.look));
@@ -463,6 +464,12 @@ private:
             if (!std::cout) {
                 throw Error(ErrorCode::OutputFailed, "--masks: standard output cannot be written");
             }
+        }
+        if (options_.cache_files) {
+            const std::string path = options_.cache_files->at(number);
+            files.push_back({path, [path, particles](std::ostream& out) {
+                                 writeParticles(particles, out, *droplet::particleFormatOf(path));
+                             }});
         }
         if (!files.empty()) {
             film_.save(std::move(files));
@@ -527,6 +534,9 @@ RunFiles filesOf(const Liquid2dOptions& options)
         files.writesFrames("--masks", *options.mask_files, numbers);
     } else {
         files.writes("--masks", options.masks);
+    }
+    if (options.cache_files) {
+        files.writesFrames("--particle-cache", *options.cache_files, numbers);
     }
     if (const std::vector<NumberedPath> frames = resumableFrames(options); !frames.empty()) {
         files.writes("the checkpoint", checkpointPath(frames.front()));

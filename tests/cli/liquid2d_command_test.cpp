@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/in_process.h"
+#include "droplet/liquid2d_io/particle_file.h"
 #include "droplet/mask/mask.h"
 #include "support/command.h"
 #include "support/paths.h"
@@ -108,6 +109,28 @@ TEST_F(Liquid2dCommand, ResumesToTheSameBytes)
     EXPECT_EQ(readFile(kept), "kept");
     for (const char* name : {"/05.svg", "/08.svg"}) {
         EXPECT_EQ(readFile(path("cut") + name), readFile(path("whole") + name)) << name;
+    }
+}
+
+TEST_F(Liquid2dCommand, WritesParticlesThatAreReadAgain)
+{
+    const CommandResult run = liquid({"--particle-cache", path("cache/%02d.vtp"), "--json", path("r.json")});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const auto frames = nlohmann::json::parse(readFile(path("r.json"))).at("frames");
+    ASSERT_EQ(frames.size(), 8U);
+    // The cache has all frames, at their times, with velocities; another run draws them.
+    const droplet::ParticleFile last = droplet::readParticles(path("cache/08.vtp"));
+    EXPECT_EQ(last.frame.position.size(), frames.at(7).at("particles").get<std::size_t>());
+    EXPECT_EQ(last.time, 7.0 / 8.0);
+    EXPECT_TRUE(last.has_velocity && last.has_id);
+    const CommandResult again = runDroplet({"liquid2d", "--particles", path("cache/%02d.vtp"), "--fps", "8",
+                                            path("again.svg"), "--json", path("again.json"), "-q"});
+    ASSERT_EQ(again.exit_code, 0) << again.error;
+    const auto drawn = nlohmann::json::parse(readFile(path("again.json"))).at("frames");
+    ASSERT_EQ(drawn.size(), 8U);
+    EXPECT_EQ(drawn.at(7).at("particles"), frames.at(7).at("particles"));
+    for (const char* refused : {"cache/%02d.vtk", "cache.vtp", "-"}) {
+        expectRefused({"liquid2d", "--particle-cache", refused}, 2, "cache/%04d.bgeo");
     }
 }
 

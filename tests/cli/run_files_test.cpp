@@ -213,6 +213,7 @@ const std::vector<CommandFiles>& all()
           frames("OUTPUT", "out/%04d.png", "out/0001.png"),
           frames("OUTPUT", "out/%04d.svg", "out/checkpoint.state"),
           frames("--masks", "masks/%04d.png", "masks/0001.png"),
+          frames("--particle-cache", "cache/%04d.csv", "cache/0001.csv"),
           {"--json", "report.json"}}},
         {"morph",
          "morph",

@@ -3,10 +3,14 @@
 
 #include <gmock/gmock.h>
 
+#include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <sstream>
 
 #include "droplet/error.h"
+#include "droplet/liquid2d_io/write_particles.h"
 #include "support/paths.h"
 
 namespace {
@@ -14,6 +18,7 @@ namespace {
 using droplet::Error;
 using droplet::parseParticles;
 using droplet::ParticleFile;
+using droplet::ParticleFormat;
 using droplet::ParticleFrame;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -35,6 +40,66 @@ std::string bytesOf(const std::string& name)
 auto refuses(const std::string& what)
 {
     return ThrowsMessage<Error>(AllOf(StartsWith("cannot use some.file: "), HasSubstr(what), Not(HasSubstr("\n"))));
+}
+
+/// Three particles whose numbers are floats.
+ParticleFrame smallFrame()
+{
+    return {0.25,
+            0.125,
+            {{0.5, 1.25}, {-0.75, 2.0}, {3.0, -4.5}},
+            {{1.0, -2.0}, {0.0, 0.5}, {-0.25, 8.0}},
+            {7, 4000000U, 0},
+            {1.0, 0.5, 1.5}};
+}
+
+std::string written(const ParticleFrame& frame, ParticleFormat format)
+{
+    std::ostringstream out;
+    const std::uint64_t bytes = writeParticles(frame, out, format);
+    EXPECT_EQ(bytes, out.str().size());
+    return out.str();
+}
+
+TEST(WriteParticles, AreReadBackAsTheyWere)
+{
+    const ParticleFrame frame = smallFrame();
+    ParticleFrame no_density = frame;
+    no_density.density.clear();
+    for (const ParticleFormat format : {ParticleFormat::Csv, ParticleFormat::Vtp, ParticleFormat::Bgeo}) {
+        for (const ParticleFrame& given : {frame, no_density}) {
+            droplet::ParticleFileOptions options;
+            options.spacing = given.spacing;
+            options.rest_density = 1.0;
+            const ParticleFile file = parseParticles(written(given, format), "some.file", options);
+            EXPECT_EQ(file.frame.position, given.position);
+            EXPECT_EQ(file.frame.velocity, given.velocity);
+            EXPECT_EQ(file.frame.density, given.density);
+            EXPECT_EQ(file.frame.id, given.id);
+            EXPECT_EQ(file.time, format == ParticleFormat::Vtp ? std::optional(0.25) : std::nullopt);
+        }
+    }
+}
+
+TEST(WriteParticles, PlyHasAHeadAndARecordForEach)
+{
+    const std::string file = written(smallFrame(), ParticleFormat::Ply);
+    const std::string end = "property uint id\nend_header\n";
+    const std::size_t head = file.find(end) + end.size();
+    EXPECT_THAT(file.substr(0, head), HasSubstr("element vertex 3\nproperty float x\n"));
+    // Eight floats and a number each; the last one's id is 0.
+    ASSERT_EQ(file.size() - head, std::size_t{3} * 36);
+    EXPECT_EQ(file.substr(file.size() - 4), std::string(4, '\0'));
+    float x = 0.0F;
+    std::memcpy(&x, file.data() + head + 36, sizeof x);
+    EXPECT_EQ(x, -0.75F);
+}
+
+TEST(WriteParticles, FormatsFollowTheExtension)
+{
+    EXPECT_EQ(droplet::particleFormatOf("a/0001.VTP"), ParticleFormat::Vtp);
+    EXPECT_EQ(droplet::particleFormatOf("0001.bgeo"), ParticleFormat::Bgeo);
+    EXPECT_EQ(droplet::particleFormatOf("0001.vtk"), std::nullopt);
 }
 
 class Files : public testing::TestWithParam<const char*> {};
