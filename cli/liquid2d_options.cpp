@@ -97,6 +97,8 @@ void declare(CommandLine& line, Liquid2dOptions& options)
     constexpr const char* kTimes = "Time";
     line.add(kTimes, "--time", "DURATION", "Time to show [the scene's]", into(options.duration, kTime));
     line.add(kTimes, "--fps", "RATE", "Frames per second", into(options.frames_per_second, kFrameRate));
+    line.add(kTimes, "--hold", "N", "Frames that a drawing stays, up to 24: 2 draws on twos",
+             into(options.hold, {1, 24, "24"}));
     constexpr const char* kSurface = "Surface";
     line.add(kSurface, "--style", "realistic|cartoon|wave",
              "Starting point of these controls: cartoon has tails, wave also hollows crests [the scene's, or cartoon]");

@@ -49,6 +49,7 @@ struct Liquid2dOptions {
     VideoEncoding encoding;
     std::optional<double> duration;  ///< [s]; empty: the preset's, or 4 s
     double frames_per_second = 24.0;
+    int hold = 1;  ///< frames that a drawing stays
     std::optional<std::string> json;
     bool resume = false;
     std::string fingerprint;  ///< all options that decide what the frames show, as of optionsOfFrames()

@@ -360,7 +360,8 @@ private:
     void resume()
     {
         const auto checkpoint = film_.begin(options_.resume);
-        if (!checkpoint || !film_.hasFrames(checkpoint->frames)) {
+        // A drawing that is held is not in the checkpoint.
+        if (!checkpoint || !film_.hasFrames(checkpoint->frames) || isHeld(checkpoint->frames + 1)) {
             return;
         }
         const std::string& path = film_.checkpointPath();
@@ -428,6 +429,14 @@ private:
               std::uint64_t steps)
     {
         report_.spacing = particles.spacing;
+        if (isHeld(number)) {
+            report_.frames.push_back(report_.frames.back());
+            report_.frames.back().time = particles.time;
+            if (!film_.isWritten(number)) {
+                save(number, particles);
+            }
+            return;
+        }
         surface_ = advanceExpression(std::move(surface_), particles, options_.controls);
         shown_ = std::make_shared<const Drawing>(
             Drawing{liquidShape(surface_, particles, options_.controls), std::move(walls)});
@@ -439,6 +448,12 @@ private:
         if (!film_.isWritten(number)) {
             save(number, particles);
         }
+    }
+
+    /// Whether a frame has the drawing of the one before.
+    [[nodiscard]] bool isHeld(std::size_t number) const
+    {
+        return (number - 1) % static_cast<std::size_t>(options_.hold) != 0;
     }
 
     void save(std::size_t number, const ParticleFrame& particles)

@@ -210,6 +210,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l particles
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l particle-scale -x -d 'Length of the unit of these files in metres'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l plane -x -a 'xy xz yz zx zy yx' -d 'Axes of these files that become x and y'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l spacing -x -d 'Distance of their particles at rest'
+complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l hold -x -d 'Frames that a drawing stays, up to 24: 2 draws on twos'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l style -x -a 'realistic cartoon wave' -d 'Starting point of these controls: cartoon has tails, wave also hollows crests'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l tail -x -d 'Time whose way the tail of a droplet in flight shows'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l tail-slope -x -d 'Taper of tails, from 0.2, thick, to 1.2, thin'

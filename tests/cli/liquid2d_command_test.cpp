@@ -112,6 +112,30 @@ TEST_F(Liquid2dCommand, ResumesToTheSameBytes)
     }
 }
 
+TEST_F(Liquid2dCommand, HoldsDrawingsAndNotTheLiquid)
+{
+    ASSERT_EQ(liquid({path("ones/%02d.svg"), "--particle-cache", path("ones/%02d.csv")}).exit_code, 0);
+    ASSERT_EQ(liquid({path("threes/%02d.svg"), "--particle-cache", path("threes/%02d.csv"), "--hold", "3"}).exit_code,
+              0);
+    const auto file = [&](const std::string& name) { return readFile(path(name)); };
+    EXPECT_EQ(file("threes/01.svg"), file("ones/01.svg"));
+    for (const char* held : {"2", "3"}) {
+        EXPECT_EQ(file(std::string("threes/0") + held + ".svg"), file("threes/01.svg"));
+        EXPECT_NE(file(std::string("ones/0") + held + ".svg"), file("ones/01.svg"));
+    }
+    EXPECT_NE(file("threes/04.svg"), file("threes/03.svg"));
+    EXPECT_EQ(file("threes/06.svg"), file("threes/04.svg"));
+    for (const char* frame : {"/03.csv", "/08.csv"}) {
+        EXPECT_EQ(readFile(path("threes") + frame), readFile(path("ones") + frame));
+    }
+    // A run that was cut off amid a held drawing begins again, with the same files.
+    const std::string last = file("threes/08.svg");
+    ASSERT_EQ(liquid({path("threes/%02d.svg"), "--particle-cache", path("threes/%02d.csv"), "--hold", "3", "--resume"})
+                  .exit_code,
+              0);
+    EXPECT_EQ(file("threes/08.svg"), last);
+}
+
 TEST_F(Liquid2dCommand, WritesParticlesThatAreReadAgain)
 {
     const CommandResult run = liquid({"--particle-cache", path("cache/%02d.vtp"), "--json", path("r.json")});
