@@ -100,16 +100,11 @@ void addPaths(cairo_t* context, const std::vector<BezierPath>& paths)
     }
 }
 
-void drawPaths(cairo_t* context, const std::vector<BezierPath>& paths, Colour fill, const LiquidLook& look, double line)
+void fillPaths(cairo_t* context, const std::vector<BezierPath>& paths, Colour fill)
 {
     addPaths(context, paths);
     setColour(context, fill);
-    cairo_fill_preserve(context);
-    if (line > 0.0) {
-        setColour(context, look.line);
-        cairo_stroke_preserve(context);
-    }
-    cairo_new_path(context);
+    cairo_fill(context);
 }
 
 }  // namespace
@@ -147,31 +142,24 @@ void writeLiquidSvg(const DrawnLiquid& scene, const LiquidView& view, const Liqu
         out << fmt::format("<rect id=\"background\" width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
                            hex(*look.background));
     }
-    const double line = lineWidth(look, view);
-    const std::string stroke =
-        line > 0.0
-            ? fmt::format(" stroke=\"{}\" stroke-width=\"{:.4g}\" stroke-linejoin=\"round\"", hex(look.line), line)
-            : "";
-    const auto path = [](const std::string& data, Colour fill, const std::string& lines) {
-        return data.empty()
-                   ? ""
-                   : fmt::format("<path fill-rule=\"evenodd\" fill=\"{}\"{} d=\"{}\"/>", hex(fill), lines, data);
+    const auto path = [](const std::string& data, Colour fill) {
+        return data.empty() ? "" : fmt::format("<path fill=\"{}\" d=\"{}\"/>", hex(fill), data);
     };
     const auto group = [&](const char* id, const std::string& paths) {
         if (!paths.empty()) {
             out << fmt::format("<g id=\"{}\">{}</g>\n", id, paths);
         }
     };
-    group("liquid", path(dataOf(pathsOf(scene.shape.liquid, view)), look.water, stroke));
-    group("droplets", path(dataOf(pathsOf(scene.shape.droplets, view)), look.droplet, stroke));
-    // Without a colour, foam is a hole of the liquid, whose line is drawn already.
-    if (look.foam) {
-        group("foam", path(dataOf(pathsOf(scene.shape.foam, view)), *look.foam, stroke));
-    }
+    const LiquidPaths paths = liquidPaths(scene.shape, view, look);
+    group("liquid", path(dataOf(paths.liquid), look.water));
+    group("droplets", path(dataOf(paths.droplets), look.droplet));
+    group("foam", path(dataOf(paths.foam), look.foam.value_or(look.water)));
+    group("lines", path(dataOf(paths.lines), look.line));
     // Walls may overlap, which would be holes in one path.
     std::string walls;
     for (const Region& region : scene.walls) {
-        walls += path(dataOf(region, view), look.wall, "");
+        const std::string data = dataOf(region, view);
+        walls += fmt::format("<path fill-rule=\"evenodd\" fill=\"{}\" d=\"{}\"/>", hex(look.wall), data);
     }
     group("walls", walls);
     out << "</svg>\n";
@@ -188,19 +176,16 @@ Layer liquidLayer(const DrawnLiquid& scene, const LiquidView& view, const Liquid
         throw Error(ErrorCode::InvalidArgument,
                     fmt::format("a picture of {} x {} pixels cannot be drawn", view.width, view.height));
     }
-    cairo_set_fill_rule(c, CAIRO_FILL_RULE_EVEN_ODD);
-    cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
-    const double line = lineWidth(look, view);
-    cairo_set_line_width(c, line);
     if (look.background) {
         setColour(c, *look.background);
         cairo_paint(c);
     }
-    drawPaths(c, pathsOf(scene.shape.liquid, view), look.water, look, line);
-    drawPaths(c, pathsOf(scene.shape.droplets, view), look.droplet, look, line);
-    if (look.foam) {
-        drawPaths(c, pathsOf(scene.shape.foam, view), *look.foam, look, line);
-    }
+    const LiquidPaths paths = liquidPaths(scene.shape, view, look);
+    fillPaths(c, paths.liquid, look.water);
+    fillPaths(c, paths.droplets, look.droplet);
+    fillPaths(c, paths.foam, look.foam.value_or(look.water));
+    fillPaths(c, paths.lines, look.line);
+    cairo_set_fill_rule(c, CAIRO_FILL_RULE_EVEN_ODD);
     for (const Region& region : scene.walls) {
         for (const std::vector<Vec2>& loop : region.loops) {
             for (const Vec2 point : toPixels(loop, view)) {

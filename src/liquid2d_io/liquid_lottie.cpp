@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <utility>
@@ -15,31 +15,15 @@
 namespace droplet {
 namespace {
 
-/// Place in hundredths of a pixel, the precision of the file.
-struct Place {
-    long long x = 0;
-    long long y = 0;
-};
-
-Place rounded(Vec2 a)
-{
-    return {std::llround(100.0 * a.x), std::llround(100.0 * a.y)};
-}
-
-Place operator-(Place a, Place b)
-{
-    return {a.x - b.x, a.y - b.y};
-}
-
 /// Hundredths as a number of JSON, without trailing zeros.
-void put(std::string& text, long long hundredths)
+void put(std::string& text, std::int64_t hundredths)
 {
     if (hundredths < 0) {
         text += '-';
         hundredths = -hundredths;
     }
     text += std::to_string(hundredths / 100);
-    if (const long long rest = hundredths % 100; rest != 0) {
+    if (const std::int64_t rest = hundredths % 100; rest != 0) {
         text += '.';
         text += static_cast<char>('0' + rest / 10);
         if (rest % 10 != 0) {
@@ -48,62 +32,24 @@ void put(std::string& text, long long hundredths)
     }
 }
 
-/// Corners of a closed path, with control points relative to them.
-struct Vertices {
-    std::vector<Place> arriving;
-    std::vector<Place> leaving;
-    std::vector<Place> at;
-};
-
-Vertices verticesOf(const BezierPath& path)
-{
-    Vertices vertices;
-    Place start = rounded(path.start);
-    // The last curve arrives at the first vertex.
-    Place arriving = rounded(path.curves.back().arriving);
-    for (const BezierCurve& curve : path.curves) {
-        vertices.at.push_back(start);
-        vertices.arriving.push_back(arriving - start);
-        vertices.leaving.push_back(rounded(curve.leaving) - start);
-        arriving = rounded(curve.arriving);
-        start = rounded(curve.end);
-    }
-    return vertices;
-}
-
-Vertices verticesOf(const std::vector<Vec2>& polygon)
-{
-    Vertices vertices;
-    for (const Vec2 point : polygon) {
-        vertices.at.push_back(rounded(point));
-    }
-    vertices.arriving.resize(polygon.size());
-    vertices.leaving.resize(polygon.size());
-    return vertices;
-}
-
-void put(std::string& text, const std::vector<Place>& places)
+/// Puts the places that a member of all vertices names, and the last vertex again up to a number.
+template <typename Vertices, typename Member>
+void putAll(std::string& text, const Vertices& vertices, Member member, std::size_t count, bool is_place)
 {
     text += '[';
-    for (const Place place : places) {
-        text += text.back() == '[' ? "[" : ",[";
-        put(text, place.x);
-        text += ',';
-        put(text, place.y);
+    for (std::size_t k = 0; k < count; ++k) {
+        text += k == 0 ? "[" : ",[";
+        if (k < vertices.size() || is_place) {
+            const auto& place = vertices[std::min(k, vertices.size() - 1)].*member;
+            put(text, place.x);
+            text += ',';
+            put(text, place.y);
+        } else {
+            text += "0,0";
+        }
         text += ']';
     }
     text += ']';
-}
-
-std::string pathOf(const Vertices& vertices)
-{
-    std::string text = R"({"ty":"sh","ks":{"a":0,"k":{"c":true,"i":)";
-    put(text, vertices.arriving);
-    text += R"(,"o":)";
-    put(text, vertices.leaving);
-    text += R"(,"v":)";
-    put(text, vertices.at);
-    return text + "}}},";
 }
 
 std::string colourOf(Colour colour)
@@ -112,43 +58,114 @@ std::string colourOf(Colour colour)
                        colour[1] / 255.0, colour[2] / 255.0);
 }
 
-/// Group of paths with their filling. What comes first in a list is on top, so the line stands before the filling.
-std::string group(const char* name, const std::string& paths, Colour fill, const std::string& line)
-{
-    return paths.empty() ? std::string()
-                         : fmt::format(R"({{"ty":"gr","nm":"{}","it":[{}{}{{"ty":"fl",{},"r":2}},)"
-                                       R"({{"ty":"tr","p":{{"a":0,"k":[0,0]}},"a":{{"a":0,"k":[0,0]}},)"
-                                       R"("s":{{"a":0,"k":[100,100]}},"r":{{"a":0,"k":0}},"o":{{"a":0,"k":100}}}}]}})",
-                                       name, paths, line, colourOf(fill));
-}
-
-std::string pathsOfLoops(const std::vector<Loop>& loops, const LiquidView& view)
-{
-    std::string paths;
-    for (const BezierPath& path : pathsOf(loops, view)) {
-        paths += pathOf(verticesOf(path));
-    }
-    return paths;
-}
-
-void append(std::string& list, const std::string& item)
-{
-    if (!list.empty() && !item.empty()) {
-        list += ',';
-    }
-    list += item;
-}
-
 /// What all layers have: name, number, frames, and a place that does not change.
-std::string layer(std::size_t index, const std::string& name, std::size_t begin, std::size_t end)
+std::string layerHead(std::size_t index, const char* name, std::size_t end)
 {
     return fmt::format(R"({{"ddd":0,"ind":{},"nm":"{}","sr":1,"ks":{{"o":{{"a":0,"k":100}},"r":{{"a":0,"k":0}},)"
                        R"("p":{{"a":0,"k":[0,0,0]}},"a":{{"a":0,"k":[0,0,0]}},"s":{{"a":0,"k":[100,100,100]}}}},)"
-                       R"("ao":0,"ip":{},"op":{},"st":0,"bm":0,)",
-                       index, name, begin, end);
+                       R"("ao":0,"ip":0,"op":{},"st":0,"bm":0,)",
+                       index, name, end);
 }
 
+constexpr int kNonzero = 1;
+constexpr int kEvenOdd = 2;
+
 }  // namespace
+
+LiquidLottie::Path LiquidLottie::pathOf(const BezierPath& path)
+{
+    const auto rounded = [](Vec2 a) { return Place{std::llround(100.0 * a.x), std::llround(100.0 * a.y)}; };
+    const auto minus = [](Place a, Place b) { return Place{a.x - b.x, a.y - b.y}; };
+    Path vertices;
+    Place start = rounded(path.start);
+    // The last curve arrives at the first vertex.
+    Place arriving = rounded(path.curves.back().arriving);
+    for (const BezierCurve& curve : path.curves) {
+        vertices.push_back({minus(arriving, start), minus(rounded(curve.leaving), start), start});
+        arriving = rounded(curve.arriving);
+        start = rounded(curve.end);
+    }
+    return vertices;
+}
+
+LiquidLottie::Path LiquidLottie::pathOf(const std::vector<Vec2>& polygon)
+{
+    Path vertices;
+    for (const Vec2 point : polygon) {
+        vertices.push_back({{}, {}, {std::llround(100.0 * point.x), std::llround(100.0 * point.y)}});
+    }
+    return vertices;
+}
+
+void LiquidLottie::add(Layer& layer, const std::vector<BezierPath>& paths)
+{
+    std::vector<Path> frame;
+    frame.reserve(paths.size());
+    for (const BezierPath& path : paths) {
+        frame.push_back(pathOf(path));
+    }
+    // The longest first, so that paths that share keyframes have about as many vertices.
+    std::stable_sort(frame.begin(), frame.end(), [](const Path& a, const Path& b) { return a.size() > b.size(); });
+    layer.push_back(std::move(frame));
+}
+
+std::string LiquidLottie::shapesOf(const Layer& layer, const char* name, Colour fill, int rule)
+{
+    std::size_t slots = 0;
+    for (const std::vector<Path>& frame : layer) {
+        slots = std::max(slots, frame.size());
+    }
+    if (slots == 0) {
+        return {};
+    }
+    std::string text = fmt::format(R"({{"ty":"gr","nm":"{}","it":[)", name);
+    const Path nothing(1);
+    for (std::size_t slot = 0; slot < slots; ++slot) {
+        const auto path = [&](std::size_t frame) -> const Path& {
+            return slot < layer[frame].size() ? layer[frame][slot] : nothing;
+        };
+        std::size_t count = 0;
+        bool is_still = true;
+        for (std::size_t frame = 0; frame < layer.size(); ++frame) {
+            count = std::max(count, path(frame).size());
+            is_still = is_still && path(frame) == path(0);
+        }
+        const auto value = [&](const Path& vertices) {
+            // Of a repeated vertex, the last copy has the handle that leaves.
+            text += R"({"c":true,"i":)";
+            putAll(text, vertices, &Vertex::arriving, count, false);
+            text += R"(,"o":)";
+            Path leaving = vertices;
+            if (count > leaving.size()) {
+                leaving.resize(count, Vertex{{}, {}, vertices.back().at});
+                std::swap(leaving[vertices.size() - 1].leaving, leaving.back().leaving);
+            }
+            putAll(text, leaving, &Vertex::leaving, count, false);
+            text += R"(,"v":)";
+            putAll(text, vertices, &Vertex::at, count, true);
+            text += '}';
+        };
+        if (is_still) {
+            text += R"({"ty":"sh","ks":{"a":0,"k":)";
+            value(path(0));
+            text += "}},";
+            continue;
+        }
+        text += R"({"ty":"sh","ks":{"a":1,"k":[)";
+        for (std::size_t frame = 0; frame < layer.size(); ++frame) {
+            if (frame > 0 && path(frame) == path(frame - 1)) {
+                continue;
+            }
+            text += fmt::format(R"({}{{"t":{},"h":1,"s":[)", frame == 0 ? "" : ",", frame);
+            value(path(frame));
+            text += "]}";
+        }
+        text += "]}},";
+    }
+    return text + fmt::format(R"({{"ty":"fl",{},"r":{}}},{{"ty":"tr","p":{{"a":0,"k":[0,0]}},"a":{{"a":0,"k":[0,0]}},)"
+                              R"("s":{{"a":0,"k":[100,100]}},"r":{{"a":0,"k":0}},"o":{{"a":0,"k":100}}}}]}})",
+                              colourOf(fill), rule);
+}
 
 LiquidLottie::LiquidLottie(const LiquidView& view, LiquidLook look, double frames_per_second)
     : view_(view), look_(std::move(look)), frames_per_second_(frames_per_second)
@@ -160,57 +177,56 @@ LiquidLottie::LiquidLottie(const LiquidView& view, LiquidLook look, double frame
 
 void LiquidLottie::add(const DrawnLiquid& scene)
 {
-    const double width = lineWidth(look_, view_);
-    std::string line;
-    if (width > 0.0) {
-        line = fmt::format(R"({{"ty":"st",{},"w":{{"a":0,"k":{:.4g}}},"lc":2,"lj":2}},)", colourOf(look_.line), width);
-    }
-    std::string shapes;
-    if (look_.foam) {
-        append(shapes, group("foam", pathsOfLoops(scene.shape.foam, view_), *look_.foam, line));
-    }
-    append(shapes, group("droplets", pathsOfLoops(scene.shape.droplets, view_), look_.droplet, line));
-    append(shapes, group("liquid", pathsOfLoops(scene.shape.liquid, view_), look_.water, line));
-
+    const LiquidPaths paths = liquidPaths(scene.shape, view_, look_);
+    add(liquid_, paths.liquid);
+    add(droplets_, paths.droplets);
+    add(foam_, paths.foam);
+    add(lines_, paths.lines);
     // Each wall is a group of its own: in one group, their overlap would be a hole.
-    std::string walls;
-    for (const Region& region : scene.walls) {
-        std::string paths;
-        for (const std::vector<Vec2>& loop : region.loops) {
-            paths += pathOf(verticesOf(toPixels(loop, view_)));
+    walls_.resize(std::max(walls_.size(), scene.walls.size()), Layer(frames_));
+    for (std::size_t k = 0; k < walls_.size(); ++k) {
+        std::vector<Path> wall;
+        if (k < scene.walls.size()) {
+            for (const std::vector<Vec2>& loop : scene.walls[k].loops) {
+                wall.push_back(pathOf(toPixels(loop, view_)));
+            }
         }
-        append(walls, group("wall", paths, look_.wall, ""));
+        walls_[k].push_back(std::move(wall));
     }
-    const std::size_t number = frames_.size();
-    if (!walls_.empty() && walls_.back().end == number && walls_.back().shapes == walls) {
-        ++walls_.back().end;
-    } else if (!walls.empty()) {
-        walls_.push_back({std::move(walls), number, number + 1});
-    }
-    frames_.push_back(std::move(shapes));
+    ++frames_;
 }
 
 void LiquidLottie::write(std::ostream& out) const
 {
     out << fmt::format(
         R"({{"v":"5.7.0","fr":{:.10g},"ip":0,"op":{},"w":{},"h":{},"nm":"liquid","ddd":0,"assets":[],"layers":[)",
-        frames_per_second_, frames_.size(), view_.width, view_.height);
+        frames_per_second_, frames_, view_.width, view_.height);
     std::size_t index = 0;
-    const auto begin_layer = [&](const std::string& name, std::size_t begin, std::size_t end) {
+    const auto begin_layer = [&](const char* name) {
         out << (index == 0 ? "\n" : ",\n");
         ++index;
-        out << layer(index, name, begin, end);
+        out << layerHead(index, name, frames_);
     };
-    for (const Span& walls : walls_) {
-        begin_layer("walls", walls.begin, walls.end);
-        out << R"("ty":4,"shapes":[)" << walls.shapes << "]}";
+    const auto write_layer = [&](const char* name, const std::string& shapes) {
+        if (!shapes.empty()) {
+            begin_layer(name);
+            out << R"("ty":4,"shapes":[)" << shapes << "]}";
+        }
+    };
+    // What comes first is on top.
+    std::string walls;
+    for (const Layer& wall : walls_) {
+        const std::string shapes = shapesOf(wall, "wall", look_.wall, kEvenOdd);
+        walls += walls.empty() || shapes.empty() ? "" : ",";
+        walls += shapes;
     }
-    for (std::size_t k = 0; k < frames_.size(); ++k) {
-        begin_layer(fmt::format("frame {}", k + 1), k, k + 1);
-        out << R"("ty":4,"shapes":[)" << frames_[k] << "]}";
-    }
+    write_layer("walls", walls);
+    write_layer("lines", shapesOf(lines_, "lines", look_.line, kNonzero));
+    write_layer("foam", shapesOf(foam_, "foam", look_.foam.value_or(look_.water), kNonzero));
+    write_layer("droplets", shapesOf(droplets_, "droplets", look_.droplet, kNonzero));
+    write_layer("liquid", shapesOf(liquid_, "liquid", look_.water, kNonzero));
     if (look_.background) {
-        begin_layer("background", 0, frames_.size());
+        begin_layer("background");
         const Colour colour = *look_.background;
         out << fmt::format(R"("ty":1,"sw":{},"sh":{},"sc":"#{:02x}{:02x}{:02x}"}})", view_.width, view_.height,
                            colour[0], colour[1], colour[2]);

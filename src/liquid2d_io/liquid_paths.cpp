@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "brush_line.h"
 #include "require.h"
 
 namespace droplet {
@@ -10,6 +11,16 @@ namespace {
 
 /// Greatest distance of curves from the shape [px].
 constexpr double kTolerance = 0.3;
+
+std::vector<BezierPath> pathsOf(const std::vector<Loop>& loops, const LiquidView& view)
+{
+    std::vector<BezierPath> paths;
+    paths.reserve(loops.size());
+    for (const Loop& loop : loops) {
+        paths.push_back(fitBezier(toPixels(loop.points, view), kTolerance));
+    }
+    return paths;
+}
 
 }  // namespace
 
@@ -31,19 +42,21 @@ std::vector<Vec2> toPixels(const std::vector<Vec2>& points, const LiquidView& vi
     return result;
 }
 
-std::vector<BezierPath> pathsOf(const std::vector<Loop>& loops, const LiquidView& view)
+LiquidPaths liquidPaths(const LiquidShape& shape, const LiquidView& view, const LiquidLook& look)
 {
-    std::vector<BezierPath> paths;
-    paths.reserve(loops.size());
-    for (const Loop& loop : loops) {
-        paths.push_back(fitBezier(toPixels(loop.points, view), kTolerance));
+    LiquidPaths paths;
+    paths.liquid = pathsOf(shape.liquid, view);
+    paths.droplets = pathsOf(shape.droplets, view);
+    if (look.foam) {
+        paths.foam = pathsOf(shape.foam, view);
+    }
+    if (const double width = look.line_width * 1e-3 * view.width; width > 0.0) {
+        // Foam is a hole of the liquid, which has the line.
+        std::vector<BezierPath> outlines = paths.liquid;
+        outlines.insert(outlines.end(), paths.droplets.begin(), paths.droplets.end());
+        paths.lines = brushLines(outlines, width);
     }
     return paths;
-}
-
-double lineWidth(const LiquidLook& look, const LiquidView& view)
-{
-    return look.line_width * 1e-3 * view.width;
 }
 
 }  // namespace droplet

@@ -15,10 +15,15 @@ void validate(const LiquidView& view);
 /// Polyline in pixels, y down.
 std::vector<Vec2> toPixels(const std::vector<Vec2>& points, const LiquidView& view);
 
-/// Curves that all vector drawings show for outlines [px].
-std::vector<BezierPath> pathsOf(const std::vector<Loop>& loops, const LiquidView& view);
+/// Curves that all drawings show [px], to be filled with the nonzero rule, one layer upon the other.
+struct LiquidPaths {
+    std::vector<BezierPath> liquid;    ///< with its holes
+    std::vector<BezierPath> droplets;  ///< may overlap
+    std::vector<BezierPath> foam;      ///< none if the look has no colour for it: then it is a hole of the liquid
+    std::vector<BezierPath> lines;     ///< around all of these
+};
 
-/// Width of outlines [px]; 0: none.
-double lineWidth(const LiquidLook& look, const LiquidView& view);
+/// Curves of a shape. Those of outlines differ from the shape by no more than a third of a pixel.
+LiquidPaths liquidPaths(const LiquidShape& shape, const LiquidView& view, const LiquidLook& look);
 
 }  // namespace droplet

@@ -260,7 +260,7 @@ TEST(LiquidSvg, HasAGroupForEachLayerAndFewPoints)
     const std::vector<droplet::Region> walls{droplet::rectangle({0.0, 0.0}, {2.0, 0.05})};
     std::ostringstream out;
     writeLiquidSvg({shape, walls}, kView, droplet::liquidLookNamed("comic"), out);
-    for (const char* id : {"background", "liquid", "droplets", "foam", "walls"}) {
+    for (const char* id : {"background", "liquid", "droplets", "foam", "lines", "walls"}) {
         EXPECT_THAT(out.str(), HasSubstr(std::string("id=\"") + id + "\""));
     }
     EXPECT_LT(out.str().size(), 2500U);
@@ -304,8 +304,10 @@ TEST(LiquidSvg, DrawsTheLineOfFoamWithoutColourOnce)
     const LiquidShape shape = someShape();
     const std::string svg = svgOf({shape, {}}, droplet::liquidLookNamed("ink"));
     EXPECT_THAT(svg, Not(HasSubstr("foam")));
-    // The liquid's rim and hole, and the droplet.
-    EXPECT_EQ(countOf("M", svg), 3U);
+    // The liquid's rim and hole, and the droplet; each has a line with two edges.
+    const std::size_t lines = svg.find("id=\"lines\"");
+    EXPECT_EQ(countOf("M", svg.substr(0, lines)), 3U);
+    EXPECT_EQ(countOf("M", svg.substr(lines)), 2U * 3U);
 }
 
 TEST(LiquidLayer, ShowsWhatTheMaskCovers)

@@ -28,7 +28,7 @@ struct LiquidLook {
     Colour droplet{};                  ///< of detached droplets
     std::optional<Colour> foam;        ///< of foam; empty: what is behind shows
     Colour line{};                     ///< of the liquid's outlines
-    double line_width = 0.0;           ///< of the outlines, in thousandths of the window's width; 0: none
+    double line_width = 0.0;           ///< of the outlines, at most, in thousandths of the window's width; 0: none
     Colour wall{};                     ///< of walls
     std::optional<Colour> background;  ///< empty: transparent
 };
@@ -46,8 +46,9 @@ struct DrawnLiquid {
     const std::vector<Region>& walls;  ///< that are visible
 };
 
-/// Writes a drawing as SVG: Bézier curves in groups named `walls`, `liquid`, `droplets` and `foam`, so that each can be
-/// selected in a program. Outlines differ from the shape by no more than a third of a pixel.
+/// Writes a drawing as SVG: Bézier curves in groups named `liquid`, `droplets`, `foam`, `lines` and `walls`, one above
+/// the other, so that each can be selected in a program. Outlines differ from the shape by no more than a third of a
+/// pixel. Lines are shapes, for they thin out at tips and along threads.
 ///
 /// Guarantees: the same shape gives the same bytes; the stream is left failed if it did not take everything.
 void writeLiquidSvg(const DrawnLiquid& scene, const LiquidView& view, const LiquidLook& look, std::ostream& out);
