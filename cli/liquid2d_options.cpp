@@ -100,8 +100,10 @@ void declare(CommandLine& line, Liquid2dOptions& options)
     line.add(kTimes, "--hold", "N", "Frames that a drawing stays, up to 24: 2 draws on twos",
              into(options.hold, {1, 24, "24"}));
     constexpr const char* kSurface = "Surface";
-    line.add(kSurface, "--style", "realistic|cartoon|wave",
-             "Starting point of these controls: cartoon has tails, wave also hollows crests [the scene's, or cartoon]");
+    line.add(
+        kSurface, "--style", "realistic|cartoon|wave|paper",
+        "Starting point of these controls: cartoon has tails; wave has claws at crests, too, and paper hollows them "
+        "[the scene's, or cartoon]");
     droplet::ExpressionOptions& controls = options.controls;
     line.add(kSurface, "--tail", "DURATION", "Time whose way the tail of a droplet in flight shows [by style]",
              into(controls.tail_length, kTail));
@@ -109,6 +111,8 @@ void declare(CommandLine& line, Liquid2dOptions& options)
              into(controls.tail_slope, {0.2, 1.2, "a number from 0.2 to 1.2"}));
     line.add(kSurface, "--max-tail", "NUMBER", "Maximum length of a tail, in radii of its droplet",
              into(controls.max_tail, {0.0, 100.0, "a number from 0 to 100"}));
+    line.add(kSurface, "--claws", "NUMBER", "Length of claws at crests, in distances of particles, 0 to 100 [by style]",
+             into(controls.claws, {0.0, 100.0, "a number from 0 to 100"}));
     line.add(kSurface, "--air", "NUMBER",
              "Rate at which air enters crests, in areas of a particle per second [by style]",
              into(controls.air, {0.0, 1e6, "a number from 0 to 1e6"}));
@@ -171,7 +175,8 @@ droplet::LiquidStyle styleNamed(const Given& given)
 {
     return choice<droplet::LiquidStyle>(given, {{"realistic", droplet::LiquidStyle::Realistic},
                                                 {"cartoon", droplet::LiquidStyle::Cartoon},
-                                                {"wave", droplet::LiquidStyle::Wave}});
+                                                {"wave", droplet::LiquidStyle::Wave},
+                                                {"paper", droplet::LiquidStyle::Paper}});
 }
 
 /// Reads --style, whose controls the other options change.

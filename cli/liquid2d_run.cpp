@@ -441,6 +441,7 @@ private:
         shown_ = std::make_shared<const Drawing>(
             Drawing{liquidShape(surface_, particles, options_.controls), std::move(walls)});
         const droplet::LiquidShape& shape = shown_->shape;
+        surface_ = remember(std::move(surface_), shape);
         report_.frames.push_back(
             {particles.time, particles.position.size(), steps,
              static_cast<double>(particles.position.size()) * particles.spacing * particles.spacing, shape.area(),

@@ -19,7 +19,7 @@ _droplet_shape()
         dew) options='--scale --object-size --up --preset --coverage --smallest --largest --sizes --median --spread --from --mask --vertex-weights --seed --hysteresis --gravity-direction --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --detail --material --instancing --droplets-only --compress --droplets --json --no-clobber --threads --quiet --config --help --version' ;;
         flow) options='--preset --scale --object-size --up --floor --spin --spin-axis --motion --object-animation --no-animation --drops --volume --radius --volume-spread --from --mask --vertex-weights --start --emitter --rain --condensation --dew-spacing --retention --hysteresis --pinning --pinning-length --friction --roughness --roughness-map --friction-map --ground --adhesion --gravity-direction --wind-velocity --no-merge --no-wetting --film --bead-spacing --drying --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --fps --seed --shape --deformation --material --compress --streaks --maps --map-width --map-thickness --map-age --droplets --html --json --preview --view --camera --look-at --preview-size --environment --turntable --codec --quality --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
         glyphs) options='--font --face-index --axis --text --charset --all --list --output --em --tolerance --align --line-spacing --equal-height --by-colour --palette --text-colour --gap --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --format --nodes --materials --fill-range --sink --compress --preview --view --camera --look-at --preview-size --ground --environment --preview-background --preview-colour --turntable --codec --quality --html --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
-        liquid2d) options='--scene --particle-count --walls --gravity --surface-tension --solver --particles --particle-scale --plane --spacing --time --fps --hold --style --tail --tail-slope --max-tail --air --release --max-air --eraser-share --no-crest-gate --smoothing --fairing --resolution --frame-width --look --line-width --masks --particle-cache --codec --quality --alpha --json --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
+        liquid2d) options='--scene --particle-count --walls --gravity --surface-tension --solver --particles --particle-scale --plane --spacing --time --fps --style --tail --tail-slope --max-tail --claws --air --release --max-air --eraser-share --no-crest-gate --smoothing --fairing --resolution --frame-width --look --line-width --masks --codec --quality --alpha --json --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
         morph) options='--text --font-family --frames --particle-count --rounding --mask-width --look --alpha --volume-mode --fps --contact-sheet --preview --view --camera --look-at --preview-size --codec --quality --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --compress --html --json --resume --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         studio) options='--no-clobber --help' ;;
         wind-tunnel) options='--preset --volume --wind-speed --slope --hysteresis --sliding-angle --sliding-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
@@ -182,11 +182,11 @@ _droplet_shape()
         *:--particle-scale) return ;;
         *:--plane) choices='xy xz yz zx zy yx' ;;
         *:--spacing) return ;;
-        *:--hold) return ;;
-        *:--style) choices='realistic cartoon wave' ;;
+        *:--style) choices='realistic cartoon wave paper' ;;
         *:--tail) return ;;
         *:--tail-slope) return ;;
         *:--max-tail) return ;;
+        *:--claws) return ;;
         *:--air) return ;;
         *:--release) return ;;
         *:--max-air) return ;;
@@ -198,7 +198,6 @@ _droplet_shape()
         *:--look) choices='flat comic ink night' ;;
         *:--line-width) return ;;
         *:--masks) files=1 ;;
-        *:--particle-cache) files=1 ;;
         *:--font-family) return ;;
         *:--frames) return ;;
         *:--rounding) return ;;

@@ -8,6 +8,7 @@
 
 #include "droplet/error.h"
 #include "droplet/expression/expression.h"
+#include "drops.h"
 #include "require.h"
 #include "surface_kernel.h"
 #include "surroundings.h"
@@ -18,11 +19,33 @@ namespace {
 /// Coverage below which a particle lies at the free surface: on the flat surface of a lattice it is 0.78.
 constexpr double kSurface = 0.86;
 
+/// Coverage of a particle where the surface is bent outwards as much as a crest.
+constexpr double kBent = 0.74;
+
 /// Part of τ₂ at which aeration begins: τ₁.
 constexpr double kLeastAeration = 0.1;
 
 /// A droplet that has touched liquid loses its flight so many times as fast as it gained it.
-constexpr double kLanding = 6.0;
+constexpr double kLanding = 3.0;
+
+/// Bodies of up to so many particles are always drawn as a droplet.
+constexpr std::uint32_t kSmall = 10;
+
+/// Part of their ellipse that the particles of larger bodies fill if they are drawn as a droplet, at first and later.
+/// Straight rows fill 0.95, half a ring 0.55.
+constexpr double kFilled = 0.8;
+constexpr double kStillFilled = 0.65;
+
+/// Greatest length over the width of such a body, at first and later: longer ones are films and threads.
+constexpr double kLongest = 4.0;
+constexpr double kStillLongest = 5.0;
+
+/// Time of flight that is remembered, without tails [s].
+constexpr double kFlight = 0.25;
+
+/// Times in which a claw grows at a crest, and shrinks after it [s].
+constexpr double kGrowing = 0.2;
+constexpr double kShrinking = 0.35;
 
 /// Time in which the fastest speed is forgotten [s].
 constexpr double kMemory = 4.0;
@@ -64,6 +87,55 @@ double back(Vec2 velocity, Vec2 outward)
     return size > 0.0 ? smoothRamp(-dot(velocity, outward) / size, 0.1, 0.5) : 0.0;
 }
 
+/// Updates which particles are drawn as droplets.
+void updateDroplets(ExpressionState& state, const ParticleFrame& frame, const Surroundings& around,
+                    const ExpressionOptions& options, double dt)
+{
+    const std::size_t count = frame.position.size();
+    std::vector<std::vector<std::uint32_t>> members(count);  // of small bodies, by their names
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (around.size[i] <= options.droplet_size) {
+            members[around.body[i]].push_back(i);
+        }
+    }
+    const double longest = std::max(options.tail_length, kFlight);
+    for (const std::vector<std::uint32_t>& body : members) {
+        if (body.empty()) {
+            continue;
+        }
+        std::uint32_t name = ExpressionState::kNoGroup;
+        bool was_drop = false;
+        for (const std::uint32_t i : body) {
+            name = std::min(name, frame.id[i]);
+            was_drop = was_drop || state.group[frame.id[i]] != ExpressionState::kNoGroup;
+        }
+        bool is_drop = body.size() <= kSmall;
+        if (!is_drop) {
+            const DropEllipse ellipse = ellipseOf(body, frame);
+            is_drop = ellipse.fill > (was_drop ? kStillFilled : kFilled) &&
+                      ellipse.stretch * ellipse.stretch < (was_drop ? kStillLongest : kLongest);
+        }
+        for (const std::uint32_t i : body) {
+            const std::uint32_t id = frame.id[i];
+            state.flight[id] = std::min(state.flight[id] + dt, longest);
+            state.group[id] = is_drop ? name : ExpressionState::kNoGroup;
+            state.landed[id] = 0;
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (around.size[i] <= options.droplet_size) {
+            continue;
+        }
+        // Droplets that have landed keep their tails until they are gone.
+        const std::uint32_t id = frame.id[i];
+        state.flight[id] = std::max(std::min(state.flight[id], options.tail_length) - kLanding * dt, 0.0);
+        state.landed[id] = 1;
+        if (!(state.flight[id] > 0.0)) {
+            state.group[id] = ExpressionState::kNoGroup;
+        }
+    }
+}
+
 /// Whether a particle may hold air: a share of all, spread evenly over the ids.
 bool mayHoldAir(std::uint32_t id, double share)
 {
@@ -89,7 +161,9 @@ ExpressionState advanceExpression(ExpressionState state, const ParticleFrame& fr
     }
     state.air.resize(ids);
     state.flight.resize(ids);
-    state.group.resize(ids);
+    state.curl.resize(ids);
+    state.group.resize(ids, ExpressionState::kNoGroup);
+    state.landed.resize(ids, 0);
     ExpressionState::Past now{frame.time, {}};
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     now.position.resize(ids, {kNone, kNone});
@@ -101,30 +175,32 @@ ExpressionState advanceExpression(ExpressionState state, const ParticleFrame& fr
            (state.past.size() > 2 && state.past.rbegin()[1].time < frame.time - options.tail_length)) {
         state.past.pop_back();
     }
-    const bool needs_surroundings = options.tail_length > 0.0 || options.air > 0.0;
     state.aeration.assign(count, 0.0);
     ++state.frames;
+    const bool needs_surroundings = options.tail_length > 0.0 || options.air > 0.0;
     if (count == 0 || !needs_surroundings) {
         return state;
     }
 
     const Surroundings around = surroundingsOf(frame);
-    std::vector<std::uint32_t> smallest(count, std::numeric_limits<std::uint32_t>::max());
-    for (std::size_t i = 0; i < count; ++i) {
-        smallest[around.body[i]] = std::min(smallest[around.body[i]], frame.id[i]);
+    updateDroplets(state, frame, around, options, dt);
+    if (options.claws > 0.0 || options.air > 0.0) {
+        // The fastest time so far, forgotten within seconds; not slower than a motion that one sees.
+        state.speed = std::max({highSpeed(frame), state.speed * std::exp(-dt / kMemory), kSeen * frame.spacing});
     }
-    for (std::size_t i = 0; i < count; ++i) {
-        double& flight = state.flight[frame.id[i]];
-        const bool flies = around.size[i] <= options.droplet_size;
-        if (flies) {
-            state.group[frame.id[i]] = smallest[around.body[i]];
+    if (options.claws > 0.0) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const double coverage = frame.density.empty() ? around.coverage[i] : frame.density[i];
+            const bool is_surface = coverage < kSurface && around.size[i] > options.droplet_size;
+            // The crest itself: the surface is bent outwards.
+            const double bent = smoothRamp(coverage, kSurface, kBent);
+            const double gate = is_surface ? bent * crest(frame.velocity[i], around.outward[i], state.speed) : 0.0;
+            double& curl = state.curl[frame.id[i]];
+            curl = std::clamp(curl + dt * (gate / kGrowing - (1.0 - gate) / kShrinking), 0.0, 1.0);
         }
-        flight = std::clamp(flight + (flies ? dt : -kLanding * dt), 0.0, options.tail_length);
     }
     if (options.air > 0.0) {
         const double weight = 1.0 / static_cast<double>(state.frames);
-        // The fastest time so far, forgotten within seconds; not slower than a motion that one sees.
-        state.speed = std::max({highSpeed(frame), state.speed * std::exp(-dt / kMemory), kSeen * frame.spacing});
         const double largest = *std::max_element(around.churn.begin(), around.churn.end());
         state.aeration_limit += weight * (largest - state.aeration_limit);
         const double begin = kLeastAeration * state.aeration_limit;

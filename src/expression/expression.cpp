@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drops.h"
 #include "field.h"
+#include "holes.h"
 #include "isoline.h"
 #include "require.h"
 #include "smooth.h"
@@ -12,22 +14,22 @@
 namespace droplet {
 namespace {
 
-/// Part of a hole that erasers must fill for it to be foam.
-bool isFoam(const Loop& hole, const ExpressionState& state, const ParticleFrame& frame)
+/// Places of particles that hold air.
+std::vector<Vec2> erasersOf(const ExpressionState& state, const ParticleFrame& frame)
 {
-    Vec2 lower = hole.points.front();
-    Vec2 upper = lower;
-    for (const Vec2 x : hole.points) {
-        lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
-        upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
-    }
+    std::vector<Vec2> erasers;
     for (std::size_t i = 0; i < frame.position.size(); ++i) {
-        const Vec2 x = frame.position[i];
-        if (x.x > lower.x && x.y > lower.y && x.x < upper.x && x.y < upper.y && state.air[frame.id[i]] > 0.0) {
-            return true;
+        if (state.air[frame.id[i]] > 0.0) {
+            erasers.push_back(frame.position[i]);
         }
     }
-    return false;
+    return erasers;
+}
+
+/// Whether a hole is foam: it holds an eraser.
+bool isFoam(const LiquidHole& hole, const std::vector<Vec2>& erasers)
+{
+    return std::any_of(erasers.begin(), erasers.end(), [&](Vec2 x) { return length(x - hole.centre) < hole.reach; });
 }
 
 bool contains(const Loop& loop, Vec2 point)
@@ -41,6 +43,31 @@ bool contains(const Loop& loop, Vec2 point)
         }
     }
     return is_inside;
+}
+
+Loop outlineOf(const Drop& drop, double spacing)
+{
+    Loop loop{drop.outline(spacing), {}};
+    loop.corner.resize(loop.points.size());
+    return loop;
+}
+
+/// Droplet near liquid that does not touch it yet: its loop is that of the field, on whose grid small ones have
+/// corners.
+/// @param area  of the loop, in areas of a particle
+const Drop* dropOf(const Loop& loop, double area, const std::vector<Drop>& drops)
+{
+    // Less than that of two droplets that touch; the grid loses a part of thin tails.
+    constexpr double kLeast = 0.4;
+    constexpr double kMost = 1.6;
+    for (const Drop& drop : drops) {
+        const bool is_separate = drop.is_near && !drop.members.is_landed;
+        if (is_separate && area > kLeast * drop.water && area < kMost * drop.water &&
+            contains(loop, drop.ellipse.centre)) {
+            return &drop;
+        }
+    }
+    return nullptr;
 }
 
 }  // namespace
@@ -59,6 +86,7 @@ void ExpressionOptions::validate() const
     within("eraser_share", eraser_share, 0.0, 1.0, "from 0 to 1");
     at_least_zero("air", air);
     at_least_zero("release", release);
+    within("claws", claws, 0.0, 100.0, "from 0 to 100 spacings");
     within("max_air", max_air, 0.0, 1000.0, "from 0 to 1000 areas of a particle");
     within("smoothing", smoothing, 0.0, 2.0, "from 0 to 2");
     within("fairing", fairing, 0.0, 10.0, "from 0 to 10");
@@ -76,9 +104,12 @@ ExpressionOptions expressionOf(LiquidStyle style)
     options.tail_length = 0.25;
     options.resolution = 0.4;
     options.fairing = 2.5;
-    options.max_tail = 7.0;
+    options.max_tail = 5.0;
     options.min_area = 0.6;
     if (style == LiquidStyle::Wave) {
+        options.claws = 16.0;
+    }
+    if (style == LiquidStyle::Paper) {
         options.air = 120.0;
         options.release = 20.0;
         options.max_air = 30.0;
@@ -95,7 +126,8 @@ LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame
     std::vector<Loop> holes;
     // Bends shorter than two spacings come from single particles.
     const int rounds = static_cast<int>(std::lround(options.fairing * 2.0 / (options.resolution * options.resolution)));
-    for (Loop& loop : isolines(fieldOf(state, frame, options))) {
+    const std::vector<Drop> drops = dropsOf(state, frame, options);
+    for (Loop& loop : isolines(fieldOf(drops, state, frame, options))) {
         loop.points = smoothed(std::move(loop.points), rounds);
         const double area = signedArea(loop);
         if (std::abs(area) < options.min_area * particle) {
@@ -103,11 +135,19 @@ LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame
         }
         if (area < 0.0) {
             holes.push_back(std::move(loop));
+        } else if (const Drop* drop = dropOf(loop, area / particle, drops)) {
+            shape.droplets.push_back(outlineOf(*drop, frame.spacing));
         } else {
             (area <= options.droplet_size * particle ? shape.droplets : shape.liquid).push_back(std::move(loop));
         }
     }
-    for (Loop& hole : holes) {
+    const std::vector<Vec2> erasers = options.air > 0.0 ? erasersOf(state, frame) : std::vector<Vec2>();
+    shape.holes = followedHoles(holes, state, frame);
+    for (std::size_t k = 0; k < holes.size(); ++k) {
+        Loop& hole = holes[k];
+        if (!shape.holes[k].shown) {
+            continue;
+        }
         const bool is_in_droplet = std::any_of(shape.droplets.begin(), shape.droplets.end(), [&](const Loop& droplet) {
             return contains(droplet, hole.points.front());
         });
@@ -115,12 +155,24 @@ LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame
             shape.droplets.push_back(std::move(hole));
             continue;
         }
-        if (options.air > 0.0 && isFoam(hole, state, frame)) {
+        if (isFoam(shape.holes[k], erasers)) {
             shape.foam.push_back(hole);
         }
         shape.liquid.push_back(std::move(hole));
     }
+    for (const Drop& drop : drops) {
+        if (!drop.is_near) {
+            shape.droplets.push_back(outlineOf(drop, frame.spacing));
+        }
+    }
     return shape;
+}
+
+ExpressionState remember(ExpressionState state, const LiquidShape& shape)
+{
+    state.holes = shape.holes;
+    state.remembers = true;
+    return state;
 }
 
 }  // namespace droplet

@@ -8,7 +8,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kHead = "droplet-shape expression 1\n";
+constexpr std::string_view kHead = "droplet-shape expression 2\n";
 
 }  // namespace
 
@@ -16,7 +16,7 @@ std::string bytesOf(const ExpressionState& state)
 {
     ExactWriter out(kHead);
     out.all(state.aeration_limit, state.speed, state.frames);
-    for (const auto* values : {&state.air, &state.flight, &state.aeration}) {
+    for (const auto* values : {&state.air, &state.curl, &state.flight, &state.aeration}) {
         out.put(std::uint64_t{values->size()});
         for (const double value : *values) {
             out.put(value);
@@ -25,6 +25,10 @@ std::string bytesOf(const ExpressionState& state)
     out.put(std::uint64_t{state.group.size()});
     for (const std::uint32_t group : state.group) {
         out.put(std::uint64_t{group});
+    }
+    out.put(std::uint64_t{state.landed.size()});
+    for (const std::uint8_t landed : state.landed) {
+        out.put(std::uint64_t{landed});
     }
     out.put(std::uint64_t{state.past.size()});
     for (const ExpressionState::Past& past : state.past) {
@@ -35,6 +39,12 @@ std::string bytesOf(const ExpressionState& state)
             out.all(std::uint64_t{was_there}, was_there ? x : Vec2{});
         }
     }
+    out.put(std::uint64_t{state.remembers});
+    out.put(std::uint64_t{state.holes.size()});
+    for (const LiquidHole& hole : state.holes) {
+        out.all(hole.centre, hole.velocity, hole.area, hole.reach, hole.seen, std::uint64_t{hole.shown.has_value()},
+                hole.shown.value_or(0.0));
+    }
     return out.release();
 }
 
@@ -43,7 +53,7 @@ ExpressionState expressionFromBytes(std::string_view bytes, const std::string& n
     ExactReader in(bytes, kHead, name);
     ExpressionState state;
     in.all(state.aeration_limit, state.speed, state.frames);
-    for (auto* values : {&state.air, &state.flight, &state.aeration}) {
+    for (auto* values : {&state.air, &state.curl, &state.flight, &state.aeration}) {
         values->resize(in.count(sizeof(double)));
         for (double& value : *values) {
             in.get(value);
@@ -53,8 +63,15 @@ ExpressionState expressionFromBytes(std::string_view bytes, const std::string& n
     for (std::uint32_t& group : state.group) {
         std::uint64_t number = 0;
         in.get(number);
-        in.require(number < state.group.size());
+        in.require(number < state.group.size() || number == ExpressionState::kNoGroup);
         group = static_cast<std::uint32_t>(number);
+    }
+    state.landed.resize(in.count(sizeof(std::uint64_t)));
+    for (std::uint8_t& landed : state.landed) {
+        std::uint64_t number = 0;
+        in.get(number);
+        in.require(number <= 1);
+        landed = static_cast<std::uint8_t>(number);
     }
     state.past.resize(in.count(2 * sizeof(double)));
     for (ExpressionState::Past& past : state.past) {
@@ -67,6 +84,18 @@ ExpressionState expressionFromBytes(std::string_view bytes, const std::string& n
                 x = {std::nan(""), std::nan("")};
             }
         }
+    }
+    std::uint64_t remembers = 0;
+    in.get(remembers);
+    in.require(remembers <= 1);
+    state.remembers = remembers != 0;
+    state.holes.resize(in.count(9 * sizeof(double)));
+    for (LiquidHole& hole : state.holes) {
+        std::uint64_t is_shown = 0;
+        double shown = 0.0;
+        in.all(hole.centre, hole.velocity, hole.area, hole.reach, hole.seen, is_shown, shown);
+        in.require(is_shown <= 1);
+        hole.shown = is_shown != 0 ? std::optional(shown) : std::nullopt;
     }
     in.require(in.ended());
     return state;

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "field.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "blocks.h"
+#include "claws.h"
+#include "holes.h"
 #include "surface_kernel.h"
-#include "tails.h"
 
 namespace droplet {
 namespace {
@@ -14,11 +18,16 @@ namespace {
 constexpr std::size_t kTilesPerBlock = 16;
 /// Margin of an eraser's ring below the surface's value.
 constexpr double kBelow = 0.02;
-/// Air, in areas of a particle, over which a particle turns from water to an eraser.
-constexpr double kFade = 0.25;
 /// Narrower kernels show gaps between single particles, so no cell is surely liquid.
 constexpr double kSmooth = 0.95;
 constexpr double kClusterMass = 0.12;
+/// Half of the width of the band around a droplet's rim in which its field falls, in spacings; less on thin parts.
+constexpr double kDropBand = 0.8;
+/// Depth of the dent that keeps a hole open, over the value of full liquid, its reach over the hole's radius, and the
+/// least such radius in spacings: where the kernel is a third, 0.6 of the way, the surface's value is left.
+constexpr float kDent = 1.5F;
+constexpr double kDentReach = 1.4;
+constexpr double kLeastDent = 0.8;
 constexpr int kRows = 3 * kTileSide;
 /// Cells of a tile and its eight neighbours, as rows of bits.
 using Rows = std::array<std::uint32_t, kRows>;
@@ -126,36 +135,50 @@ struct Stamp {
     float support, weight;
 };
 
-/// Field of a particle that has a tail or holds air. In spacings, absolute.
+/// Field of a droplet near liquid, of a hole that stays open, or of a particle that holds air. In spacings, absolute.
 struct LongStamp {
-    Tail tail;  ///< empty for an eraser
+    const Drop* drop = nullptr;  ///< or none for the others
+    bool is_dent = false;        ///< whether it is a hole's
+    double scale = 1.0;          ///< spacings per metre, for a droplet
     Vec2 place{};
     double support = 0.0;
     double weight = 0.0;
     double inner = 0.0;  ///< of an eraser
     double outer = 0.0;  ///< of an eraser
-    double share = 0.0;  ///< of the eraser; the rest is water
+    double share = 0.0;  ///< of the droplet or the eraser; the rest is water of particles
     Vec2 lower{};        ///< bounds
     Vec2 upper{};
 };
 
-/// Value of a tail at a point: that of its nearest part, relative to its width there.
-double tailAt(const LongStamp& s, Vec2 point)
+/// Value of a droplet at a point: that of the surface at its rim, and within a band around it as steep as a particle's.
+double dropAt(const LongStamp& s, Vec2 point)
 {
-    double nearest = 1.0;
-    for (std::size_t k = 0; k + 1 < s.tail.place.size(); ++k) {
-        const Vec2 side = s.tail.place[k + 1] - s.tail.place[k];
-        const Vec2 arm = point - s.tail.place[k];
+    const Drop& drop = *s.drop;
+    const Vec2 x = drop.ellipse.compressed((1.0 / s.scale) * point - drop.ellipse.centre);
+    const auto inwards = [&](double off, double width) {
+        const double band = std::min(width, kDropBand / s.scale);
+        return band > 0.0 ? (width - off) / band : -1.0;
+    };
+    double best = inwards(length(x), drop.shape.head);
+    // The nearest place on the spine, and the width there.
+    const double step = drop.shape.length / static_cast<double>(std::max<std::size_t>(drop.spine.size(), 2) - 1);
+    double nearest = std::numeric_limits<double>::max();
+    double place = 0.0;
+    for (std::size_t k = 0; k + 1 < drop.spine.size(); ++k) {
+        const Vec2 side = drop.spine[k + 1] - drop.spine[k];
+        const Vec2 arm = x - drop.spine[k];
         const double square = dot(side, side);
         const double along = square > 0.0 ? std::clamp(dot(arm, side) / square, 0.0, 1.0) : 0.0;
-        const double width = s.support * (s.tail.width[k] + along * (s.tail.width[k + 1] - s.tail.width[k]));
-        const Vec2 off = arm - along * side;
-        const double off2 = dot(off, off);
-        if (off2 < nearest * nearest * width * width) {
-            nearest = std::sqrt(off2) / width;
+        const double off = length(arm - along * side);
+        if (off < nearest) {
+            nearest = off;
+            place = step * (static_cast<double>(k) + along);
         }
     }
-    return s.weight * static_cast<double>(surfaceKernel(static_cast<float>(nearest)));
+    if (place > 0.0) {
+        best = std::max(best, inwards(nearest, drop.shape.halfWidth(place)));
+    }
+    return s.share * static_cast<double>(surfaceKernel(static_cast<float>(std::clamp(0.5 - 0.5 * best, 0.0, 1.0))));
 }
 
 void setBounds(LongStamp& s)
@@ -165,9 +188,13 @@ void setBounds(LongStamp& s)
         s.upper = {std::max(s.upper.x, x.x + reach), std::max(s.upper.y, x.y + reach)};
     };
     s.lower = s.upper = s.place;
-    include(s.place, std::max(s.support, s.outer));
-    for (std::size_t k = 0; k < s.tail.place.size(); ++k) {
-        include(s.tail.place[k], s.support * s.tail.width[k]);
+    if (s.drop == nullptr) {
+        include(s.place, std::max(s.support, s.outer));
+        return;
+    }
+    for (const Vec2 x : s.drop->spine) {
+        include(s.scale * (s.drop->ellipse.centre + s.drop->ellipse.stretched(x)),
+                2.0 * s.scale * s.drop->shape.head * s.drop->ellipse.stretch);
     }
 }
 
@@ -213,11 +240,15 @@ public:
         box(f(lower.x) - 1e-3F, f(upper.x) + 1e-3F, f(lower.y) - 1e-3F, f(upper.y) + 1e-3F,
             [&](float& value, float x, float y) {
                 const Vec2 point = corner + Vec2{static_cast<double>(x), static_cast<double>(y)};
-                if (!s.tail.place.empty()) {
-                    value += f(tailAt(s, point));
+                if (s.drop != nullptr) {
+                    value += f(dropAt(s, point));
                     return;
                 }
                 const double d = length(point - s.place);
+                if (s.is_dent) {
+                    value -= kDent * surfaceKernel(f(d / s.outer));
+                    return;
+                }
                 value += f((1.0 - s.share) * s.weight) * surfaceKernel(f(d / s.support)) +
                          f(s.share * eraser(d, s.inner, s.outer));
             });
@@ -375,8 +406,8 @@ double eraser(double distance, double inner, double outer)
     return distance < outer ? ring * fall((distance - inner) / (outer - inner)) : 0.0;
 }
 
-Field fieldOf(const ExpressionState& state, const ParticleFrame& frame, const ExpressionOptions& options,
-              bool everywhere)
+Field fieldOf(const std::vector<Drop>& drops, const ExpressionState& state, const ParticleFrame& frame,
+              const ExpressionOptions& options, bool everywhere)
 {
     const ParticleCells cells = sortIntoCells(frame);
     const FieldOptions field_options{options.smoothing,
@@ -386,59 +417,109 @@ Field fieldOf(const ExpressionState& state, const ParticleFrame& frame, const Ex
     const std::size_t tiles = cells.tiles.size();
     const double scale = 1.0 / frame.spacing;
 
-    // Tails and air.
-    std::vector<Tail> tails = tailsOf(state, frame, options);
+    // Droplets and air. Droplets far from liquid have outlines of their own.
     std::vector<LongStamp> stamps;
-    std::vector<std::uint32_t> owner;  // Of each stamp, sorted.
+    std::vector<std::optional<std::uint32_t>> owner;        // Sorted particle of each eraser.
+    std::vector<float> water(frame.position.size(), 1.0F);  // Of each particle, as a part of the liquid.
+    for (const Drop& drop : drops) {
+        for (const std::uint32_t i : drop.members.indices) {
+            water[i] = static_cast<float>(1.0 - drop.share);
+        }
+        if (drop.is_near) {
+            LongStamp s;
+            s.drop = &drop;
+            s.scale = scale;
+            s.share = drop.share;
+            s.place = scale * drop.ellipse.centre;
+            setBounds(s);
+            stamps.push_back(s);
+            owner.emplace_back();
+        }
+    }
+    const std::vector<Claw> claws = clawsOf(state, frame, options);
+    for (const Claw& claw : claws) {
+        LongStamp finger;
+        finger.drop = &claw.finger;
+        finger.scale = scale;
+        finger.share = 1.0;
+        finger.place = scale * claw.finger.ellipse.centre;
+        setBounds(finger);
+        LongStamp hollow;
+        hollow.is_dent = true;
+        hollow.place = scale * claw.hollow;
+        hollow.outer = kDentReach * scale * claw.hollow_radius;
+        setBounds(hollow);
+        for (const LongStamp& s : {finger, hollow}) {
+            stamps.push_back(s);
+            owner.emplace_back();
+        }
+    }
+    for (const OpenHole& hole : openHoles(state)) {
+        LongStamp s;
+        s.is_dent = true;
+        s.place = scale * hole.centre;
+        s.outer = kDentReach * std::max(scale * hole.radius, kLeastDent);
+        setBounds(s);
+        stamps.push_back(s);
+        owner.emplace_back();
+    }
     std::vector<char> is_long(cells.particle.size(), 0);
+    std::vector<Vec2> without;  // Places of particles whose water is elsewhere, in spacings.
     for (std::uint32_t k = 0; k < cells.particle.size(); ++k) {
         const std::uint32_t i = cells.particle[k];
+        if (water[i] < 1.0F) {
+            is_long[k] = water[i] > 0.0F ? 0 : 1;
+            without.push_back(scale * frame.position[i]);
+            continue;
+        }
         const double air = options.air > 0.0 ? state.air[frame.id[i]] : 0.0;
-        if (air == 0.0 && tails[i].place.empty()) {
+        if (!(air > 0.0)) {
             continue;
         }
         is_long[k] = 1;
         LongStamp s;
         s.place = scale * frame.position[i];
         s.support = std::max(bulkSupport(options.smoothing), 2.0 * kParticleRadius);
-        if (air > 0.0) {
-            s.inner = kParticleRadius * std::sqrt(air);
-            s.outer = kParticleRadius * std::sqrt(air + 1.0);
-            s.share = smoothRamp(air, 0.0, kFade);
-        } else {
-            s.tail = std::move(tails[i]);
-            for (Vec2& p : s.tail.place) {
-                p = scale * p;
-            }
-        }
+        s.inner = kParticleRadius * std::sqrt(air);
+        s.outer = kParticleRadius * std::sqrt(air + 1.0);
+        s.share = smoothRamp(air, 0.0, kEraserFade);
         setBounds(s);
-        stamps.push_back(std::move(s));
-        owner.push_back(k);
+        stamps.push_back(s);
+        owner.emplace_back(k);
     }
     TileNumbers old_numbers;
     std::vector<std::uint64_t> opened(tiles, 0);
-    if (!stamps.empty()) {
+    if (!stamps.empty() || !without.empty()) {
         for (const TilePlace place : cells.tiles) {
             old_numbers.insert(place);
         }
     }
-    for (const LongStamp& s : stamps) {
-        // Air takes liquid away, and so does a particle that its droplet draws towards its centre.
-        const double r = std::max(s.outer, 0.5);
-        for (auto y = static_cast<std::int32_t>(std::floor(s.place.y - r)); y <= s.place.y + r; ++y) {
-            for (auto x = static_cast<std::int32_t>(std::floor(s.place.x - r)); x <= s.place.x + r; ++x) {
+    const auto open = [&](Vec2 place, double r) {
+        for (auto y = static_cast<std::int32_t>(std::floor(place.y - r)); y <= place.y + r; ++y) {
+            for (auto x = static_cast<std::int32_t>(std::floor(place.x - r)); x <= place.x + r; ++x) {
                 if (const auto t = old_numbers.find({x >> 3, y >> 3})) {
                     opened[*t] |= std::uint64_t{1} << static_cast<unsigned>((y & 7) * kTileSide + (x & 7));
                 }
             }
         }
+    };
+    for (const LongStamp& s : stamps) {
+        if (s.drop == nullptr) {
+            open(s.place, std::max(s.outer, 0.5));
+        }
+    }
+    for (const Vec2 place : without) {
+        open(place, 0.5);
     }
     const Coverage coverage = coverageOf(cells, opened, field_options);
     for (std::size_t k = 0; k < stamps.size(); ++k) {
-        const KernelShape kernel = kernelShape(static_cast<double>(coverage.coverage[owner[k]]), options.smoothing);
-        stamps[k].support = kernel.support;
-        stamps[k].weight = kernel.weight;
-        setBounds(stamps[k]);
+        if (owner[k]) {
+            const KernelShape kernel =
+                kernelShape(static_cast<double>(coverage.coverage[*owner[k]]), options.smoothing);
+            stamps[k].support = kernel.support;
+            stamps[k].weight = kernel.weight;
+            setBounds(stamps[k]);
+        }
     }
 
     std::vector<std::uint8_t> has_rim(tiles, 0);
@@ -517,7 +598,7 @@ Field fieldOf(const ExpressionState& state, const ParticleFrame& frame, const Ex
                                 const KernelShape kernel =
                                     kernelShape(static_cast<double>(coverage.coverage[i]), options.smoothing);
                                 tile.add({cells.x[i] + dx, cells.y[i] + dy, static_cast<float>(kernel.support),
-                                          static_cast<float>(kernel.weight)});
+                                          water[cells.particle[i]] * static_cast<float>(kernel.weight)});
                             }
                         });
                 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "droplet/expression/expression.h"
+#include "drops.h"
 #include "particle_cells.h"
 #include "surface_kernel.h"
 
@@ -66,8 +67,9 @@ Coverage coverageOf(const ParticleCells& cells, const std::vector<std::uint64_t>
 double eraser(double distance, double inner, double outer);
 
 /// Field around the particles of a frame.
+/// @param drops       of the frame: those far from liquid are left out
 /// @param everywhere  evaluates all nodes, also those that are surely liquid
-Field fieldOf(const ExpressionState& state, const ParticleFrame& frame, const ExpressionOptions& options,
-              bool everywhere = false);
+Field fieldOf(const std::vector<Drop>& drops, const ExpressionState& state, const ParticleFrame& frame,
+              const ExpressionOptions& options, bool everywhere = false);
 
 }  // namespace droplet

@@ -10,6 +10,8 @@ namespace droplet {
 /// Value of the field at the rim of liquid.
 inline constexpr float kIsoValue = 0.5F;
 inline constexpr double kIso = 0.5;
+/// Air, in areas of a particle, over which a particle turns from water to an eraser.
+inline constexpr double kEraserFade = 0.25;
 /// Integral over the plane of the kernel of support 1.
 inline constexpr double kKernelIntegral = 0.3 * std::numbers::pi;
 /// Radius of a disc of a particle's area, in spacings.

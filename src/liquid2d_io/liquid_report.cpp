@@ -21,20 +21,11 @@ void writeLiquidReport(std::ostream& out, const LiquidReport& report)
     json["window_m"] = {report.size.x, report.size.y};
     json["spacing_m"] = report.spacing;
     json["frames_per_second"] = report.frames_per_second;
-    json["style"] = {{"name", report.style},
-                     {"tail_s", o.tail_length},
-                     {"tail_slope", o.tail_slope},
-                     {"max_tail", o.max_tail},
-                     {"air", o.air},
-                     {"release", o.release},
-                     {"max_air", o.max_air},
-                     {"eraser_share", o.eraser_share},
-                     {"crest_gate", o.crest_gate},
-                     {"smoothing", o.smoothing},
-                     {"fairing", o.fairing},
-                     {"resolution", o.resolution},
-                     {"min_area", o.min_area},
-                     {"droplet_size", o.droplet_size}};
+    json["style"] = {{"name", report.style},       {"tail_s", o.tail_length},  {"tail_slope", o.tail_slope},
+                     {"max_tail", o.max_tail},     {"claws", o.claws},         {"air", o.air},
+                     {"release", o.release},       {"max_air", o.max_air},     {"eraser_share", o.eraser_share},
+                     {"crest_gate", o.crest_gate}, {"smoothing", o.smoothing}, {"fairing", o.fairing},
+                     {"resolution", o.resolution}, {"min_area", o.min_area},   {"droplet_size", o.droplet_size}};
     json["frames"] = ReportJson::array();
     for (const LiquidFrameRow& row : report.frames) {
         json["frames"].push_back({{"time_s", row.time},

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "expression/drops.h"
 #include "expression/field.h"
 #include "expression/isoline.h"
-#include "expression/tails.h"
 
 namespace {
 
@@ -79,37 +79,105 @@ TEST(Expression, ClustersHaveTheAreaOfTheirParticles)
     EXPECT_NEAR(shapeOf(frameOf(0.0, cluster(5000)), {}).area(), areaOf(5000), 0.01 * areaOf(5000));
 }
 
-TEST(Expression, TaperFallsFromOneToZeroAndSteeperOnesAreThinner)
+TEST(Expression, DropletsAtRestAreRoundAndHaveTheirArea)
 {
-    for (const double slope : {0.2, 0.7, 1.2}) {
-        EXPECT_DOUBLE_EQ(droplet::taper(0.0, slope), 1.0);
-        EXPECT_DOUBLE_EQ(droplet::taper(1.0, slope), 0.0);
-        for (int k = 0; k < 20; ++k) {
-            EXPECT_GT(droplet::taper(k / 20.0, slope), droplet::taper((k + 1) / 20.0, slope));
+    for (const LiquidStyle style : {LiquidStyle::Cartoon, LiquidStyle::Wave, LiquidStyle::Paper}) {
+        const ExpressionOptions options = expressionOf(style);
+        for (const std::size_t count : {1U, 2U, 3U, 5U, 7U, 10U, 19U, 37U, 55U}) {
+            const ParticleFrame frame = frameOf(0.0, cluster(count));
+            const LiquidShape shape = shapeOf(frame, options);
+            ASSERT_EQ(shape.droplets.size(), 1U) << count;
+            EXPECT_NEAR(shape.area(), areaOf(count), 0.02 * areaOf(count)) << count;
+            if (count == 1 || count == 7 || count == 19 || count == 37) {
+                // These clusters have six-fold symmetry: a circle, without corners.
+                const double radius = std::sqrt(areaOf(count) / std::numbers::pi);
+                for (const Vec2 x : shape.droplets[0].points) {
+                    EXPECT_NEAR(length(x), radius, 0.02 * radius) << count;
+                }
+            }
         }
     }
-    EXPECT_GT(droplet::taper(0.5, 0.2), droplet::taper(0.5, 1.2));
 }
 
-TEST(Expression, HeadsOfCapsulesAndConesHaveTheirExactRadii)
+TEST(Expression, RowThatTearsOffKeepsItsFormAndBecomesRound)
 {
-    const auto capsule = [](double) { return 1.0; };
-    const auto cone = [](double along) { return 1.0 - along; };
-    for (const double length : {0.0, 1.0, 2.0, 4.0, 8.0}) {
-        // Equation 1, mended: πr² + 2Lr = πR².
-        const double pi = std::numbers::pi;
-        EXPECT_NEAR(droplet::headRadius(length, capsule), (std::hypot(length, pi) - length) / pi, 0.005) << length;
-        if (length > 1.0) {
-            // The disc and its tangents to a point: r²(π − acos(r/L)) + r√(L² − r²) = πR².
-            const double r = droplet::headRadius(length, cone);
-            const double area = r * r * (pi - std::acos(r / length)) + r * std::sqrt(length * length - r * r);
-            EXPECT_NEAR(area / pi, 1.0, 0.01) << length;
+    std::vector<Vec2> row;
+    for (int k = 0; k < 6; ++k) {
+        row.push_back({0.0, kSpacing * k});
+    }
+    const ExpressionOptions options = expressionOf(LiquidStyle::Cartoon);
+    const auto lengthOf = [](const LiquidShape& shape) {
+        double lower = 1e9;
+        double upper = -1e9;
+        for (const Vec2 x : shape.droplets.at(0).points) {
+            lower = std::min(lower, x.y);
+            upper = std::max(upper, x.y);
         }
-        for (const double slope : {0.2, 1.2}) {
-            const double r = droplet::headRadius(length, [=](double u) { return droplet::taper(u, slope); });
-            EXPECT_GE(r + 0.005, droplet::headRadius(length, capsule));
+        return upper - lower;
+    };
+    ExpressionState state;
+    double before = 0.0;
+    for (int k = 0; k <= 10; ++k) {
+        const ParticleFrame frame = frameOf(k / 24.0, row);
+        state = advanceExpression(std::move(state), frame, options);
+        const LiquidShape shape = liquidShape(state, frame, options);
+        EXPECT_NEAR(shape.area(), areaOf(6), 1e-6 * areaOf(6));
+        const double now = lengthOf(shape);
+        if (k == 0) {
+            EXPECT_NEAR(now, 6.0 * kSpacing, 1.2 * kSpacing);
+        } else {
+            EXPECT_LE(now, before + 1e-9);
+            EXPECT_LT(before - now, 1.2 * kSpacing);
+        }
+        before = now;
+    }
+    EXPECT_NEAR(before, 2.0 * std::sqrt(areaOf(6) / std::numbers::pi), 1e-3);
+}
+
+TEST(Expression, TeardropsHaveTheirAreaAndNoKink)
+{
+    for (const double slope : {0.2, 0.7, 1.2}) {
+        for (const double length : {0.5, 1.0, 1.2, 2.0, 5.0, 20.0}) {
+            const droplet::Teardrop drop = droplet::teardropOf(1.0, length, slope);
+            EXPECT_NEAR(drop.area(), std::numbers::pi, 1e-6) << slope << " " << length;
+            constexpr int kSteps = 20000;
+            const double step = (std::max(drop.length, drop.head) + drop.head) / kSteps;
+            double area = 0.0;
+            double bend = 0.0;
+            for (int k = 0; k < kSteps; ++k) {
+                const double x = -drop.head + step * (k + 0.5);
+                area += 2.0 * step * drop.halfWidth(x);
+                const bool is_middle = k > kSteps / 20 && k < kSteps - kSteps / 20;
+                if (is_middle) {
+                    const double change = drop.halfWidth(x + step) - 2.0 * drop.halfWidth(x) + drop.halfWidth(x - step);
+                    bend = std::max(bend, std::abs(change) / step);
+                }
+            }
+            EXPECT_NEAR(area, std::numbers::pi, 2e-3) << slope << " " << length;
+            EXPECT_LT(bend, 0.05) << slope << " " << length;
         }
     }
+    // A cone: the disc and its tangents to a point, r²(π − acos(r/L)) + r√(L² − r²).
+    const double cone_slope = 0.7 + 0.5 * std::log(0.5) / std::log(10.0 / 3.0);
+    const droplet::Teardrop cone = droplet::teardropOf(1.0, 4.0, cone_slope);
+    EXPECT_NEAR(cone.exponent, 1.0, 1e-12);
+    EXPECT_NEAR(cone.head, 0.625, 0.001);
+}
+
+TEST(Expression, SlopesOfTailsAreToldApart)
+{
+    // Half of the way to the tip, the width over that of the head.
+    const auto share = [](double slope) {
+        const droplet::Teardrop drop = droplet::teardropOf(1.0, 5.0, slope);
+        return drop.halfWidth(0.5 * drop.length) / drop.head;
+    };
+    EXPECT_GT(share(0.2), 0.6);
+    EXPECT_LT(share(0.7), 0.35);
+    EXPECT_GT(share(0.7), 0.2);
+    EXPECT_LT(share(1.2), 0.05);
+    // A thin tail leaves a large head, a thick one takes half of its width.
+    EXPECT_LT(droplet::teardropOf(1.0, 5.0, 0.2).head, 0.6);
+    EXPECT_GT(droplet::teardropOf(1.0, 5.0, 1.2).head, 0.85);
 }
 
 /// Particles that fly to the right for a second.
@@ -131,25 +199,52 @@ ExpressionState flown(const std::vector<Vec2>& position, double speed, const Exp
 TEST(Expression, TailsKeepTheAreaOfTheirDroplets)
 {
     for (const double slope : {0.2, 0.7, 1.2}) {
-        for (const std::size_t count : {1U, 7U, 19U}) {
+        for (const std::size_t count : {1U, 7U, 19U, 37U}) {
             ExpressionOptions options = expressionOf(LiquidStyle::Cartoon);
             options.tail_slope = slope;
-            options.fairing = 0.0;
-            options.resolution = 0.2;
             ParticleFrame frame;
             const ExpressionState state = flown(cluster(count), 2.0, options, frame);
             const LiquidShape shape = liquidShape(state, frame, options);
             ASSERT_EQ(shape.droplets.size(), 1U);
-            // The tail of a single particle is hardly wider than the cells of the grid; those of several overlap.
-            EXPECT_NEAR(shape.area(), areaOf(count), (count == 1 ? 0.3 : 0.15) * areaOf(count)) << slope << count;
-            // The tail is as long as the way of a quarter of a second, and points backwards.
+            EXPECT_NEAR(shape.area(), areaOf(count), 1e-6 * areaOf(count)) << slope << count;
+            // The tail points backwards, as long as the way of a quarter of a second allows.
             const auto [left, right] =
                 std::minmax_element(shape.droplets[0].points.begin(), shape.droplets[0].points.end(),
                                     [](Vec2 a, Vec2 b) { return a.x < b.x; });
-            EXPECT_GT(right->x - left->x, 0.4);
+            const double radius = std::sqrt(areaOf(count) / std::numbers::pi);
+            EXPECT_NEAR(2.0 - left->x, std::min(0.5, 5.0 * radius), 0.05) << slope << count;
+            EXPECT_GT(right->x, 2.0 + 0.4 * radius);
             EXPECT_NEAR(left->y, 0.0, 0.02);
         }
     }
+}
+
+TEST(Expression, TailsEndBeforeOtherLiquid)
+{
+    // A droplet leaves a block: its tail grows in the gap between.
+    const ExpressionOptions options = expressionOf(LiquidStyle::Cartoon);
+    const std::vector<Vec2> block = cluster(2000);
+    const double rim = std::sqrt(areaOf(2000) / std::numbers::pi);
+    ExpressionState state;
+    double longest = 0.0;
+    for (int k = 0; k <= 12; ++k) {
+        std::vector<Vec2> now = block;
+        now.push_back({rim + 0.3 * k, 0.0});
+        const ParticleFrame frame = frameOf(k / 24.0, now);
+        state = advanceExpression(std::move(state), frame, options);
+        const LiquidShape shape = liquidShape(state, frame, options);
+        for (const droplet::Loop& drop : shape.droplets) {
+            double left = 1e9;
+            double right = -1e9;
+            for (const Vec2 x : drop.points) {
+                left = std::min(left, x.x);
+                right = std::max(right, x.x);
+            }
+            EXPECT_GT(left, rim) << k;
+            longest = std::max(longest, right - left);
+        }
+    }
+    EXPECT_GT(longest, 3.0 * kSpacing);
 }
 
 TEST(Expression, OneTipForADropletOfManyParticles)
@@ -182,7 +277,7 @@ TEST(Expression, EraserStaysBelowTheSurfaceAndIsNegativeInTheMiddle)
         EXPECT_LT(droplet::eraser(0.01 * k, 1.0, 1.5), droplet::kIso);
     }
     // A single particle that holds air is no water.
-    ExpressionOptions options = expressionOf(LiquidStyle::Wave);
+    ExpressionOptions options = expressionOf(LiquidStyle::Paper);
     const ParticleFrame frame = frameOf(0.0, {{0.0, 0.0}});
     ExpressionState state = advanceExpression({}, frame, options);
     state.air[0] = 1.0;
@@ -201,7 +296,7 @@ TEST(Expression, EraserStaysBelowTheSurfaceAndIsNegativeInTheMiddle)
 /// A block of liquid that moves to the right: air enters at its front alone, or, as in the paper, anywhere.
 TEST(Expression, AirEntersAtTheFrontOfAWave)
 {
-    ExpressionOptions options = expressionOf(LiquidStyle::Wave);
+    ExpressionOptions options = expressionOf(LiquidStyle::Paper);
     options.eraser_share = 1.0;
     const auto aeration = [&](bool gate) {
         options.crest_gate = gate;
@@ -225,6 +320,56 @@ TEST(Expression, AirEntersAtTheFrontOfAWave)
     EXPECT_LT(back, 0.01 * front);
     const auto [paper_front, paper_back] = aeration(false);
     EXPECT_GT(paper_back, 0.3 * paper_front);
+}
+
+/// A step of liquid that moves to the right, with a flat top and a vertical front.
+ParticleFrame stepOfLiquid(double time, double speed)
+{
+    std::vector<Vec2> position;
+    for (int row = 0; row < 30; ++row) {
+        for (int column = 0; column < 60; ++column) {
+            position.push_back({kSpacing * (column + 0.5) + speed * time, kSpacing * (row + 0.5)});
+        }
+    }
+    return frameOf(time, position, {speed, 0.0});
+}
+
+TEST(Expression, ClawsGrowAtTheCrestAndCurlForward)
+{
+    const ExpressionOptions options = expressionOf(LiquidStyle::Wave);
+    ExpressionOptions plain = options;
+    plain.claws = 0.0;
+    for (const double speed : {4.0, -4.0}) {
+        ExpressionState state;
+        double ahead = 0.0;
+        double largest = 0.0;
+        for (int k = 0; k <= 12; ++k) {
+            ParticleFrame frame = stepOfLiquid(k / 24.0, speed);
+            state = advanceExpression(std::move(state), frame, options);
+            const LiquidShape with = liquidShape(state, frame, options);
+            const LiquidShape without = liquidShape(state, frame, plain);
+            const auto reach = [&](const LiquidShape& shape) {
+                double farthest = -1e9;
+                for (const Vec2 x : shape.liquid.at(0).points) {
+                    farthest = std::max(farthest, (speed > 0.0 ? x.x : -x.x));
+                }
+                return farthest;
+            };
+            const double grown = reach(with) - reach(without);
+            EXPECT_LT(std::abs(grown - ahead), 6.0 * kSpacing) << k;
+            ahead = grown;
+            largest = std::max(largest, grown);
+        }
+        // It reaches ahead by several particles, and no farther than its length.
+        EXPECT_GT(largest, 3.0 * kSpacing) << speed;
+        EXPECT_LT(largest, options.claws * kSpacing) << speed;
+    }
+    // Liquid at rest has none.
+    ExpressionState state;
+    for (int k = 0; k <= 12; ++k) {
+        state = advanceExpression(std::move(state), stepOfLiquid(k / 24.0, 0.0), options);
+    }
+    EXPECT_THAT(state.curl, testing::Each(0.0));
 }
 
 TEST(Expression, OutlineDoesNotPopWhenADropletLandsOrLeaves)
@@ -255,6 +400,57 @@ TEST(Expression, OutlineDoesNotPopWhenADropletLandsOrLeaves)
     EXPECT_LT(largest, 3.0 * kSpacing * kSpacing);
 }
 
+/// Liquid with a gap around the origin that moves to the right with it.
+ParticleFrame withGap(double time, double radius)
+{
+    constexpr double kSpeed = 1.0;
+    std::vector<Vec2> position;
+    for (Vec2 x : cluster(1500)) {
+        const double away = length(x);
+        // Water is pushed aside, evenly: from a disc of radius r to the ring around a hole.
+        const double pushed = std::hypot(away, radius);
+        x = away > 0.0 ? (pushed / away) * x : Vec2{pushed, 0.0};
+        position.push_back(x + Vec2{kSpeed * time, 0.0});
+    }
+    return frameOf(time, position, {kSpeed, 0.0});
+}
+
+/// Frames of a sequence of gaps in which the liquid has a hole.
+std::vector<int> framesWithHole(const std::vector<double>& radii)
+{
+    const ExpressionOptions options;
+    ExpressionState state;
+    std::vector<int> frames;
+    for (std::size_t k = 0; k < radii.size(); ++k) {
+        const ParticleFrame frame = withGap(static_cast<double>(k) / 24.0, radii[k]);
+        state = advanceExpression(std::move(state), frame, options);
+        const LiquidShape shape = liquidShape(state, frame, options);
+        const auto hole = [](const droplet::Loop& loop) { return signedArea(loop) < 0.0; };
+        if (std::any_of(shape.liquid.begin(), shape.liquid.end(), hole)) {
+            frames.push_back(static_cast<int>(k));
+        }
+        state = remember(std::move(state), shape);
+    }
+    return frames;
+}
+
+TEST(Expression, HolesLastThreeFramesOrDoNotOpen)
+{
+    using testing::ElementsAre;
+    using testing::IsEmpty;
+    // Radii of gaps that are drawn as holes of one and a half, and of some ten particles.
+    constexpr double kSmall = 1.15 * kSpacing;
+    constexpr double kLarge = 2.2 * kSpacing;
+    // Small holes of one or two frames never open; one that lasts opens at its third frame and stays for three.
+    EXPECT_THAT(framesWithHole({0, 0, kSmall, 0, 0, 0, 0}), IsEmpty());
+    EXPECT_THAT(framesWithHole({0, 0, kSmall, kSmall, 0, 0, 0}), IsEmpty());
+    EXPECT_THAT(framesWithHole({0, 0, kSmall, kSmall, kSmall, 0, 0, 0, 0}), ElementsAre(4, 5, 6));
+    EXPECT_THAT(framesWithHole({0, kSmall, kSmall, kSmall, kSmall, kSmall, kSmall, 0, 0}), ElementsAre(3, 4, 5, 6));
+    // A large hole opens at once, and does not close at once.
+    EXPECT_THAT(framesWithHole({0, 0, kLarge, 0, 0, 0, 0}), ElementsAre(2, 3, 4));
+    EXPECT_THAT(framesWithHole({0, 0, kLarge, kLarge, kLarge, kLarge, 0}), ElementsAre(2, 3, 4, 5));
+}
+
 TEST(Expression, BytesDoNotDependOnThreadsAndResumeExactly)
 {
     const ExpressionOptions options = expressionOf(LiquidStyle::Wave);
@@ -266,7 +462,7 @@ TEST(Expression, BytesDoNotDependOnThreadsAndResumeExactly)
         next.time += 0.04;
         const ExpressionState after = advanceExpression(from, next, options);
         const LiquidShape shape = liquidShape(after, next, options);
-        return std::pair{bytesOf(after), shape.liquid.at(0).points};
+        return std::pair{bytesOf(remember(after, shape)), shape.liquid.at(0).points};
     };
     const auto one = run(1, state);
     EXPECT_TRUE(one == run(2, state));

@@ -62,8 +62,8 @@ TEST(LiquidField, SkipsNoGapOfTheLiquid)
             options.smoothing = smoothing;
             const ParticleFrame frame = porous(seed);
             const ExpressionState state = advanceExpression({}, frame, options);
-            const auto near = isolines(fieldOf(state, frame, options));
-            const auto all = isolines(fieldOf(state, frame, options, true));
+            const auto near = isolines(fieldOf({}, state, frame, options));
+            const auto all = isolines(fieldOf({}, state, frame, options, true));
             double area = 0.0;
             double all_area = 0.0;
             for (const Loop& loop : near) {
@@ -82,7 +82,7 @@ TEST(LiquidField, LoopsAreClosedAndStepFromCellToCell)
 {
     const ParticleFrame frame = porous(3);
     const ExpressionOptions options;
-    const auto loops = isolines(fieldOf(advanceExpression({}, frame, options), frame, options));
+    const auto loops = isolines(fieldOf({}, advanceExpression({}, frame, options), frame, options));
     ASSERT_GT(loops.size(), 20U);
     for (const Loop& loop : loops) {
         ASSERT_GE(loop.points.size(), 3U);
@@ -109,7 +109,7 @@ TEST(LiquidField, HoldsNodesAtTheRimAlone)
     frame.position.push_back({1e6, 1e6});
     frame.id.push_back(static_cast<std::uint32_t>(frame.id.size()));
     frame.velocity.resize(frame.position.size());
-    const auto field = fieldOf(advanceExpression({}, frame, {}), frame, {});
+    const auto field = fieldOf({}, advanceExpression({}, frame, {}), frame, {});
     // 4·50 tiles along the sides of the square on either side of its rim, and those around the droplet.
     EXPECT_LT(field.tiles.size(), 450U);
 }

@@ -15,7 +15,8 @@ namespace droplet {
 enum class LiquidStyle {
     Realistic,  ///< no tails, no erasers
     Cartoon,    ///< detached droplets have tails
-    Wave,       ///< tails, and air that hollows the crests of waves
+    Wave,       ///< tails, and claws at the crests of waves
+    Paper,      ///< tails, and air that hollows the crests of waves
 };
 
 /// Controls of the surface drawn around particles.
@@ -27,6 +28,7 @@ struct ExpressionOptions {
     double release = 0.0;        ///< strength of release: β in areas of a particle per second, ≥ 0
     double max_air = 2.0;        ///< A_max in areas of a particle, ≥ 0
     double eraser_share = 0.15;  ///< share of particles that may hold air, 0 … 1
+    double claws = 0.0;          ///< length of the claws at the crests of waves, in spacings, 0 … 100
     bool crest_gate = true;      ///< air enters at the crests of waves alone; false: as in the paper
     double smoothing = 1.0;      ///< radius of the surface's kernel in bulk liquid: (1 + smoothing)·spacing, 0 … 2
     double fairing = 1.0;        ///< how much bends as short as a particle are smoothed away, 0 … 10
@@ -43,6 +45,8 @@ ExpressionOptions expressionOf(LiquidStyle style);
 
 /// What the surface remembers of the particles from frame to frame. Arrays by particle have the particle's id as index.
 struct ExpressionState {
+    /// Particle that is not drawn as a part of a droplet.
+    static constexpr std::uint32_t kNoGroup = 0xFFFFFFFFU;
     /// Positions at an earlier frame.
     struct Past {
         double time = 0.0;           ///< [s]
@@ -50,12 +54,16 @@ struct ExpressionState {
     };
     std::vector<Past> past;            ///< latest first; the latest is the last frame
     std::vector<double> air;           ///< A_air by id, in areas of a particle
+    std::vector<double> curl;          ///< by id: how far a claw has grown at the particle, in [0, 1]
     std::vector<double> flight;        ///< time by id that the particle's droplet has been in flight [s]
-    std::vector<std::uint32_t> group;  ///< by id: smallest id of the droplet that the particle flew in last
+    std::vector<std::uint32_t> group;  ///< by id: smallest id of the droplet that the particle is drawn in, or kNoGroup
+    std::vector<std::uint8_t> landed;  ///< by id: 1 if that droplet has touched liquid, 0 if not
     std::vector<double> aeration;      ///< by particle of the last frame, in [0, 1]
     double aeration_limit = 0.0;       ///< τ₂: mean of the largest aeration of each frame [1/s]
     double speed = 0.0;                ///< greatest lately that one particle in twenty exceeded [m/s]
     std::uint64_t frames = 0;          ///< number of frames
+    std::vector<LiquidHole> holes;     ///< of the frame that was drawn last, by remember()
+    bool remembers = false;            ///< whether a frame was drawn
 };
 
 /// Updates the memory of the particles with the next frame: their paths, flights and air.
@@ -76,6 +84,11 @@ ExpressionState advanceExpression(ExpressionState state, const ParticleFrame& fr
 /// @param options  valid
 /// @throws Error   InvalidArgument for options
 LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame, const ExpressionOptions& options);
+
+/// Remembers the holes of a frame that was drawn, so that holes of the next one last: small ones are drawn once they
+/// are a twelfth of a second old, and none closes before a tenth of a second. Without it all holes are drawn.
+/// @param shape  from liquidShape() with this state
+ExpressionState remember(ExpressionState state, const LiquidShape& shape);
 
 /// State as bytes, for resuming.
 std::string bytesOf(const ExpressionState& state);

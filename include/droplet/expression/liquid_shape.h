@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "droplet/outline/outline.h"
+#include "droplet/vector.h"
 
 namespace droplet {
 
@@ -14,13 +16,27 @@ enum class LiquidLayer {
     Droplets,  ///< small detached bodies
 };
 
+/// Hole of a liquid, followed from frame to frame.
+struct LiquidHole {
+    Vec2 centre;                  ///< of its area [m]
+    Vec2 velocity;                ///< of the liquid around it [m/s]
+    double area = 0.0;            ///< [m²]
+    double reach = 0.0;           ///< largest distance of its rim from the centre [m]
+    double seen = 0.0;            ///< time at which it opened [s]
+    std::optional<double> shown;  ///< time from which on it is drawn [s]; empty: not yet
+
+    friend bool operator==(const LiquidHole&, const LiquidHole&) = default;
+};
+
 /// Outlines of a 2D liquid at one moment.
-/// Invariant: loops are closed and do not cross; liquid lies on their left.
+/// Invariant: loops are closed; those of the liquid do not cross; liquid lies on their left. Droplets are drawn one by
+/// one, and may overlap.
 struct LiquidShape {
-    double time = 0.0;           ///< [s]
-    std::vector<Loop> liquid;    ///< rims counter-clockwise, holes clockwise, holes of foam among them
-    std::vector<Loop> foam;      ///< those of the holes that are foam
-    std::vector<Loop> droplets;  ///< rims of detached droplets
+    double time = 0.0;              ///< [s]
+    std::vector<Loop> liquid;       ///< rims counter-clockwise, holes clockwise, holes of foam among them
+    std::vector<Loop> foam;         ///< those of the holes that are foam
+    std::vector<Loop> droplets;     ///< rims of detached droplets
+    std::vector<LiquidHole> holes;  ///< of the liquid, also those that are not drawn yet
 
     /// Area of liquid: of all liquid and droplets without holes [m²].
     [[nodiscard]] double area() const;

@@ -15,7 +15,7 @@ struct FluidPreset {
     std::string what;       ///< one line: what happens
     FluidScene scene;       ///< valid
     double duration = 3.0;  ///< time to show [s]
-    std::string style;      ///< of the surface that suits it: realistic, cartoon or wave
+    std::string style;      ///< of the surface that suits it: realistic, cartoon, wave or paper
 };
 
 /// All presets: `splash`, `wave`, `dam`, `pour`.

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "droplet/expression/expression.h"
+
+namespace droplet {
+
+/// Hole that must not close yet, at a frame.
+struct OpenHole {
+    Vec2 centre;          ///< [m]
+    double radius = 0.0;  ///< [m]
+};
+
+/// Holes that were drawn too short a time ago to close at the last frame that `state` has seen.
+std::vector<OpenHole> openHoles(const ExpressionState& state);
+
+/// Holes of a frame, in the order of their rims, each followed from the holes that `state` remembers.
+/// @param rims  clockwise
+std::vector<LiquidHole> followedHoles(const std::vector<Loop>& rims, const ExpressionState& state,
+                                      const ParticleFrame& frame);
+
+}  // namespace droplet
