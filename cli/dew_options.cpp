@@ -103,11 +103,13 @@ void declare(CommandLine& line, DewCommandOptions& options)
         "Droplets are where the vertices have weights: _WEIGHT or the red of COLOR_0 of glTF, weight or red of "
         "PLY");
     line.exclude({"--mask", "--vertex-weights"});
+    line.addFlag(kDroplets, "--inside", "Droplets also on inner sides, which see less than a tenth of the outside");
     line.add(kDroplets, "--seed", "N", "Random seed", seedInto(dew.seed));
     constexpr const char* kHold = "Slopes";
     line.add(kHold, "--hysteresis", "NUMBER",
              "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle; it holds droplets",
              into(dew.forces.wetting.hysteresis, {0.0, 2.0, "a number from 0 to 2"}));
+    declarePinning(line, kHold, dew.pinning);
     line.add(kHold, "--gravity-direction", "X,Y,Z", "Direction of gravity [0,-1,0]");
     declareForces(line, dew.forces);
     constexpr const char* kOut = "Output";
@@ -146,6 +148,7 @@ void readDroplets(const CommandLine& line, DewCommandOptions& options)
     }
     options.preset = preset->name;
     options.reading.weights = line.flag("--vertex-weights");
+    dew.inside = line.flag("--inside");
     dew.sizes = preset->sizes;
     if (const auto sizes = line.value("--sizes")) {
         if (sizes->text != "condensation" && sizes->text != "lognormal") {

@@ -40,6 +40,24 @@ droplet::DewDroplets placed(const droplet::FlowTerrain& terrain, const droplet::
     }
 }
 
+/// Why much less of the surface is covered than asked for, if it is.
+/// @param placed  covered with droplets that were left out
+std::optional<std::string> warnOfCoverage(const droplet::DewReport& report, double placed)
+{
+    constexpr double kMuchLess = 0.9;
+    const double least = kMuchLess * report.options.coverage * report.area;
+    if (report.covered >= least) {
+        return std::nullopt;
+    }
+    const std::string why =
+        placed >= least      ? fmt::format("{} droplets lie where the object bends too much", report.left_out)
+        : report.run_off > 0 ? fmt::format("{} droplets run off slopes", report.run_off)
+                             : std::string("droplets of this size find no more room and join others");
+    return fmt::format("--coverage: {:.3g} of the surface is covered instead of {:.3g}, as {}; give smaller ones{}",
+                       report.covered / report.area, report.options.coverage, why,
+                       report.run_off > 0 ? ", or more --hysteresis" : "");
+}
+
 }  // namespace
 
 std::string lostOf(const droplet::DewReport& report)
@@ -111,12 +129,8 @@ Dew placeDew(const DewCommandOptions& options)
         report.smallest = report.smallest == 0.0 ? radius : std::min(report.smallest, radius);
         report.largest = std::max(report.largest, radius);
     }
-    constexpr double kMuchLess = 0.8;
-    if (report.run_off > 0 && report.covered < kMuchLess * dew.coverage * report.area) {
-        report.warnings.push_back(fmt::format(
-            "--coverage: {:.3g} of the surface is covered instead of {:.3g}, as {} droplets run off slopes; give "
-            "smaller ones, or more --hysteresis",
-            report.covered / report.area, dew.coverage, report.run_off));
+    if (const auto warning = warnOfCoverage(report, droplets.covered)) {
+        report.warnings.push_back(*warning);
     }
     return {std::move(object), std::move(terrain), std::move(bodies),
             std::move(model),  std::move(shown),   std::move(report)};

@@ -134,13 +134,7 @@ void declare(CommandLine& line, FlowOptions& options)
     line.add(kMotion, "--hysteresis", "NUMBER",
              "Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle",
              into(parameters.forces.wetting.hysteresis, {0.0, 2.0, "a number from 0 to 2"}));
-    line.add(
-        kMotion, "--pinning", "NUMBER",
-        "How much hysteresis varies over the surface, so that droplets stick, slip and wander: standard deviation of "
-        "its logarithm, 0 to 1.5",
-        into(parameters.pinning.spread, {0.0, 1.5, "a number from 0 to 1.5"}));
-    line.add(kMotion, "--pinning-length", "LENGTH", "Length over which it varies",
-             into(parameters.pinning.length, kSpacing));
+    declarePinning(line, kMotion, parameters.pinning);
     line.add(kMotion, "--friction", "F", "Viscous friction in kg/s instead of --viscosity-factor", within(0.0, 1e3));
     line.add(kMotion, "--roughness", "LENGTH",
              "Height of the surface's bumps; those of a droplet's height hold it [0mm]", within(kBump));
@@ -255,8 +249,15 @@ void readObject(const CommandLine& line, FlowOptions& options)
         options.shapes = NumberedPath::of(*options.object, "OBJECT");
     }
     if (options.shapes) {
-        for (const char* option :
-             {"--spin", "--motion", "--object-animation", "--no-animation", "--floor", "--deformation"}) {
+        for (const char* option : {"--spin", "--motion"}) {
+            if (line.value(option)) {
+                refuse(
+                    fmt::format("{} turns an object that keeps its shape; meshes for every frame such as '{}' must "
+                                "hold the motion",
+                                option, *options.object));
+            }
+        }
+        for (const char* option : {"--object-animation", "--no-animation"}) {
             if (line.value(option) || line.flag(option)) {
                 refuse(fmt::format("{} needs one mesh as OBJECT, not one for every frame such as '{}'", option,
                                    *options.object));
@@ -305,7 +306,7 @@ void readSources(const CommandLine& line, FlowOptions& options)
         droplet::FlowRain falling;
         falling.rainfall = quantity(*rain, kRain);
         falling.from = options.from.value_or(falling.from);
-        parameters.rain = falling;
+        parameters.rain = falling.rainfall > 0.0 ? std::optional(falling) : std::nullopt;
     }
     if (const auto dew = line.value("--condensation")) {
         droplet::FlowCondensation condensation;
@@ -317,13 +318,16 @@ void readSources(const CommandLine& line, FlowOptions& options)
     } else if (line.value("--dew-spacing")) {
         refuse("--dew-spacing needs --condensation");
     }
-    if (options.from && options.drops == 0 && !parameters.rain) {
+    if (options.from && options.drops == 0 && !line.value("--rain")) {
         refuse("--from needs --drops or --rain");
     }
     options.has_source = options.preset || options.drops > 0 || options.start || !parameters.emitters.empty() ||
-                         parameters.rain || line.value("--condensation");
+                         parameters.rain || parameters.condensation;
     if (!options.has_source) {
-        refuse("no droplets are asked for; give --preset, --drops, --start, --emitter, --rain or --condensation");
+        const char* const none = line.value("--rain")           ? "--rain 0mm/h brings no droplets; "
+                                 : line.value("--condensation") ? "--condensation 0mm/h brings no droplets; "
+                                                                : "no droplets are asked for; ";
+        refuse(std::string(none) + "give --preset, --drops, --start, --emitter, --rain or --condensation");
     }
 }
 

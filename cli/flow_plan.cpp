@@ -130,20 +130,6 @@ droplet::DeformingObject readShapes(const FlowOptions& options, std::size_t fram
     return droplet::readAnimatedObject(*options.object, sampling, options.reading);
 }
 
-void refuseForShapes(const FlowOptions& options)
-{
-    const auto refuse = [&](bool is_given, const char* option) {
-        if (is_given) {
-            throw droplet::Error(droplet::ErrorCode::InvalidArgument,
-                                 fmt::format("{} needs an object that keeps its shape, but the animation of {} deforms "
-                                             "it; --no-animation ignores it",
-                                             option, *options.object));
-        }
-    };
-    refuse(options.floor.has_value(), "--floor");
-    refuse(options.deformation > 0.0, "--deformation");
-}
-
 droplet::FaceProperties groundOf(const FlowOptions& options, const FlowPlan& plan)
 {
     std::map<std::string, droplet::MaterialProperties> materials = options.materials;
@@ -213,9 +199,6 @@ FlowPlan planOf(const FlowOptions& options)
     const std::size_t frames = frameCount(options);
     droplet::DeformingObject read = readShapes(options, frames);
     const bool deforms = options.shapes || read.vertices.size() > 1;
-    if (deforms) {
-        refuseForShapes(options);
-    }
     droplet::FlowObject object = std::move(read.object);
     const std::size_t triangles = object.triangles.size();
     const droplet::Vec3 size = sizeOf(object);
@@ -225,7 +208,7 @@ FlowPlan planOf(const FlowOptions& options)
     droplet::FlowSurface surface = surface_of(object);
     faceAs(surface, object);
     if (options.floor) {
-        object = onFloor(std::move(object), *options.floor);
+        object = onFloor(std::move(object), *options.floor, read.vertices);
         const droplet::FlowSurfaceReport report = surface.report;
         surface = surface_of(object);
         surface.report = report;

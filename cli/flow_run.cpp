@@ -91,7 +91,7 @@ private:
     std::vector<OutputFile> previewOutputs();
     /// Droplets of a moment, without bases.
     [[nodiscard]] std::vector<droplet::FlowPoint> pointsOf(const Moment& moment) const;
-    [[nodiscard]] droplet::DropletShapes shapesAt(double time) const;
+    [[nodiscard]] droplet::DropletShapes shapesOf(const Moment& moment) const;
     [[nodiscard]] droplet::Surface dropletsOf(const Moment& moment) const;
     /// Wets the object, and writes the files of a frame.
     void draw(const Moment& moment);
@@ -403,7 +403,7 @@ void FlowRun::warnOfLostVolume()
     std::size_t count = 0;
     for (std::size_t first = 0; first < samples.size(); first += kAtOnce) {
         const auto some = std::span(samples).subspan(first, std::min(kAtOnce, samples.size() - first));
-        const std::vector<double> volumes = droplet::seatedDroplets(*end.terrain, some, shapesAt(state_.time)).volumes;
+        const std::vector<double> volumes = droplet::seatedDroplets(*end.terrain, some, shapesOf(end)).volumes;
         for (std::size_t i = 0; i < some.size(); ++i) {
             count += volumes[i] < 0.99 * some[i].volume ? 1U : 0U;
         }
@@ -501,15 +501,17 @@ VideoWriterOptions FlowRun::videoAt(const std::string& path) const
     return triedVideo(path, {options_.view.width, options_.view.height, options_.frames_per_second}, options_.encoding);
 }
 
-droplet::DropletShapes FlowRun::shapesAt(double time) const
+droplet::DropletShapes FlowRun::shapesOf(const Moment& moment) const
 {
     const droplet::FlowParameters& parameters = plan_.parameters;
-    return {bodies_, gravityAt(time), {options_.deformation, parameters.pinning.length, parameters.seed}};
+    return {bodies_,
+            gravityAt(moment.time),
+            {options_.deformation, parameters.pinning.length, parameters.seed, moment.terrain.get()}};
 }
 
 droplet::Surface FlowRun::dropletsOf(const Moment& moment) const
 {
-    return droplet::dropletSurfaces(moment.samples, shapesAt(moment.time));
+    return droplet::dropletSurfaces(moment.samples, shapesOf(moment));
 }
 
 droplet::Picture FlowRun::picture(const Moment& moment, double azimuth)
@@ -578,7 +580,7 @@ void FlowRun::writeMaps(const Moment& moment)
 
 void FlowRun::writeMesh(const Moment& moment) const
 {
-    writeSurface(droplet::seatedDroplets(*moment.terrain, moment.samples, shapesAt(moment.time)).surface,
+    writeSurface(droplet::seatedDroplets(*moment.terrain, moment.samples, shapesOf(moment)).surface,
                  options_.files->at(moment.number), options_.file.compression);
 }
 

@@ -19,11 +19,21 @@ void declareReading(CommandLine& line, const char* group, droplet::FlowObjectOpt
     constexpr Range kSize{Dimension::Length, 1e-4, 1e3, "from 0.1mm to 1000m"};
     line.add(group, "--scale", "NUMBER", "Factor on the lengths of the file [1]",
              into(reading.scale, NumberRange{1e-9, 1e9, "a number from 1e-9 to 1e9"}));
-    line.add(group, "--object-size,--size", "LENGTH", "Longest side of the object; scales it",
+    line.add(group, "--object-size,--size", "LENGTH", "Longest side of the object, 0.1mm to 1000m; scales it",
              into(reading.size, kSize));
     line.exclude({"--scale", "--object-size"});
     line.add(group, "--up", "Axis that points up in an .obj, .ply or .stl [y, of .ply z]",
              into(reading.up, {{"y", droplet::UpAxis::Y}, {"z", droplet::UpAxis::Z}}));
+}
+
+void declarePinning(CommandLine& line, const char* group, droplet::FlowPinning& pinning)
+{
+    constexpr Range kVaries{Dimension::Length, 1e-4, 1.0, "from 0.1mm to 1m"};
+    line.add(group, "--pinning", "NUMBER",
+             "How much hysteresis varies over the surface, so that droplets stick, slip and wander: standard deviation "
+             "of its logarithm, 0 to 1.5",
+             into(pinning.spread, {0.0, 1.5, "a number from 0 to 1.5"}));
+    line.add(group, "--pinning-length", "LENGTH", "Length over which it varies", into(pinning.length, kVaries));
 }
 
 namespace {
@@ -67,7 +77,10 @@ void warnOfDefects(const droplet::FlowSurfaceReport& report, const std::string& 
     };
     warn(report.without_area, "have no area and are left out");
     warn(report.duplicates, "are duplicates and are left out");
-    warn(report.turned, "face the other way than their neighbours and are turned");
+    warn(report.inside_out,
+         "face inward, as their closed part is inside out, and are turned; to mend the file, recalculate its normals "
+         "outside");
+    warn(report.turned - report.inside_out, "face the other way than their neighbours and are turned");
     const std::size_t sides = 3 * (report.triangles - report.without_area - report.duplicates);
     if (report.parts > 1 && 2 * report.boundary_edges > sides) {
         warnings.push_back(

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "droplet/flow/flow_parameters.h"
 #include "droplet/flow/flow_surface.h"
 #include "droplet/flow_io/flow_object.h"
 #include "droplet/flow_io/flow_points.h"
@@ -18,6 +19,9 @@ namespace cli {
 
 /// Declares --scale, --object-size and --up.
 void declareReading(CommandLine& line, const char* group, droplet::FlowObjectOptions& reading);
+
+/// Declares --pinning and --pinning-length.
+void declarePinning(CommandLine& line, const char* group, droplet::FlowPinning& pinning);
 
 /// Turns a surface to the axes of the object's file, for formats that are written z up.
 void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet::FlowObjectOptions& reading);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Radii are drawn until they cover enough, and placed from large to small, so that small droplets fill what large ones
-// leave (random sequential adsorption). Droplets lie in a grid for each power of two of their radius: a search looks
-// into few cells, however different the sizes are. Volumes of joined droplets add up.
+// leave (random sequential adsorption). Those that no slope holds, and those that others took up, leave room: more are
+// drawn for it, until the object is covered or they find none. Droplets lie in a grid for each power of two of their
+// radius: a search looks into few cells, however different the sizes are. Volumes of joined droplets add up.
 #include "droplet/flow/dew.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "flow/pinning.h"
 #include "flow/places.h"
 #include "require.h"
 #include "wind/random.h"
@@ -24,6 +26,8 @@ namespace {
 
 constexpr double kRight = 0.5 * std::numbers::pi;
 constexpr std::size_t kMost = 1'000'000;
+// Parts of a droplet's rim that are looked for on the ground.
+constexpr int kAround = 8;
 
 /// Droplet on the surface.
 struct Drop {
@@ -114,22 +118,26 @@ private:
 class Dew {
 public:
     Dew(const FlowTerrain& terrain, const DewOptions& options)
-        : terrain_(terrain), options_(options), places_{terrain, options.from, options.weight}, grids_(options.smallest)
+        : terrain_(terrain),
+          options_(options),
+          places_{terrain, options.from, options.weight},
+          pinning_(options.pinning, RandomStream(options.seed, RandomPurpose::Pinning, 0).bits(0)),
+          has_edges_(terrain.surface().report.boundary_edges > 0),
+          grids_(options.smallest)
     {
     }
 
     DewDroplets make()
     {
         constexpr std::uint64_t kPoints = 65536;
-        const bool takes_all = !options_.from && !options_.weight;
-        result_.area = terrain_.area() * (takes_all ? 1.0 : places_.share(options_.seed, kPoints));
+        const bool takes_all = !options_.from && !options_.weight && options_.inside;
+        Places all = places_;
+        all.inside = options_.inside;
+        result_.area = terrain_.area() * (takes_all ? 1.0 : all.share(options_.seed, kPoints));
         if (!(result_.area > 0.0)) {
             refuseObject();
         }
-        const std::vector<double> radii = drawn();
-        for (std::size_t k = 0; k < radii.size(); ++k) {
-            place(k, radii[k]);
-        }
+        cover();
         for (const Drop& drop : drops_) {
             if (drop.volume > 0.0) {
                 FlowSample sample;
@@ -154,21 +162,60 @@ private:
             "the object has no place for droplets: nothing of it faces the rain, or is in the mask, or has weight");
     }
 
-    /// Radii that cover the surface as asked, from large to small.
-    [[nodiscard]] std::vector<double> drawn() const
+    /// Places droplets until they cover as much as asked, or more of them add next to nothing.
+    void cover()
+    {
+        constexpr double kNear = 0.01;  // of the coverage
+        constexpr double kLeast = 0.1;  // of what is missing, that a round adds
+        constexpr double kSmall = 1.2;  // radius over the smallest, of which droplets are all alike
+        constexpr int kMostRounds = 30;
+        const double wanted = options_.coverage * result_.area;
+        double missing = wanted;
+        double largest = options_.largest;
+        for (int round = 0; round < kMostRounds && missing > kNear * wanted; ++round) {
+            for (const double radius : drawn(missing, largest)) {
+                place(radius);
+            }
+            double covered = 0.0;
+            double largest_held = 0.0;
+            for (const Drop& drop : drops_) {
+                covered += std::numbers::pi * drop.radius * drop.radius;
+                largest_held = std::max(largest_held, drop.radius);
+            }
+            const double left = wanted - covered;
+            // Those that ran off would again, and smaller ones fit between those that are there.
+            const double before = largest;
+            largest = std::clamp(largest_held, options_.smallest, largest);
+            if (left > (1.0 - kLeast) * missing) {
+                if (before <= kSmall * options_.smallest) {
+                    return;
+                }
+                largest = std::clamp(0.5 * before, options_.smallest, largest);
+            }
+            missing = left;
+        }
+    }
+
+    /// Radii that cover an area, from large to small, with the range of sizes shortened to a largest one.
+    [[nodiscard]] std::vector<double> drawn(double area, double largest)
     {
         std::vector<double> radii;
-        const double wanted = options_.coverage * result_.area;
         double covered = 0.0;
-        for (std::size_t k = 0; covered < wanted; ++k) {
-            if (k == kMost) {
+        while (covered < area) {
+            if (next_radius_ == kMost) {
                 throw Error(
                     ErrorCode::InvalidArgument,
                     "the coverage takes more than " + std::to_string(kMost) +
                         " droplets of this size; ask for larger ones, for less coverage, or for a smaller object");
             }
-            radii.push_back(radiusOf(k));
-            covered += std::numbers::pi * radii.back() * radii.back();
+            const double drawn = radiusOf(next_radius_++);
+            const double radius = largest < options_.largest
+                                      ? options_.smallest + (drawn - options_.smallest) *
+                                                                (largest - options_.smallest) /
+                                                                (options_.largest - options_.smallest)
+                                      : drawn;
+            radii.push_back(radius);
+            covered += std::numbers::pi * radius * radius;
         }
         std::sort(radii.begin(), radii.end(), std::greater<>());
         return radii;
@@ -216,20 +263,61 @@ private:
         const double off = dot(options_.gravity, drop.normal);
         const Vec3 along = options_.gravity - off * drop.normal;
         const double angle = options_.forces.wetting.contact_angle;
+        const double contact = capOf(drop.volume, angle).contact_radius;
         // As FlowParameters::adhesion has it: 2 σ sin θ / r over the contact circle.
-        const double adhesion = 2.0 * std::numbers::pi * capOf(drop.volume, angle).contact_radius *
-                                options_.forces.liquid.surface_tension * std::sin(angle);
-        return forces.mass * length(along) <= forces.retention && forces.mass * off <= adhesion;
+        const double adhesion =
+            2.0 * std::numbers::pi * contact * options_.forces.liquid.surface_tension * std::sin(angle);
+        if (forces.mass * off > adhesion) {
+            return false;
+        }
+        const double pushed = length(along);
+        double retention = forces.retention;
+        if (pushed > 0.0 && !pinning_.isEven()) {
+            // As for droplets that run: where hysteresis varies, it is that of the front half of the rim.
+            const Vec3 ahead = (1.0 / pushed) * along;
+            retention *= pinning_.over({drop.point.place, contact, ahead, cross(drop.normal, ahead)}).along;
+        }
+        return forces.mass * pushed <= retention;
     }
 
-    void place(std::size_t k, double radius)
+    /// Middle of the part of a droplet's rim that is on the ground; empty if all of it is.
+    [[nodiscard]] std::optional<Vec3> inward(const Drop& drop) const
+    {
+        if (!has_edges_) {
+            return std::nullopt;
+        }
+        const double contact = capOf(drop.volume, options_.forces.wetting.contact_angle).contact_radius;
+        const Vec3 n = drop.normal;
+        const Vec3 across = cross(n, std::abs(n.x) < 0.9 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0});
+        const Vec3 left = (1.0 / length(across)) * across;
+        const Vec3 ahead = cross(left, n);
+        Vec3 sum;
+        int found = 0;
+        for (int k = 0; k < kAround; ++k) {
+            const double angle = 2.0 * std::numbers::pi * k / kAround;
+            const Vec3 rim = drop.point.place + contact * (std::cos(angle) * ahead + std::sin(angle) * left);
+            const auto met = terrain_.firstAlong(rim + contact * n, -1.0 * n);
+            if (met && dot(met->place - rim, n) >= -contact) {
+                sum = sum + met->place;
+                ++found;
+            }
+        }
+        if (found == kAround) {
+            return std::nullopt;
+        }
+        return found > 0 ? (1.0 / found) * sum : drop.point.place;
+    }
+
+    void place(double radius)
     {
         constexpr int kRoomTries = 100;
         constexpr int kSlopeTries = 200;
-        const RandomStream random(options_.seed, RandomPurpose::Dew, 2 * k + 1);
+        constexpr std::uint64_t kMostInner = 10'000;  // tries, of an object that has nearly only inner sides
+        const RandomStream random(options_.seed, RandomPurpose::Dew, 2 * placed_++ + 1);
         const double volume = volumeOf(radius);
         std::optional<std::size_t> met;
         std::uint64_t counter = 0;
+        std::uint64_t inner = 0;
         for (int room = 0, slope = 0; room < kRoomTries && slope < kSlopeTries;) {
             const std::optional<FlowTerrain::Point> point = places_.pointOf(random, counter);
             if (!point) {
@@ -240,7 +328,19 @@ private:
                 ++slope;
                 continue;
             }
-            met = grids_.touching(drop, drops_);
+            const auto touched = grids_.touching(drop, drops_);
+            // What takes rays comes last.
+            if (!touched && !options_.inside && !places_.isOutside(*point)) {
+                if (++inner == kMostInner) {
+                    refuseObject();
+                }
+                continue;
+            }
+            if (!touched && inward(drop)) {
+                ++slope;
+                continue;
+            }
+            met = touched;
             if (!met) {
                 grids_.add(drops_.size(), drop);
                 drops_.push_back(drop);
@@ -265,17 +365,28 @@ private:
         return std::exchange(drops_[k], {});
     }
 
-    /// Puts a droplet that has grown back; it joins those that it touches. One that is too large runs off.
+    /// Puts a droplet that has grown back; it joins those that it touches, and withdraws from where the surface ends.
+    /// One that is too large runs off.
     void settle(std::size_t k, Drop drop)
     {
-        while (const auto other = grids_.touching(drop, drops_)) {
-            const Drop second = take(*other);
-            const double volume = drop.volume + second.volume;
-            const Vec3 middle = (1.0 / volume) * (drop.volume * drop.point.place + second.volume * second.point.place);
-            drop = dropAt(terrain_.nearest(middle), volume);
-            ++result_.joined;
+        constexpr int kMostMoves = 8;
+        std::optional<Vec3> away;
+        for (int moves = 0; moves <= kMostMoves; ++moves) {
+            while (const auto other = grids_.touching(drop, drops_)) {
+                const Drop second = take(*other);
+                const double volume = drop.volume + second.volume;
+                const Vec3 middle =
+                    (1.0 / volume) * (drop.volume * drop.point.place + second.volume * second.point.place);
+                drop = dropAt(terrain_.nearest(middle), volume);
+                ++result_.joined;
+            }
+            away = inward(drop);
+            if (!away) {
+                break;
+            }
+            drop = dropAt(terrain_.nearest(*away), drop.volume);
         }
-        if (isHeld(drop)) {
+        if (!away && isHeld(drop)) {
             grids_.add(k, drop);
             drops_[k] = drop;
         } else {
@@ -286,8 +397,12 @@ private:
     const FlowTerrain& terrain_;
     const DewOptions& options_;
     Places places_;
+    PinningField pinning_;
+    bool has_edges_;  ///< the surface ends somewhere
     Grids grids_;
-    std::vector<Drop> drops_;  ///< without volume: joined another one
+    std::size_t next_radius_ = 0;  ///< number of radii drawn
+    std::uint64_t placed_ = 0;     ///< number of radii that were given a place
+    std::vector<Drop> drops_;      ///< without volume: joined another one
     DewDroplets result_;
 };
 
@@ -304,6 +419,7 @@ void DewOptions::validate() const
     require(spread >= 0.0 && spread <= 3.0, "spread", spread, "from 0 to 3");
     require(std::isfinite(length(gravity)), "gravity", length(gravity), "finite");
     forces.validate();
+    pinning.validate();
     if (from) {
         const double size = length(*from);
         require(size > 0.0 && std::isfinite(size), "from", size, "a direction that is not 0");

@@ -760,7 +760,7 @@ private:
                 const auto first = std::lower_bound(on_faces.begin(), on_faces.end(), Pair(pond.faces.front(), 0));
                 for (auto at = first; at != on_faces.end() && at->first <= pond.faces.back(); ++at) {
                     const auto& [face, j] = *at;
-                    if (dot(pond.up, s_.droplets[j].leg.placeAt(end())) < pond.level && wets(pond, face)) {
+                    if (covers(pond, face, s_.droplets[j].leg.placeAt(end()))) {
                         join(i, j);
                     }
                 }
@@ -771,6 +771,13 @@ private:
                 }
             }
         }
+    }
+
+    static bool covers(const Pond& pond, std::uint32_t face, Vec3 place)
+    {
+        const auto at = std::lower_bound(pond.faces.begin(), pond.faces.end(), face);
+        return at != pond.faces.end() && *at == face &&
+               dot(pond.up, place) < pond.heightOver(static_cast<std::size_t>(at - pond.faces.begin()), place);
     }
 
     static bool wets(const Pond& pond, std::uint32_t face)

@@ -55,7 +55,7 @@ FlowShapes::FlowShapes(FlowSurface surface, std::vector<Triangle> triangles, std
             const auto& [a, b, c] = triangles_[face.source];
             if (!hasArea({vertices_[shape][a], vertices_[shape][b], vertices_[shape][c]})) {
                 throw Error(ErrorCode::InvalidInput, "triangle " + std::to_string(face.source) +
-                                                         " has no area in mesh " + std::to_string(shape + 1) + " of " +
+                                                         " has no area in frame " + std::to_string(shape + 1) + " of " +
                                                          std::to_string(vertices_.size()) +
                                                          ", but has one in the first; droplets cannot stand on it");
             }

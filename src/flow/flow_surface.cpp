@@ -196,7 +196,10 @@ void faceOutward(Soup& soup, const std::vector<bool>& was_turned, FlowSurfaceRep
         if (turns) {
             std::swap(soup.triangles[t][1], soup.triangles[t][2]);
         }
-        report.turned += was_turned[t] != turns ? 1 : 0;
+        // Of a part that was mostly right, single triangles are turned; else it was inside out.
+        const bool is_turned = was_turned[t] != turns;
+        report.turned += is_turned ? 1 : 0;
+        report.inside_out += is_turned && parts[root].is_closed && turns == (parts[root].turned <= 0.0) ? 1 : 0;
     }
 }
 

@@ -18,7 +18,9 @@
 #include <vector>
 
 #include "droplet/wind/forces.h"
+#include "flow/flooded_part.h"
 #include "flow/flow_terrain_content.h"
+#include "flow/puddle.h"
 
 namespace droplet {
 namespace {
@@ -29,38 +31,10 @@ constexpr double kShallow = 2e-3;
 constexpr std::size_t kFirstCheck = 16;
 // Hollows with more faces are not followed to their end: they hold the liquid.
 constexpr std::size_t kMostFaces = 1'000'000;
-// In a channel, whose walls are in the way of its disc, liquid is a pond up to so many times the area of the disc: in
-// the corner of a tray a quarter of a disc has room.
-constexpr double kSpread = 4.0;
 // Of a normal's parts.
 constexpr double kRounding = 1e-9;
 
 using Heights = std::array<double, 3>;
-
-/// Part of a face below a level, seen from above.
-struct Flooded {
-    double area = 0.0;
-    double volume = 0.0;
-};
-
-/// @param area  of the face seen from above; negative where it overhangs
-/// @param h     ascending
-Flooded floodedPart(const Heights& h, double area, double level)
-{
-    const double mean = (h[0] + h[1] + h[2]) / 3.0;
-    if (level >= h[2]) {
-        return {area, area * (level - mean)};
-    }
-    if (level <= h[0]) {
-        return {};
-    }
-    if (level <= h[1]) {
-        const double part = area * (level - h[0]) * (level - h[0]) / ((h[1] - h[0]) * (h[2] - h[0]));
-        return {part, part * (level - h[0]) / 3.0};
-    }
-    const double dry = area * (h[2] - level) * (h[2] - level) / ((h[2] - h[0]) * (h[2] - h[1]));
-    return {area - dry, area * (level - mean) + dry * (h[2] - level) / 3.0};
-}
 
 struct FloodedFace {
     std::uint32_t face = 0;
@@ -86,7 +60,7 @@ struct Pass {
 class Flood {
 public:
     Flood(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid)
-        : faces_(surface.faces), up_(up), liquid_(liquid), slack_(kShallow * liquid.radius)
+        : surface_(surface), faces_(surface.faces), up_(up), liquid_(liquid), slack_(kShallow * liquid.radius)
     {
     }
 
@@ -101,10 +75,8 @@ public:
 
     std::optional<FilledHollow> pond()
     {
-        const double half = 0.5 * liquid_.contact_angle;
-        const double thick = std::min(liquid_.radius * std::tan(half), liquid_.puddle);  // on flat ground
-        const double flat =
-            std::max(liquid_.volume / liquid_.puddle, std::numbers::pi * liquid_.radius * liquid_.radius);
+        const double thick = thicknessOf(liquid_);
+        const double flat = flatArea(liquid_);
         const End end = flood([&] {
             const Flooded water = filled();
             if (water.volume >= liquid_.volume) {
@@ -112,42 +84,20 @@ public:
             }
             // Higher levels have no smaller area: so much would it hold when it is as deep as the liquid is thick.
             const double least = water.volume + water.area * (deepest() + thick - level_);
-            return water.area > kSpread * flat && least > liquid_.volume ? Known::Spreads : Known::Nothing;
+            return water.area > flat && least > liquid_.volume ? Known::Spreads : Known::Nothing;
         });
-        if (!end.is_enough && !end.pass) {
+        if (!end.is_enough && !end.pass && !end.spreads) {
             return std::nullopt;
         }
-        const Flooded brim = filled();
-        FilledHollow made;
-        if (brim.volume >= liquid_.volume) {
-            sinkTo(liquid_.volume);
-        } else {
-            made.pond.dome = liquid_.volume - brim.volume;
-            if (heldBy(brim) < liquid_.volume && made.pond.dome > brim.volume) {
-                return std::nullopt;
-            }
-            if (const std::uint32_t next = faces_[end.pass->face].neighbour[end.pass->side];
-                next != FlowSurface::kNone) {
-                made.beyond = next;
-            }
+        std::optional<FilledHollow> whole = end.spreads ? std::nullopt : fillFrom(end);
+        if (whole && level_ - deepest() >= thick) {
+            return whole;
         }
-        std::erase_if(flooded_, [&](const FloodedFace& face) { return face.heights.front() >= level_; });
-        const Flooded water = filled();
-        const double depth = level_ - deepest();
-        const bool is_deep = depth >= thick || water.area <= flat;
-        const bool is_narrow = water.area <= kSpread * flat && !fits(std::sqrt(flat / std::numbers::pi));
-        if (!(depth > slack_) || !(water.area > 0.0) || !(is_deep || is_narrow)) {
-            return std::nullopt;
+        const Puddle puddle = puddleAround(surface_, up_, liquid_);
+        if (puddle.pond) {
+            return FilledHollow{*puddle.pond, {}};
         }
-        made.pond.up = up_;
-        made.pond.level = level_;
-        made.pond.area = water.area;
-        made.pond.bending = liquid_.puddle / (2.0 * std::sin(half));
-        for (const FloodedFace& face : flooded_) {
-            made.pond.faces.push_back(face.face);
-        }
-        std::sort(made.pond.faces.begin(), made.pond.faces.end());
-        return made;
+        return whole && (puddle.is_blocked || whole->pond.area <= flat) ? whole : std::nullopt;
     }
 
 private:
@@ -155,13 +105,14 @@ private:
     struct End {
         std::optional<Pass> pass = {};  ///< the liquid would run over there
         bool is_enough = false;         ///< the hollow takes up all liquid
+        bool spreads = false;           ///< on flat ground it would cover less
     };
 
     /// What is known of the liquid at a level.
     enum class Known {
         Nothing,
         Enough,   ///< the hollow takes it up
-        Spreads,  ///< on flat ground it would cover less: it is no pond
+        Spreads,  ///< on flat ground it would cover less: it does not fill the hollow
     };
 
     /// Raises the level.
@@ -186,11 +137,14 @@ private:
             level_ = std::max(level_, pass.height);
             if (flooded_.size() >= check) {
                 const Known known = ask();
-                if (known == Known::Spreads || flooded_.size() > kMostFaces) {
+                if (known == Known::Spreads) {
+                    return {{}, false, true};
+                }
+                if (flooded_.size() > kMostFaces) {
                     return {};
                 }
                 if (known == Known::Enough) {
-                    return {{}, true};
+                    return {{}, true, false};
                 }
                 check *= 2;
             }
@@ -198,10 +152,10 @@ private:
                 flood(next);
             } else if (level_ - bottom_ > slack_) {
                 if (ask() == Known::Enough) {
-                    return {{}, true};
+                    return {{}, true, false};
                 }
                 if (!joins(next)) {
-                    return {pass};
+                    return {pass, false, false};
                 }
             } else if (is_flat_ && isEdge(next)) {
                 exits_.push_back(pass);  // the whole flat counts, as a puddle on a plate does
@@ -212,7 +166,7 @@ private:
         if (exits_.empty()) {
             return {};
         }
-        return {*nearestExit()};
+        return {*nearestExit(), false, false};
     }
 
     /// Floods the ground beyond a pass as well, up to the level, if it is in the same hollow and the liquid suffices.
@@ -264,32 +218,38 @@ private:
         return filled().volume <= liquid_.volume || back();
     }
 
-    /// Whether half of a disc around the droplet's place is over the flood, by the circle that halves its area.
-    [[nodiscard]] bool fits(double radius) const
+    /// The pond that fills the hollow, after a flood; empty if most of the liquid runs over, or the hollow has no
+    /// depth.
+    std::optional<FilledHollow> fillFrom(const End& end)
     {
-        constexpr std::size_t kAround = 16;
-        const Vec3 across = cross(up_, std::abs(up_.x) < 0.9 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0});
-        const Vec3 left = 1.0 / length(across) * across;
-        const Vec3 ahead = cross(left, up_);
-        std::array<Vec3, kAround> points;
-        for (std::size_t k = 0; k < kAround; ++k) {
-            const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / kAround;
-            points[k] =
-                liquid_.place + radius * std::numbers::sqrt2 / 2.0 * (std::cos(angle) * ahead + std::sin(angle) * left);
-        }
-        std::array<bool, kAround> is_over{};
-        for (const FloodedFace& flooded : flooded_) {
-            const auto& [a, b, c] = faces_[flooded.face].corners;
-            for (std::size_t k = 0; k < kAround; ++k) {
-                const Vec3 p = points[k];
-                const double u = dot(up_, cross(b - a, p - a));
-                const double v = dot(up_, cross(c - b, p - b));
-                const double w = dot(up_, cross(a - c, p - c));
-                const double height = u * dot(up_, c) + v * dot(up_, a) + w * dot(up_, b);
-                is_over[k] = is_over[k] || (std::min({u, v, w}) >= 0.0 && height < level_ * (u + v + w));
+        const Flooded brim = filled();
+        FilledHollow made;
+        if (brim.volume >= liquid_.volume) {
+            sinkTo(liquid_.volume);
+        } else {
+            made.pond.dome = liquid_.volume - brim.volume;
+            if (heldBy(brim) < liquid_.volume && made.pond.dome > brim.volume) {
+                return std::nullopt;
+            }
+            if (const std::uint32_t next = faces_[end.pass->face].neighbour[end.pass->side];
+                next != FlowSurface::kNone) {
+                made.beyond = next;
             }
         }
-        return 2 * static_cast<std::size_t>(std::count(is_over.begin(), is_over.end(), true)) >= kAround;
+        std::erase_if(flooded_, [&](const FloodedFace& face) { return face.heights.front() >= level_; });
+        const Flooded water = filled();
+        if (!(level_ - deepest() > slack_) || !(water.area > 0.0)) {
+            return std::nullopt;
+        }
+        made.pond.up = up_;
+        made.pond.level = level_;
+        made.pond.area = water.area;
+        made.pond.bending = liquid_.puddle / (2.0 * std::sin(0.5 * liquid_.contact_angle));
+        for (const FloodedFace& face : flooded_) {
+            made.pond.faces.push_back(face.face);
+        }
+        std::sort(made.pond.faces.begin(), made.pond.faces.end());
+        return made;
     }
 
     /// Lowers the level to where what is below it is a volume: by Newton's method, or halves where walls lean inward
@@ -437,6 +397,7 @@ private:
         return {result, 0.0};
     }
 
+    const FlowSurface& surface_;
     const std::vector<FlowSurface::Face>& faces_;
     Vec3 up_;
     const RestingLiquid& liquid_;

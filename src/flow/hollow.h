@@ -50,10 +50,10 @@ struct FilledHollow {
     std::optional<std::uint32_t> beyond;  ///< if it stands over its brim, the face beyond; empty at an open edge, too
 };
 
-/// The level that liquid in a hollow has. It is a pond if on flat ground it would cover more ground, or not be higher
-/// than the hollow is deep, or if walls leave it less than half of the disc that it covers on flat ground; otherwise it
-/// is a droplet like any other. Liquid that its hollow does not hold, as before it runs over, is one if most of it is
-/// below the brim.
+/// The level that liquid in a hollow has. It is a pond if the hollow is as deep as the liquid is thick on flat ground,
+/// or smaller than what it would cover there. If it does not fill the hollow, but walls are in the way of its disc, it
+/// is a puddle with a front (puddleAround). Otherwise it is a droplet like any other. Liquid that its hollow does not
+/// hold, as before it runs over, is a pond if most of it is below the brim.
 /// @param surface  of the ground
 /// @param up       unit, normal of the level
 /// @param liquid   at rest

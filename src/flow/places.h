@@ -19,6 +19,7 @@ struct Places {
     const FlowTerrain& terrain;
     std::optional<Vec3> from;                                   ///< direction that rain comes from; not 0
     std::function<double(const FlowTerrain::Point&)> coverage;  ///< probability; empty: 1
+    bool inside = true;  ///< also points that see less than a tenth of the outside
 
     /// Random point that takes a droplet.
     /// @param random   its numbers are used from `counter` on
@@ -28,6 +29,9 @@ struct Places {
 
     /// Share of the surface that takes droplets, from so many points.
     [[nodiscard]] double share(std::uint64_t seed, std::uint64_t points) const;
+
+    /// Whether a point sees at least a tenth of the outside.
+    [[nodiscard]] bool isOutside(const FlowTerrain::Point& point) const;
 
 private:
     [[nodiscard]] bool takes(const FlowTerrain::Point& point, double u) const;

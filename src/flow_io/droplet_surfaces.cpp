@@ -9,11 +9,28 @@
 #include <numeric>
 #include <vector>
 
+#include "flow/flow_terrain_content.h"
+#include "flow/following.h"
 #include "flow_io/pond_surface.h"
 #include "flow_io/seat.h"
 #include "flow_io/small_deformation.h"
 
 namespace droplet {
+namespace {
+
+/// Frame of a droplet on the first shape of ground that deforms.
+DropletFrame restFrame(const FlowSample& sample, const DropletFrame& frame, const FlowTerrain* ground)
+{
+    if (ground == nullptr || !sample.face || !ground->content().rest) {
+        return frame;
+    }
+    const FlowSurface::Face& now = ground->surface().faces[*sample.face];
+    const FlowSurface::Face& first = ground->content().rest->faces[*sample.face];
+    return {followed(now, first, frame.place), turnedWith(now, first, frame.ahead), turnedWith(now, first, frame.left),
+            turnedWith(now, first, frame.normal)};
+}
+
+}  // namespace
 
 Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletShapes& shapes)
 {
@@ -43,7 +60,8 @@ Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletShapes
         const BodyConditions conditions = conditionsOf(samples[i], gravity);
         bodies.make(conditions, vertices, normals);
         if (const double share = shapes.small.at(conditions.speed); share > 0.0 && !conditions.airborne) {
-            deform({share, shapes.small, frame}, {vertices, normals, triangles, bodies.rimVertices()});
+            const DropletFrame rest = restFrame(samples[i], frame, shapes.small.ground);
+            deform({share, shapes.small, rest}, {vertices, normals, triangles, bodies.rimVertices()});
         }
         const auto turned = [&](Vec3 v) { return v.x * frame.ahead + v.y * frame.left + v.z * frame.normal; };
         for (std::size_t k = 0; k < vertex_count; ++k) {

@@ -85,7 +85,17 @@ Mesh dishBelow(const Stand& stand)
 
 FlowObject onFloor(FlowObject object, Floor floor)
 {
-    const Stand stand = standOf(object.vertices);
+    std::vector<std::vector<Vec3>> none;
+    return onFloor(std::move(object), floor, none);
+}
+
+FlowObject onFloor(FlowObject object, Floor floor, std::vector<std::vector<Vec3>>& shapes)
+{
+    std::vector<Vec3> places = object.vertices;
+    for (const std::vector<Vec3>& shape : shapes) {
+        places.insert(places.end(), shape.begin(), shape.end());
+    }
+    const Stand stand = standOf(places);
     const Mesh mesh = floor == Floor::Dish ? dishBelow(stand) : plateBelow(stand);
     std::vector<Vec3> normals(mesh.vertices.size());
     fillNormals(mesh.vertices, mesh.triangles, firstAtPlace(mesh.vertices), normals);
@@ -105,6 +115,9 @@ FlowObject onFloor(FlowObject object, Floor floor)
 
     const auto first = static_cast<std::uint32_t>(object.vertices.size());
     object.vertices.insert(object.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (std::vector<Vec3>& shape : shapes) {
+        shape.insert(shape.end(), mesh.vertices.begin(), mesh.vertices.end());
+    }
     object.normals.insert(object.normals.end(), normals.begin(), normals.end());
     if (!object.weights.empty()) {
         object.weights.resize(object.vertices.size());

@@ -188,8 +188,11 @@ struct ShownPond {
     {
         constexpr double kNear = 0.01;  // of the radius
         const double near = kNear * std::sqrt(pond.area / std::numbers::pi);
-        return shape == at && std::abs(other.level - pond.level) <= near &&
-               std::abs(other.dome - pond.dome) <= near * pond.area && dot(other.up, pond.up) >= std::cos(kFacing);
+        const double way = pond.front ? pond.front->way : 0.0;
+        const double other_way = other.front ? other.front->way : 0.0;
+        return shape == at && pond.front.has_value() == other.front.has_value() && std::abs(other_way - way) <= near &&
+               std::abs(other.level - pond.level) <= near && std::abs(other.dome - pond.dome) <= near * pond.area &&
+               dot(other.up, pond.up) >= std::cos(kFacing);
     }
 };
 

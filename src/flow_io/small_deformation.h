@@ -10,7 +10,7 @@ namespace droplet {
 struct DropletDeformation {
     double share = 0.0;             ///< SmallDeformation::at its speed
     const SmallDeformation& field;  ///< over the surface
-    const DropletFrame& frame;
+    const DropletFrame& frame;      ///< where the field is
 };
 
 /// Moves the outline of a droplet by the field at its contact line, and all above alike; its volume stays.

@@ -339,10 +339,11 @@ std::vector<std::vector<WaterAt>> waterOf(const WetSpots& spots, const FlowSurfa
             }
         };
         if (sample.pond) {
-            for (const std::uint32_t face : sample.pond->faces) {
+            for (std::size_t k = 0; k < sample.pond->faces.size(); ++k) {
+                const std::uint32_t face = sample.pond->faces[k];
                 for (std::uint32_t spot = spots.first[face]; spot < spots.first[face + 1]; ++spot) {
                     const Vec3 place = spots.place(spot);
-                    const double depth = sample.pond->level - dot(sample.pond->up, place);
+                    const double depth = sample.pond->heightOver(k, place) - dot(sample.pond->up, place);
                     // A place stands for ground that may be steep.
                     const double flat = std::max(dot(surface.faces[face].normal, sample.pond->up), 0.0);
                     consider({face, spot, depth * flat, sample.pond->up}, place);

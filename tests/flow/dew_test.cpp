@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "droplet/error.h"
@@ -158,6 +159,7 @@ TEST(Dew, SlopesHoldEveryDroplet)
     options.median = 1e-3;
     options.largest = 6e-3;
     options.spread = 0.8;
+    options.pinning.spread = 0.0;
     const DewDroplets dew = dewDroplets(wall, options);
     EXPECT_GT(dew.run_off, 0U);
     double most = 0.0;
@@ -210,6 +212,94 @@ TEST(Dew, CeilingsHoldOnlySmallDroplets)
     EXPECT_EQ(balanceOf(state).left, 0.0);
 }
 
+// Flow finds the same hysteresis at the same places, where it varies, too.
+TEST(Dew, FlowLeavesDropletsAtRest)
+{
+    const FlowTerrain wall = plane(0.06, 0.06, 70.0 * kDegree);
+    for (const double pinned : {0.0, 0.5, 1.0}) {
+        DewOptions options;
+        options.sizes = DewSizes::LogNormal;
+        options.smallest = 0.3e-3;
+        options.median = 1.2e-3;
+        options.largest = 4e-3;
+        options.pinning.spread = pinned;
+        options.seed = 7;
+        const DewDroplets dew = dewDroplets(wall, options);
+        ASSERT_GT(dew.run_off, 0U) << "sizes are up to what slopes hold";
+        FlowParameters parameters;
+        parameters.gravity = options.gravity;
+        parameters.pinning = options.pinning;
+        parameters.seed = options.seed;
+        std::vector<FlowStart> starts;
+        for (const FlowSample& sample : dew.samples) {
+            starts.push_back({sample.place, sample.volume, {}});
+        }
+        FlowState state = startFlow(wall, parameters, starts);
+        state = advanceFlow(std::move(state), wall, parameters, 0.5);
+        ASSERT_EQ(state.droplets.size(), starts.size());
+        for (const FlowDroplet& droplet : state.droplets) {
+            EXPECT_EQ(droplet.contact, FlowContact::Still) << "spread " << pinned;
+        }
+    }
+}
+
+// Large droplets run off a wall, and small ones take their place.
+TEST(Dew, CoversWallsWithSmallerDroplets)
+{
+    const FlowTerrain wall = plane(0.05, 0.05, 90.0 * kDegree);
+    DewOptions options;
+    options.sizes = DewSizes::LogNormal;
+    options.smallest = 0.3e-3;
+    options.median = 1.2e-3;
+    options.largest = 4e-3;
+    options.spread = 0.6;
+    options.coverage = 0.35;
+    const DewDroplets dew = dewDroplets(wall, options);
+    EXPECT_GT(dew.run_off, 0U);
+    EXPECT_NEAR(dew.covered / dew.area, options.coverage, 0.02);
+    expectApart(dew, options);
+}
+
+TEST(Dew, KeepsOffTheEndOfTheSurface)
+{
+    const FlowTerrain triangle(flowSurface({{0.0, 0.0, 0.0}, {0.02, 0.0, 0.0}, {0.0, 0.02, 0.0}}, {{0, 1, 2}}));
+    DewOptions options;
+    options.smallest = 0.5e-3;
+    options.largest = 3e-3;
+    options.coverage = 0.6;
+    const DewDroplets dew = dewDroplets(triangle, options);
+    ASSERT_GT(dew.samples.size(), 5U);
+    for (const FlowSample& sample : dew.samples) {
+        const double contact = capOf(sample.volume, options.forces.wetting.contact_angle).contact_radius;
+        const Vec3 p = sample.place;
+        // Rims are looked for at every eighth of a turn.
+        EXPECT_GT(std::min({p.x, p.y, (0.02 - p.x - p.y) / std::sqrt(2.0)}), 0.9 * contact);
+    }
+    expectApart(dew, options);
+}
+
+TEST(Dew, InnerSidesAreDryUnlessAskedFor)
+{
+    const TexturedMesh ball = testing::ball(40, [](Vec3) { return 0.02; });
+    TexturedMesh cavity = testing::ball(40, [](Vec3) { return 0.015; });
+    for (Triangle& t : cavity.triangles) {
+        std::swap(t[1], t[2]);
+    }
+    const TexturedMesh both = testing::together(ball, cavity);
+    const FlowTerrain hollow(flowSurface(both.vertices, both.triangles));
+    DewOptions options;
+    options.largest = 0.6e-3;
+    const auto inner = [&](const DewDroplets& dew) {
+        return std::count_if(dew.samples.begin(), dew.samples.end(),
+                             [](const FlowSample& sample) { return length(sample.place) < 0.017; });
+    };
+    const DewDroplets outside = dewDroplets(hollow, options);
+    EXPECT_EQ(inner(outside), 0);
+    EXPECT_NEAR(outside.area / (4.0 * std::numbers::pi * 0.02 * 0.02), 1.0, 0.02);
+    options.inside = true;
+    EXPECT_GT(inner(dewDroplets(hollow, options)), 100);
+}
+
 TEST(Dew, RainWetsOnlyWhatItMeets)
 {
     const TexturedMesh mesh = testing::ball(60, [](Vec3) { return 0.02; });
@@ -234,9 +324,10 @@ TEST(Dew, TwoSidesOfAThinSheetDoNotTouch)
     // Two sheets of 4 cm, a tenth of a millimetre apart, which face away from each other.
     testing::Sheet sheet;
     sheet.place = [](Vec2 uv) { return Vec3{0.04 * uv.x, 0.04 * uv.y, 5e-5}; };
+    sheet.turned = true;
     testing::Sheet below = sheet;
     below.place = [](Vec2 uv) { return Vec3{0.04 * uv.x, 0.04 * uv.y, -5e-5}; };
-    below.turned = true;
+    below.turned = false;
     const TexturedMesh mesh = testing::together(testing::meshOf(sheet), testing::meshOf(below));
     DewOptions options;
     options.coverage = 0.6;

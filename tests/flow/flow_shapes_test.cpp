@@ -374,7 +374,7 @@ TEST(FlowShapes, RefusesShapesThatDropletsCannotFollow)
     };
     Places folded = plate.vertices;
     folded[1] = folded[0];
-    EXPECT_NE(message_of({plate.vertices, folded}, 24.0).find("triangle 0 has no area in mesh 2 of 2"),
+    EXPECT_NE(message_of({plate.vertices, folded}, 24.0).find("triangle 0 has no area in frame 2 of 2"),
               std::string::npos);
     Places fewer = plate.vertices;
     fewer.pop_back();

@@ -53,6 +53,25 @@ TEST(Floor, LiesBelowTheObjectAndIsWider)
     }
 }
 
+TEST(Floor, RestsBelowAllShapesOfAnObjectThatDeforms)
+{
+    FlowObject object;
+    object.vertices = {{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}, {0.0, 1.0, 2.0}};
+    object.normals.assign(3, {0.0, 0.0, 1.0});
+    object.triangles = {{0, 1, 2}};
+    std::vector<std::vector<Vec3>> shapes{object.vertices, {{0.0, 0.0, 0.5}, {3.0, 0.0, 1.0}, {0.0, 1.0, 2.0}}};
+    const FlowObject both = onFloor(object, Floor::Plate, shapes);
+    ASSERT_EQ(both.vertices.size(), 7U);
+    EXPECT_EQ(shapes[0], both.vertices);
+    EXPECT_EQ(shapes[1].size(), 7U);
+    for (std::size_t v = 3; v < 7; ++v) {
+        EXPECT_EQ(shapes[1][v], both.vertices[v]);
+        EXPECT_LT(both.vertices[v].z, 0.5);
+        EXPECT_GT(both.vertices[v].z, 0.49);
+    }
+    EXPECT_GT(both.vertices[4].x, 3.0) << "as wide as the widest";
+}
+
 TEST(Floor, StandsBelowObjectsWithoutMaterialsAndUv)
 {
     FlowObject object;

@@ -73,7 +73,9 @@ Topology checked(const FlowTerrain& terrain, const Pond& pond, double volume)
     EXPECT_NEAR(enclosedVolume(surface) / volume, 1.0, 1e-9);
     for (std::size_t v = 0; v < made.after.size(); ++v) {
         const Vec3 p = made.vertices[v];
-        EXPECT_NEAR(dot(pond.up, p), pond.level, 1e-9);
+        if (!pond.front) {
+            EXPECT_NEAR(dot(pond.up, p), pond.level, 1e-9);
+        }
         EXPECT_LT(length(terrain.nearest(p).place - p), 1e-9) << "the rim is on the ground";
     }
     for (std::size_t v = made.level_vertices; v < made.vertices.size(); ++v) {
@@ -133,9 +135,10 @@ TEST(PondSurface, OfASloshingBowlIsNormalToWhatItFeels)
 TEST(PondSurface, OfATrenchGoesRoundTheCorner)
 {
     const FlowTerrain terrain = ground(trench);
-    for (const double volume : {6e-6, 12e-6}) {
+    for (const double volume : {14e-6, 18e-6}) {
         const auto pond = pondAt(terrain, {-0.04, 0.03, 0.0}, volume);
         ASSERT_TRUE(pond);
+        EXPECT_FALSE(pond->front) << "it fills the trench";
         EXPECT_EQ(checked(terrain, *pond, volume).euler, 2);
         const PondSurface made = pondSurface(terrain.surface(), *pond);
         for (const Vec3 end : {Vec3{-0.04, 0.04, 0.0}, Vec3{0.04, -0.04, 0.0}, Vec3{-0.04, -0.04, 0.0}}) {
@@ -151,9 +154,11 @@ TEST(PondSurface, GoesAroundAnIsland)
     // A moat around a hill: its mesh has a hole.
     const auto moat = [](Vec2 p) { return std::min(2.0 * std::abs(length(p) - 0.03), 15e-3); };
     const FlowTerrain terrain = ground(moat);
-    const auto pond = pondAt(terrain, {0.03, 0.0, 0.0}, 8e-6);
-    ASSERT_TRUE(pond);
-    EXPECT_EQ(checked(terrain, *pond, 8e-6).euler, 0) << "a ring";
+    for (const double volume : {8e-6, 12e-6}) {
+        const auto pond = pondAt(terrain, {0.03, 0.0, 0.0}, volume);
+        ASSERT_TRUE(pond);
+        EXPECT_EQ(checked(terrain, *pond, volume).euler, 0) << "a ring";
+    }
 }
 
 TEST(PondSurface, GoesOverBumpsOfTheBottom)
@@ -234,9 +239,101 @@ TEST(PondSurface, DropletsOnWideGroundAreNoPonds)
     EXPECT_FALSE(pondAt(bowl, {0.0, 0.0, 0.0}, 20e-9)) << "a droplet on a gentle bend";
     const FlowTerrain tray = ground([](Vec2 p) { return std::max(std::abs(p.x), std::abs(p.y)) > 0.04 ? 10e-3 : 0.0; });
     EXPECT_FALSE(pondAt(tray, {0.0, 0.0, 0.0}, 1e-6)) << "a puddle in a tray";
-    EXPECT_FALSE(pondAt(tray, {0.039, 0.039, 0.0}, 1e-6)) << "a puddle in its corner";
     EXPECT_FALSE(pondAt(tray, {0.0, 0.0, 0.0}, 1e-3)) << "a flood";
     EXPECT_TRUE(pondAt(tray, {0.0, 0.0, 0.0}, 50e-6));
+}
+
+// Liquid that does not cover the floor of a trench lies between its walls, and not as a disc through them.
+TEST(PondSurface, OfAPuddleLiesBetweenWalls)
+{
+    const FlowTerrain terrain = ground(trench);
+    for (const double volume : {1.8e-6, 3e-6, 6e-6, 9e-6}) {
+        const auto pond = pondAt(terrain, {-0.04, 0.02, 0.0}, volume);
+        ASSERT_TRUE(pond);
+        ASSERT_TRUE(pond->front);
+        EXPECT_EQ(checked(terrain, *pond, volume).euler, 2);
+        EXPECT_LE(pond->level, kPuddle * (1.0 + 1e-9));
+        const PondSurface made = pondSurface(terrain.surface(), *pond);
+        double highest = 0.0;
+        double longest = 0.0;
+        for (std::size_t v = 0; v < made.level_vertices; ++v) {
+            const Vec3 p = made.vertices[v];
+            EXPECT_LT(trench({p.x, p.y}), p.z + 1e-3) << "not in the walls";
+            highest = std::max(highest, p.z);
+            longest = std::max(longest, 0.02 - p.y + std::max(p.x + 0.04, 0.0));
+        }
+        EXPECT_LT(highest, 1.35 * kPuddle);
+        // A strip of this width and height, and its bends.
+        EXPECT_GT(longest, 0.4 * volume / (16e-3 * kPuddle));
+    }
+    EXPECT_FALSE(pondAt(terrain, {-0.04, 0.02, 0.0}, 0.1e-6)) << "it touches no wall";
+}
+
+TEST(PondSurface, InACornerIsASectorAsThickAsOnFlatGround)
+{
+    const FlowTerrain tray = ground([](Vec2 p) { return std::max(std::abs(p.x), std::abs(p.y)) > 0.04 ? 10e-3 : 0.0; });
+    const double volume = 12e-6;
+    const auto pond = pondAt(tray, {0.039, 0.039, 0.0}, volume);
+    ASSERT_TRUE(pond);
+    ASSERT_TRUE(pond->front);
+    EXPECT_EQ(checked(tray, *pond, volume).euler, 2);
+    // The bend along its front takes a third of its width from a sector.
+    const PondFront& front = *pond->front;
+    const double sector = 0.25 * std::numbers::pi * std::pow(front.way - front.bend / 3.0, 2);
+    EXPECT_NEAR(kPuddle * sector / volume, 1.0, 0.12);
+    const PondSurface made = pondSurface(tray.surface(), *pond);
+    for (std::size_t v = 0; v < made.after.size(); ++v) {
+        const Vec3 p = made.vertices[v];
+        if (std::max(p.x, p.y) < 0.0395) {
+            EXPECT_NEAR(std::hypot(p.x - 0.039, p.y - 0.039) / front.way, 1.0, 0.01) << "its front is round";
+        }
+    }
+}
+
+// From a droplet in a trench to a full one: volume, level and area go on without a jump.
+TEST(PondSurface, GrowsWithoutAJump)
+{
+    const FlowTerrain terrain = ground(trench);
+    double last_area = 0.0;
+    double last_level = 0.0;
+    bool was_puddle = false;
+    bool was_full = false;
+    constexpr double kStep = 1.02;
+    for (double volume = 1.8e-6; volume < 20e-6; volume *= kStep) {
+        const auto pond = pondAt(terrain, {-0.04, 0.02, 0.0}, volume);
+        ASSERT_TRUE(pond) << volume;
+        EXPECT_FALSE(was_full && pond->front);
+        was_puddle = was_puddle || pond->front;
+        was_full = was_full || !pond->front;
+        if (last_area > 0.0) {
+            // Where the front comes to a wall, the area grows as the square root.
+            EXPECT_LT(std::abs(pond->area / last_area - 1.0), 0.06) << volume;
+            EXPECT_LT(std::abs(pond->level - last_level), 0.03 * kPuddle) << volume;
+        }
+        last_area = pond->area;
+        last_level = pond->level;
+    }
+    EXPECT_TRUE(was_puddle && was_full);
+}
+
+// The arms of a U are near each other, but water goes around the bend: as far as the way is, not as the crow flies.
+TEST(PondSurface, FollowsTheWayAroundWalls)
+{
+    const auto u = [](Vec2 p) {
+        const double away =
+            std::min({distanceFrom(p, {-0.012, -0.03}, {-0.012, 0.04}), distanceFrom(p, {0.012, -0.03}, {0.012, 0.04}),
+                      distanceFrom(p, {-0.012, -0.03}, {0.012, -0.03})});
+        return std::clamp(4.0 * (away - 7e-3), 0.0, 10e-3);
+    };
+    const FlowTerrain terrain = ground(u, 160);
+    const auto pond = pondAt(terrain, {-0.012, 0.03, 0.0}, 3e-6);
+    ASSERT_TRUE(pond);
+    ASSERT_TRUE(pond->front);
+    checked(terrain, *pond, 3e-6);
+    const PondSurface made = pondSurface(terrain.surface(), *pond);
+    for (const Vec3 p : made.vertices) {
+        EXPECT_LT(p.x, 0.0) << "the other arm is dry";
+    }
 }
 
 TEST(PondSurface, IsAmongSeatedDropletsAndPoints)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "droplet/flow/flow.h"
+#include "droplet/flow/flow_parameters.h"
 #include "droplet/flow/flow_terrain.h"
 #include "droplet/vector.h"
 #include "droplet/wind/forces.h"
@@ -31,10 +32,12 @@ struct DewOptions {
     double median = 0.6e-3;                   ///< of the radii, LogNormal [m], > 0
     double spread = 0.5;                      ///< standard deviation of their logarithm, LogNormal, from 0 to 3
     ForceModel forces = {};                   ///< liquid, contact angle, and the slopes that hold a droplet
+    FlowPinning pinning = {};                 ///< how hysteresis varies; with one seed as droplets that run
     Vec3 gravity = {0.0, 0.0, -kStandardGravity};  ///< in the object's frame [m/s²]
     std::optional<Vec3> from = {};  ///< only where rain from this direction meets the object first; not 0
     /// Probability, 0 … 1, that a point of the surface may have a droplet; empty: 1.
     std::function<double(const FlowTerrain::Point&)> weight = {};
+    bool inside = false;     ///< also on inner sides, which see next to nothing of the outside
     std::uint64_t seed = 1;  ///< of the random numbers
 
     /// Checks all fields.
@@ -48,7 +51,7 @@ struct DewDroplets {
     double area = 0.0;                ///< of the surface where droplets may be [m²]
     double covered = 0.0;             ///< of it, below droplets [m²]
     std::size_t joined = 0;           ///< droplets that found no room and became part of others
-    std::size_t run_off = 0;          ///< droplets that no place holds
+    std::size_t run_off = 0;          ///< droplets that no place holds, by its slope or as the surface ends below them
 };
 
 /// Radius of a droplet seen from above, without gravity: that of its contact circle, or beyond 90° of its equator [m].
@@ -60,7 +63,8 @@ double dewRadius(double volume, double contact_angle);
 ///
 /// Droplets are placed at random from large to small. None touches another; one that finds no room in some tries joins
 /// the one that it met, which grows and may meet others. None is larger than its slope holds, by contact angle
-/// hysteresis, or surface tension below an overhang, as for droplets that run.
+/// hysteresis, or surface tension below an overhang, as for droplets that run; none hangs over the end of the surface.
+/// More are placed as long as the coverage is not reached and they find room.
 ///
 /// Guarantees: the same options give the same droplets.
 /// @param terrain  the object

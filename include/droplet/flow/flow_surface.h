@@ -18,7 +18,8 @@ struct FlowSurfaceReport {
     std::size_t triangles = 0;       ///< of the mesh
     std::size_t without_area = 0;    ///< triangles that were left out: too thin to have a normal
     std::size_t duplicates = 0;      ///< triangles that were left out: another has the same corners
-    std::size_t turned = 0;          ///< triangles that were turned over to face as their neighbours do
+    std::size_t turned = 0;          ///< triangles that were turned over to face outward, or as their neighbours do
+    std::size_t inside_out = 0;      ///< of these, triangles of closed parts that faced inward as a whole
     std::size_t boundary_edges = 0;  ///< droplets fall off there
     std::size_t parts = 0;           ///< connected over edges
 };

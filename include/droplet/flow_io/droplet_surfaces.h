@@ -35,9 +35,11 @@ BodyConditions conditionsOf(const FlowSample& sample, Vec3 gravity);
 /// deviation of its distance from the middle is a share of that; it is 0 at rest, grows with the speed to `amplitude`,
 /// and falls again.
 struct SmallDeformation {
-    double amplitude = 0.0;  ///< largest share, from 0 to 0.3
-    double length = 3e-3;    ///< over which the field varies [m], > 0
-    std::uint64_t seed = 1;  ///< of the random numbers
+    double amplitude = 0.0;               ///< largest share, from 0 to 0.3
+    double length = 3e-3;                 ///< over which the field varies [m], > 0
+    std::uint64_t seed = 1;               ///< of the random numbers
+    const FlowTerrain* ground = nullptr;  ///< shape that the droplets are on, of an object that deforms: the field is
+                                          ///< that of its first shape; null: it keeps its shape
 
     /// Share at a speed.
     /// @param speed  along the surface [m/s] ≥ 0

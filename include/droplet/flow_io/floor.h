@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include "droplet/flow_io/flow_object.h"
+#include "droplet/vector.h"
 
 namespace droplet {
 
@@ -13,6 +16,11 @@ enum class Floor {
 
 /// Adds a floor just below an object, centred under it, as more triangles with the material `floor`. Its texture
 /// coordinates are one point, so that textures of the object have no part of it.
+/// @param shapes  vertices of the object in all frames, if it deforms; the floor is below all of them, rests, and is
+///                added to each. Empty otherwise.
+FlowObject onFloor(FlowObject object, Floor floor, std::vector<std::vector<Vec3>>& shapes);
+
+/// The same for an object that keeps its shape.
 FlowObject onFloor(FlowObject object, Floor floor);
 
 }  // namespace droplet
