@@ -159,7 +159,8 @@ private:
     {
         throw Error(
             ErrorCode::InvalidInput,
-            "the object has no place for droplets: nothing of it faces the rain, or is in the mask, or has weight");
+            "the object has no place for droplets: nothing of it faces the rain, or is in the mask, or has weight, or "
+            "sees the outside; an open mesh may be inside out");
     }
 
     /// Places droplets until they cover as much as asked, or more of them add next to nothing.
@@ -174,25 +175,19 @@ private:
         double largest = options_.largest;
         for (int round = 0; round < kMostRounds && missing > kNear * wanted; ++round) {
             for (const double radius : drawn(missing, largest)) {
-                place(radius);
+                place(radius, round == 0);
             }
             double covered = 0.0;
-            double largest_held = 0.0;
             for (const Drop& drop : drops_) {
                 covered += std::numbers::pi * drop.radius * drop.radius;
-                largest_held = std::max(largest_held, drop.radius);
             }
             const double left = wanted - covered;
-            // Those that ran off would again, and smaller ones fit between those that are there.
-            const double before = largest;
-            largest = std::clamp(largest_held, options_.smallest, largest);
-            if (left > (1.0 - kLeast) * missing) {
-                if (before <= kSmall * options_.smallest) {
-                    return;
-                }
-                largest = std::clamp(0.5 * before, options_.smallest, largest);
+            if (left > (1.0 - kLeast) * missing && largest <= kSmall * options_.smallest) {
+                return;
             }
             missing = left;
+            // Smaller ones stay where those ran off, and fit between those that are there.
+            largest = std::max(0.5 * largest, options_.smallest);
         }
     }
 
@@ -271,13 +266,14 @@ private:
             return false;
         }
         const double pushed = length(along);
-        double retention = forces.retention;
-        if (pushed > 0.0 && !pinning_.isEven()) {
-            // As for droplets that run: where hysteresis varies, it is that of the front half of the rim.
-            const Vec3 ahead = (1.0 / pushed) * along;
-            retention *= pinning_.over({drop.point.place, contact, ahead, cross(drop.normal, ahead)}).along;
+        const double push = forces.mass * pushed;
+        if (pinning_.isEven() || push <= pinning_.least() * forces.retention) {
+            return push <= forces.retention;
         }
-        return forces.mass * pushed <= retention;
+        // As for droplets that run: where hysteresis varies, it is that of the front half of the rim.
+        const Vec3 ahead = (1.0 / pushed) * along;
+        return push <=
+               forces.retention * pinning_.over({drop.point.place, contact, ahead, cross(drop.normal, ahead)}).along;
     }
 
     /// Middle of the part of a droplet's rim that is on the ground; empty if all of it is.
@@ -308,9 +304,10 @@ private:
         return found > 0 ? (1.0 / found) * sum : drop.point.place;
     }
 
-    void place(double radius)
+    /// @param joins  whether it becomes part of another one where it finds no room, or is not there at all
+    void place(double radius, bool joins)
     {
-        constexpr int kRoomTries = 100;
+        const int room_tries = joins ? 100 : 30;
         constexpr int kSlopeTries = 200;
         constexpr std::uint64_t kMostInner = 10'000;  // tries, of an object that has nearly only inner sides
         const RandomStream random(options_.seed, RandomPurpose::Dew, 2 * placed_++ + 1);
@@ -318,7 +315,7 @@ private:
         std::optional<std::size_t> met;
         std::uint64_t counter = 0;
         std::uint64_t inner = 0;
-        for (int room = 0, slope = 0; room < kRoomTries && slope < kSlopeTries;) {
+        for (int room = 0, slope = 0; room < room_tries && slope < kSlopeTries;) {
             const std::optional<FlowTerrain::Point> point = places_.pointOf(random, counter);
             if (!point) {
                 refuseObject();
@@ -350,6 +347,9 @@ private:
         }
         if (!met) {
             ++result_.run_off;
+            return;
+        }
+        if (!joins) {
             return;
         }
         ++result_.joined;

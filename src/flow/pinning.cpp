@@ -16,8 +16,17 @@ namespace droplet {
 
 double PinningField::at(Vec3 place) const
 {
-    const double value = smoothRandom((1.0 / pinning_.length) * place, seed_) / kSmoothRandomDeviation;
-    return std::exp(pinning_.spread * value - 0.5 * pinning_.spread * pinning_.spread);
+    return factor(smoothRandom((1.0 / pinning_.length) * place, seed_));
+}
+
+double PinningField::least() const
+{
+    return factor(-1.0);
+}
+
+double PinningField::factor(double random) const
+{
+    return std::exp(pinning_.spread * (random / kSmoothRandomDeviation) - 0.5 * pinning_.spread * pinning_.spread);
 }
 
 PinningHold PinningField::over(const ContactFront& front) const

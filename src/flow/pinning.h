@@ -32,10 +32,15 @@ public:
     /// Factor on hysteresis at a place, > 0; its mean over space is 1.
     [[nodiscard]] double at(Vec3 place) const;
 
+    /// Smallest factor anywhere.
+    [[nodiscard]] double least() const;
+
     /// Integral over the front half of the contact line.
     [[nodiscard]] PinningHold over(const ContactFront& front) const;
 
 private:
+    [[nodiscard]] double factor(double random) const;
+
     FlowPinning pinning_;
     std::uint64_t seed_;
 };

@@ -65,6 +65,44 @@ Station between(const Station& a, const Station& b, double along)
             {}};
 }
 
+/// Station at a distance from the begin, with the mean direction of its cross-section over a width of the ribbon: where
+/// the way turns on less than that, the cross-sections of single places would cross one another.
+Station stationAt(const std::vector<Station>& knots, double along)
+{
+    const auto at = [&](double place) {
+        const auto next = std::upper_bound(knots.begin() + 1, knots.end() - 1, place,
+                                           [](double value, const Station& knot) { return value < knot.along; });
+        return between(*(next - 1), *next, place);
+    };
+    Station station = at(along);
+    constexpr int kAround = 4;  // on each side
+    Vec3 left;
+    for (int k = -kAround; k <= kAround; ++k) {
+        const double off = 0.5 * station.passage.width * k / kAround;
+        left = left + at(std::clamp(along + off, 0.0, knots.back().along)).left;
+    }
+    left = left - dot(left, station.normal) * station.normal;
+    if (length(left) > 0.0) {
+        station.left = unit(left);
+    }
+    return station;
+}
+
+/// Whether the ribbon between two cross-sections has no fold: its corners, seen from above, all turn left.
+bool isUnfolded(const Station& a, const Station& b)
+{
+    const auto side = [](const Station& s, double share) { return s.place + share * s.film.half_width * s.left; };
+    const std::array<Vec3, 4> corners{side(a, 1.0), side(a, -1.0), side(b, -1.0), side(b, 1.0)};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Vec3 before = corners[(k + 1) % 4] - corners[k];
+        const Vec3 after = corners[(k + 2) % 4] - corners[(k + 1) % 4];
+        if (dot(cross(before, after), a.normal + b.normal) < 0.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// Lifetime in an animation with frames of a duration: what becomes beads stays up to √2 times as long, so that few
 /// different lifetimes occur and few parts of the mesh vanish by themselves.
 double shownFor(const TrailFilm& film, const Passage& passage, std::optional<double> frame)
@@ -258,17 +296,21 @@ StreakMesh StreakRibbons::meshOf(std::optional<double> time, std::optional<doubl
                 piece.clear();
             };
             const double whole = knots.back().along;
-            std::size_t knot = 0;
             for (const double along : stationsOn(knots, step)) {
-                while (knot + 2 < knots.size() && knots[knot + 1].along < along) {
-                    ++knot;
-                }
-                Station s = between(knots[knot], knots[knot + 1], along);
+                Station s = stationAt(knots, along);
                 const double age = time ? std::max(*time - s.passage.time, 0.0) : settledAge(film_, s.passage);
                 s.film = trailSection(film_, s.passage, s.rest, age);
                 const double near = std::min(1.0, 2.0 * std::min(along, whole - along) / s.passage.width);
                 const double round = std::sqrt(near * (2.0 - near));
                 s.film.half_width *= round;
+                if (!piece.empty() && !isUnfolded(piece.back(), s)) {
+                    // The ribbon turns on less than its width: it goes on ahead, or in a new piece.
+                    if (along - piece.back().along < s.passage.width) {
+                        continue;
+                    }
+                    end();
+                    dry.reset();
+                }
                 const bool is_wet = s.film.half_width > 0.5 * kNarrowest * s.passage.width;
                 if (is_wet && dry) {
                     piece.push_back(*dry);

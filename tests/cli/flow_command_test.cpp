@@ -272,6 +272,7 @@ TEST_F(FlowCommand, AFloorCatchesTheWater)
     }
     expectRefused({"--drops", "3", "--floor", "dish", "--spin", "10deg/s"}, 2, "--floor needs an object that rests");
     expectRefused({"--drops", "3", "--floor", "bowl"}, 2, "--floor");
+    expectRefused({"--rain", "0mm/h"}, 2, "--rain 0mm/h brings no droplets");
 }
 
 TEST_F(FlowCommand, TheCameraStandsAnywhereInALight)
@@ -580,10 +581,21 @@ TEST_F(FlowCommand, AnObjectDeformsByAMeshForEveryFrame)
     for (std::size_t k = 0; k < 6; ++k) {
         EXPECT_LT(length(back.vertices[k][1] - Vec3{0.1 + 0.02 * static_cast<double>(k), 0.0, 0.0}), 1e-4);
     }
-    // And it is an object that deforms again; an animation has no mesh for a floor.
-    expectRefused({"--drops", "3", "--floor", "dish"}, 2, "--floor needs an object that keeps its shape", "moved.glb");
-    expectRefused({"--drops", "3", "--spin", "30deg/s"}, 2, "--spin needs one mesh as OBJECT", "s%d.obj");
-    expectRefused({"--drops", "3", "--floor", "dish"}, 2, "--floor needs one mesh as OBJECT", "s%d.obj");
+    // And it is an object that deforms again, over a floor that rests.
+    const std::vector<std::string> over_floor{"--drops", "3", "--floor", "plate"};
+    ASSERT_EQ(flow("floor.glb", over_floor, "moved.glb").exit_code, 0);
+    ASSERT_EQ(flow("floor.glb", {"--drops", "3", "--floor", "plate", "--fps", "20"}, "s%d.obj").exit_code, 0);
+    const droplet::DeformingObject above = droplet::readAnimatedObject(path("floor.glb"), {20.0, 6});
+    ASSERT_EQ(above.vertices.size(), 6U);
+    ASSERT_EQ(above.vertices[0].size(), back.vertices[0].size() + 4);
+    for (std::size_t v = back.vertices[0].size(); v < above.vertices[0].size(); ++v) {
+        EXPECT_LT(length(above.vertices[5][v] - above.vertices[0][v]), 1e-6) << "the floor rests";
+    }
+    ASSERT_EQ(flow("rough/%d.png", {"--drops", "3", "--deformation", "0.2", "--preview-size", "64x48", "--fps", "20"},
+                   "s%d.obj")
+                  .exit_code,
+              0);
+    expectRefused({"--drops", "3", "--spin", "30deg/s"}, 2, "--spin turns an object that keeps its shape", "s%d.obj");
     testing::expectOneLine(testing::runInProcess(argumentsOf("s%d.obj", "x.png", {"--drops", "3", "--time", "5s"})), 2,
                            {"--time: 150 frames need as many meshes", "has 6; give at most 0.2 s"});
     std::filesystem::remove(path("s9.obj"));

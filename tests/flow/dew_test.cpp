@@ -39,13 +39,16 @@ double radiusOf(const FlowSample& sample, const DewOptions& options)
 void expectApart(const DewDroplets& dew, const DewOptions& options)
 {
     const double angle = options.forces.wetting.contact_angle;
-    const auto centre = [&](const FlowSample& sample) {
-        return sample.place + std::max(0.0, -std::cos(angle)) * capOf(sample.volume, angle).radius * sample.normal;
-    };
-    for (std::size_t i = 0; i < dew.samples.size(); ++i) {
+    std::vector<Vec3> centres;
+    std::vector<double> radii;
+    for (const FlowSample& sample : dew.samples) {
+        centres.push_back(sample.place +
+                          std::max(0.0, -std::cos(angle)) * capOf(sample.volume, angle).radius * sample.normal);
+        radii.push_back(radiusOf(sample, options));
+    }
+    for (std::size_t i = 0; i < centres.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-            ASSERT_GE(length(centre(dew.samples[i]) - centre(dew.samples[k])),
-                      radiusOf(dew.samples[i], options) + radiusOf(dew.samples[k], options) - 1e-12);
+            ASSERT_GE(length(centres[i] - centres[k]), radii[i] + radii[k] - 1e-12);
         }
     }
 }

@@ -433,6 +433,13 @@ TEST(FlowSurface, TurnsPartsToFaceOutward)
     EXPECT_EQ(surface.report.parts, 1U);
     EXPECT_EQ(surface.report.boundary_edges, 0U);
     EXPECT_GT(surface.report.turned, 0U);
+    EXPECT_EQ(surface.report.inside_out, 0U) << "single triangles";
+    for (std::size_t t = 0; t < whole; ++t) {
+        std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    }
+    const FlowSurfaceReport inside_out = flowSurface(mesh.vertices, mesh.triangles).report;
+    EXPECT_GT(inside_out.turned, whole / 2);
+    EXPECT_EQ(inside_out.inside_out, inside_out.turned) << "most of the ball faced inward";
     for (const auto& face : surface.faces) {
         EXPECT_GT(dot(face.normal, face.corners[0]), 0.0);
         for (std::size_t k = 0; k < 3; ++k) {

@@ -62,6 +62,33 @@ double areaOf(const Surface& surface)
 /// A film that does not drain.
 constexpr TrailFilm kLasting{.thickness = 1e-5, .kinematic_viscosity = 1e3};
 
+// Where a way turns on less than its width, as around the neck of a flask, cross-sections must not cross.
+TEST(StreakRibbons, HaveNoFoldsInTurns)
+{
+    const FlowSurface surface = roof(0.5);
+    for (const double turn : {0.3, 0.7, 1.2, 2.0}) {
+        std::vector<FlowTrack> tracks;
+        Vec3 at{0.03, -0.05, 0.0};
+        double direction = 0.0;
+        for (int k = 0; k < 40; ++k) {
+            // A bow to the left, one to the right, and zigzags.
+            direction += k < 16 ? turn : k < 32 ? -turn : (k % 2 == 0 ? turn : -turn);
+            const Vec3 to = at + 0.3 * kWidth * Vec3{std::cos(direction), std::sin(direction), 0.0};
+            tracks.push_back({1, faceOf(surface, 0), at, to, kWidth, 0.02 * (k + 1), 0.0});
+            at = to;
+        }
+        StreakRibbons ribbons(kLasting);
+        ribbons.add(tracks, surface);
+        const Surface made = ribbons.mesh(0.9).surface;
+        made.validate();
+        ASSERT_GT(made.triangles.size(), 100U);
+        for (const auto& [a, b, c] : made.triangles) {
+            const Vec3 across = cross(made.vertices[b] - made.vertices[a], made.vertices[c] - made.vertices[a]);
+            EXPECT_GE(across.z, -1e-15) << "turn " << turn;
+        }
+    }
+}
+
 TEST(StreakRibbons, CoverThePathOfADropletThatStandsStill)
 {
     const FlowSurface surface = roof(0.5);
