@@ -1087,7 +1087,7 @@ def flow(
       preset: masses, viscosities, adhesions, roughnesses, tear, forces, bottle, leaf, car, window: Named scene with
         its own object and droplets, instead of OBJECT; other options change it
       scale: Factor on the lengths of the file (default: 1)
-      object_size [m]: Longest side of the object; scales it
+      object_size [m]: Longest side of the object, 0.1mm to 1000m; scales it
       up: y, z: Axis that points up in an .obj, .ply or .stl (default: y, of .ply z)
       floor: plate, dish: What catches the water below an object that rests: a plate or a dish, with the material
         floor
@@ -1220,8 +1220,11 @@ _DEW = {
     "from_": "vector",
     "mask": "path",
     "vertex_weights": "flag",
+    "inside": "flag",
     "seed": "number",
     "hysteresis": "number",
+    "pinning": "number",
+    "pinning_length": "m",
     "gravity_direction": "vector",
     "contact_angle": "rad",
     "viscosity_factor": "Pa.s",
@@ -1258,8 +1261,11 @@ def dew(
     from_: str | Sequence[float] | None = None,
     mask: Path | None = None,
     vertex_weights: bool = False,
+    inside: bool = False,
     seed: str | int | None = None,
     hysteresis: float | None = None,
+    pinning: float | None = None,
+    pinning_length: str | float | None = None,
     gravity_direction: str | Sequence[float] | None = None,
     contact_angle: str | float | None = None,
     viscosity_factor: str | float | None = None,
@@ -1288,7 +1294,7 @@ def dew(
 
     Object:
       scale: Factor on the lengths of the file (default: 1)
-      object_size [m]: Longest side of the object; scales it
+      object_size [m]: Longest side of the object, 0.1mm to 1000m; scales it
       up: y, z: Axis that points up in an .obj, .ply or .stl (default: y, of .ply z)
 
     Droplets:
@@ -1306,11 +1312,15 @@ def dew(
       mask: Mask over the object's texture coordinates: droplets are where it is covered
       vertex_weights: Droplets are where the vertices have weights: _WEIGHT or the red of COLOR_0 of glTF, weight or
         red of PLY
+      inside: Droplets also on inner sides, which see less than a tenth of the outside
       seed: Random seed (default: 1)
 
     Slopes:
       hysteresis: Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle; it holds
         droplets (default: 0.2)
+      pinning: How much hysteresis varies over the surface, so that droplets stick, slip and wander: standard
+        deviation of its logarithm, 0 to 1.5 (default: 0.5)
+      pinning_length [m]: Length over which it varies (default: 3mm)
       gravity_direction [m or m/s]: Direction of gravity (default: 0,-1,0)
 
     Coating:

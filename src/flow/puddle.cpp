@@ -12,19 +12,22 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <map>
 #include <numbers>
+#include <numeric>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "droplet/flow/flow_terrain.h"
 #include "flow/flooded_part.h"
+#include "wind/random.h"
 
 namespace droplet {
 namespace {
@@ -63,6 +66,23 @@ double bendOf(const RestingLiquid& liquid, double thick)
     return std::max(bend, 3.0 * (1.0 - std::numbers::pi / 4.0) * thick);
 }
 
+/// Length; without the care for the ends of the range that takes a fifth of the time.
+double sizeOf(Vec2 v)
+{
+    return std::sqrt(dot(v, v));
+}
+
+struct HashOfPlace {
+    std::size_t operator()(const std::array<double, 3>& place) const
+    {
+        std::uint64_t hash = 0;
+        for (const double part : place) {
+            hash = mix(hash + std::bit_cast<std::uint64_t>(part + 0.0));  // −0 is 0
+        }
+        return static_cast<std::size_t>(hash);
+    }
+};
+
 /// Spreads over faces in the order of their ways.
 class Spread {
 public:
@@ -92,12 +112,15 @@ public:
         }
         made.is_blocked = true;
         double low = 0.0;
+        double missing = liquid_.volume;
         double high = radius_;
+        double beyond = 0.0;  // what the way `high` holds too much
         for (;;) {
             if (!march(high)) {
                 return {};
             }
-            if (spreadTo(high).volume >= liquid_.volume) {
+            beyond = spreadTo(high).volume - liquid_.volume;
+            if (beyond >= 0.0) {
                 break;
             }
             if (queue_.empty() && high > farthest() + bend_) {
@@ -105,12 +128,26 @@ public:
             }
             constexpr double kStep = 1.25;
             low = high;
+            missing = -beyond;
             high *= kStep;
         }
         constexpr double kExact = 1e-9;
-        while (high - low > kExact * radius_) {
-            const double middle = 0.5 * (low + high);
-            (spreadTo(middle).volume >= liquid_.volume ? high : low) = middle;
+        constexpr int kMostSteps = 60;
+        int kept = 0;  // side that has been kept: -1 low, 1 high (the Illinois rule of regula falsi)
+        for (int k = 0; k < kMostSteps && high - low > kExact * radius_ && beyond > kExact * liquid_.volume; ++k) {
+            const double middle = low + (high - low) * missing / (missing + beyond);
+            const double more = spreadTo(middle).volume - liquid_.volume;
+            if (more >= 0.0) {
+                high = middle;
+                beyond = more;
+                missing *= kept == -1 ? 0.5 : 1.0;
+                kept = -1;
+            } else {
+                low = middle;
+                missing = -more;
+                beyond *= kept == 1 ? 0.5 : 1.0;
+                kept = 1;
+            }
         }
         made.pond = pondTo(high);
         return made;
@@ -173,7 +210,7 @@ private:
     {
         reach(liquid_.face);
         for (const std::uint32_t node : reached_.front().nodes) {
-            shorten(node, length(nodes_[node].place - middle_));
+            shorten(node, sizeOf(nodes_[node].place - middle_));
         }
     }
 
@@ -236,7 +273,7 @@ private:
             const std::uint32_t c = face.nodes[(at + 2) % 3];
             for (const auto& [to, other] : {std::pair{b, c}, {c, b}}) {
                 const double way = nodes_[node].way;
-                shorten(to, way + length(nodes_[to].place - nodes_[node].place));
+                shorten(to, way + sizeOf(nodes_[to].place - nodes_[node].place));
                 if (leadsOn(nodes_[other])) {
                     const double across = wayAcross(nodes_[node], nodes_[other], nodes_[to].place);
                     // Ways come from known corners to later ones.
@@ -250,7 +287,7 @@ private:
     [[nodiscard]] static std::array<Vec2, 2> sourcesOf(const Node& a, const Node& b)
     {
         const Vec2 edge = b.place - a.place;
-        const double size = length(edge);
+        const double size = sizeOf(edge);
         const double along = (a.way * a.way - b.way * b.way + size * size) / (2.0 * size);
         const double off = std::sqrt(std::max(a.way * a.way - along * along, 0.0));
         const Vec2 foot = a.place + (along / size) * edge;
@@ -262,7 +299,7 @@ private:
     [[nodiscard]] double wayAcross(const Node& a, const Node& b, Vec2 place) const
     {
         const Vec2 edge = b.place - a.place;
-        const double size = length(edge);
+        const double size = sizeOf(edge);
         if (!(size > kRounding * radius_)) {
             return std::numeric_limits<double>::infinity();
         }
@@ -276,7 +313,7 @@ private:
         const Vec2 passed = source + share * (place - source);
         const double along = dot(passed - a.place, edge) / size;
         const bool sees = along >= -kRounding * radius_ && along <= size + kRounding * radius_;
-        return sees ? length(place - source) : std::numeric_limits<double>::infinity();
+        return sees ? sizeOf(place - source) : std::numeric_limits<double>::infinity();
     }
 
     /// From where ways to a face are straight lines: the source that fits its longest edge and the third corner.
@@ -287,7 +324,7 @@ private:
         }
         std::size_t longest = 0;
         const auto size = [&](std::size_t k) {
-            return length(nodes_[face.nodes[(k + 2) % 3]].place - nodes_[face.nodes[(k + 1) % 3]].place);
+            return sizeOf(nodes_[face.nodes[(k + 2) % 3]].place - nodes_[face.nodes[(k + 1) % 3]].place);
         };
         for (std::size_t k = 1; k < 3; ++k) {
             longest = size(k) > size(longest) ? k : longest;
@@ -295,7 +332,7 @@ private:
         const Node& c = nodes_[face.nodes[longest]];
         const auto [one, other] =
             sourcesOf(nodes_[face.nodes[(longest + 1) % 3]], nodes_[face.nodes[(longest + 2) % 3]]);
-        const auto miss = [&](Vec2 source) { return std::abs(length(c.place - source) - c.way); };
+        const auto miss = [&](Vec2 source) { return std::abs(sizeOf(c.place - source) - c.way); };
         return miss(one) <= miss(other) ? one : other;
     }
 
@@ -327,7 +364,7 @@ private:
                 heights[c] = nodes_[face.nodes[c]].height;
             }
             for (std::size_t c = 0; c < 3; ++c) {
-                longest = std::max(longest, length(corners[(c + 1) % 3] - corners[c]));
+                longest = std::max(longest, sizeOf(corners[(c + 1) % 3] - corners[c]));
             }
             const auto n = static_cast<std::uint32_t>(
                 std::clamp(std::ceil(longest / (kEdge * radius_)), 1.0, static_cast<double>(kMostParts)));
@@ -338,7 +375,7 @@ private:
                     const double u = static_cast<double>(i) / n;
                     const double v = static_cast<double>(j) / n;
                     const Vec2 place = (1.0 - u - v) * corners[0] + u * corners[1] + v * corners[2];
-                    parts.ways.push_back(length(place - source));
+                    parts.ways.push_back(sizeOf(place - source));
                     parts.heights.push_back((1.0 - u - v) * heights[0] + u * heights[1] + v * heights[2]);
                 }
             }
@@ -423,7 +460,11 @@ private:
         constexpr double kDiffer = 0.02;
         const double beyond = way + kDiffer * radius_;
         PondFront front{way, bend_, floor_, liquid_.volume, {}};
-        for (const auto& [face, number] : reached_at_) {
+        std::vector<std::uint32_t> order(reached_.size());
+        std::iota(order.begin(), order.end(), std::uint32_t{0});
+        std::sort(order.begin(), order.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return reached_[a].face < reached_[b].face; });
+        for (const std::uint32_t number : order) {
             const Reached& reached = reached_[number];
             const Parts& parts = parts_[number];
             bool is_wet = false;
@@ -433,7 +474,7 @@ private:
             }
             if (is_wet) {
                 const Vec2 source = sourceOf(reached);
-                pond.faces.push_back(face);
+                pond.faces.push_back(reached.face);
                 front.sources.push_back(source.x * ahead_ + source.y * left_);
             }
         }
@@ -453,9 +494,9 @@ private:
     Vec3 ahead_;
     Vec3 left_;
     Vec2 middle_;
-    std::map<std::array<double, 3>, std::uint32_t> numbers_;  ///< of nodes, by place
+    std::unordered_map<std::array<double, 3>, std::uint32_t, HashOfPlace> numbers_;  ///< of nodes, by place
     std::vector<Node> nodes_;
-    std::map<std::uint32_t, std::uint32_t> reached_at_;  ///< numbers in reached_, by face
+    std::unordered_map<std::uint32_t, std::uint32_t> reached_at_;  ///< numbers in reached_, by face
     std::vector<Reached> reached_;
     std::vector<Parts> parts_;  ///< of reached_
     bool is_divided_ = false;
