@@ -18,7 +18,8 @@ VERSION = re.search(r'kVersion = "([^"]+)"', (ROOT / "include/droplet/version.h"
 class CMakeBuild(build_ext):
     """Builds and installs the component `python` of the CMake project.
 
-    The environment variable DROPLET_BUILD may name a build folder to use again.
+    The environment variable DROPLET_BUILD may name a build folder to use again. DROPLET_PAGE=ON makes the widget for notebooks,
+    too, for which npm fetches three.js.
     """
 
     def build_extension(self, extension):
@@ -30,6 +31,7 @@ class CMakeBuild(build_ext):
         package = Path(self.get_ext_fullpath(extension.name)).resolve().parent
         options = {
             "CMAKE_BUILD_TYPE": "Release",
+            "DROPLET_PAGE": os.environ.get("DROPLET_PAGE", "OFF"),
             "DROPLET_PYTHON": "ON",
             "DROPLET_TESTS": "OFF",
             "Python_EXECUTABLE": sys.executable,

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Bundles the page that --html writes. npm installs three.js and esbuild by the lock file; esbuild makes one script of
-# three.js and the sources in src/html; the result is compiled into the library. Sets page_parts to that source file.
+# three.js and the sources in src/html; the result is compiled into the library. Sets page_parts to that source file. The target `widget` makes
+# the module that shows droplets in notebooks; sets widget_script to it.
 set(page_dir ${PROJECT_BINARY_DIR}/page)
 set(page_sources ${CMAKE_CURRENT_LIST_DIR}/../html)
 foreach(tool npm node)
@@ -41,3 +42,12 @@ add_custom_command(
   COMMENT "Bundling the page")
 # Its string literals are longer than the standard guarantees; the supported compilers accept them.
 set_source_files_properties(${page_parts} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
+
+set(widget_script ${page_dir}/widget.js)
+add_custom_command(
+  OUTPUT ${widget_script}
+  COMMAND ${NODE} ${page_sources}/bundle_widget.mjs ${page_sources} ${widget_script}
+  WORKING_DIRECTORY ${page_dir}
+  DEPENDS ${page_dir}/installed ${page_files}
+  COMMENT "Bundling the widget")
+add_custom_target(widget DEPENDS ${widget_script})

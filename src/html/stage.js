@@ -32,7 +32,6 @@ export class Stage {
      */
     constructor({ canvas, droplet, flat, extent, space, still, drawn }) {
         this.canvas = canvas;
-        this.droplet = droplet;
         this.flat = flat;
         this.drawn = drawn;
         this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
@@ -41,7 +40,7 @@ export class Stage {
         this.camera = new PerspectiveCamera(kFieldOfView, 1, 0.01, 100);
         this.camera.layers.enable(kUnlit);
         this.holder = new Group();
-        this.holder.add(droplet.scene);
+        this.#hold(droplet);
         this.scene.add(this.holder);
         this.room = { walls: { value: 1 }, lamps: { value: 1 } };
         this.ground_level = { value: 0 };
@@ -51,10 +50,8 @@ export class Stage {
         }
         this.ground = new Ground(this.ground_light);
         this.scene.add(this.ground);
-        this.filled = [1, Math.min((droplet.range ?? [1, 1])[1], 2)];
         this.#place(space ?? droplet.box([1]), extent);
         this.#light();
-        this.thickness = droplet.meshes[0]?.material.thickness;
 
         this.controls = new OrbitControls(this.camera, canvas);
         Object.assign(this.controls, {
@@ -67,7 +64,19 @@ export class Stage {
             this.light_is_old = true;
             this.request();
         });
-        new ResizeObserver(() => this.resize()).observe(canvas);
+        this.sizes = new ResizeObserver(() => this.resize());
+        this.sizes.observe(canvas);
+    }
+
+    /** Gives the graphics card back; nothing is drawn after it. Browsers have only some such contexts for all of a page. */
+    dispose() {
+        this.request = () => {};
+        cancelAnimationFrame(this.frame_id);
+        clearTimeout(this.refining);
+        this.sizes.disconnect();
+        this.controls.dispose();
+        this.renderer.dispose();
+        this.renderer.forceContextLoss();
     }
 
     /** Scales a box to a width of about 2 and puts it in the middle. */
@@ -106,9 +115,13 @@ export class Stage {
     }
 
     #hold(droplet) {
-        this.holder.remove(this.droplet.scene);
+        if (this.droplet) {
+            this.holder.remove(this.droplet.scene);
+        }
         this.holder.add(droplet.scene);
         this.droplet = droplet;
+        this.filled = [1, Math.min((droplet.range ?? [1, 1])[1], 2)];
+        this.thickness = droplet.meshes[0]?.material.thickness;
     }
 
     /** Shows another space, with a mask of these sides [m]. */
@@ -287,6 +300,19 @@ export class Stage {
             controls.minDistance = 0.12 * distance;
             controls.maxDistance = 3 * distance;
             camera.position.copy(target).addScaledVector(direction, distance);
+            controls.target.copy(target);
+        });
+    }
+
+    /**
+     * Puts the camera somewhere.
+     * @param target  point in the middle of the picture, in world units
+     * @param way     from there to the camera, as spherical coordinates
+     */
+    look(target, way) {
+        this.touched = true;
+        this.#atOnce((controls) => {
+            this.camera.position.setFromSpherical(way).add(target);
             controls.target.copy(target);
         });
     }
