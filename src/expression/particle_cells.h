@@ -68,9 +68,9 @@ struct ParticleCells {
     template <typename Visit>
     void rows(std::size_t tile, int x0, int x1, int y0, int y1, const Visit& visit) const
     {
-        for (int y = y0; y <= y1; ++y) {
-            const int ty = y < 0 ? 0 : (y < kTileSide ? 1 : 2);
-            const int row = (y - (ty - 1) * kTileSide) * kTileSide;
+        for (int cell_y = y0; cell_y <= y1; ++cell_y) {
+            const int ty = cell_y < 0 ? 0 : (cell_y < kTileSide ? 1 : 2);
+            const int row = (cell_y - (ty - 1) * kTileSide) * kTileSide;
             for (int tx = x0 < 0 ? 0 : (x0 < kTileSide ? 1 : 2); tx <= 2; ++tx) {
                 const int left = (tx - 1) * kTileSide;
                 const int from = std::max(x0 - left, 0);

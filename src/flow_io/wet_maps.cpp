@@ -141,16 +141,16 @@ struct WetMapper::Content {
             return 0.0;
         }
         const auto& [a, b, c] = t.corners;
-        const auto first = [](double p, double q, double r) {
+        const auto lowest = [](double p, double q, double r) {
             return static_cast<std::int64_t>(std::ceil(std::min({p, q, r}) - 0.5));
         };
-        const auto last = [](double p, double q, double r) {
+        const auto highest = [](double p, double q, double r) {
             return static_cast<std::int64_t>(std::floor(std::max({p, q, r}) - 0.5));
         };
-        const std::int64_t left = first(a.x, b.x, c.x);
-        const std::int64_t right = std::min(last(a.x, b.x, c.x), left + kMaxRepeats * options.width);
-        const std::int64_t top = first(a.y, b.y, c.y);
-        const std::int64_t bottom = std::min(last(a.y, b.y, c.y), top + kMaxRepeats * options.height);
+        const std::int64_t left = lowest(a.x, b.x, c.x);
+        const std::int64_t right = std::min(highest(a.x, b.x, c.x), left + kMaxRepeats * options.width);
+        const std::int64_t top = lowest(a.y, b.y, c.y);
+        const std::int64_t bottom = std::min(highest(a.y, b.y, c.y), top + kMaxRepeats * options.height);
         for (std::int64_t y = top; y <= bottom; ++y) {
             for (std::int64_t x = left; x <= right; ++x) {
                 const std::array<double, 3> w = t.weights({static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5});

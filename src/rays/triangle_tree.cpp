@@ -19,7 +19,7 @@ constexpr double kReach = 2e-6;
 float roundedDown(double value)
 {
     const auto near = static_cast<float>(value);
-    return near > value ? std::nextafter(near, -std::numeric_limits<float>::infinity()) : near;
+    return static_cast<double>(near) > value ? std::nextafter(near, -std::numeric_limits<float>::infinity()) : near;
 }
 
 float roundedUp(double value)
