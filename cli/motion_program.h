@@ -3,7 +3,7 @@
 
 namespace cli {
 
-/// Runs a command of what moves: on Linux, by becoming the program that has them.
+/// Runs a command of what moves: unless one program has all commands, by becoming the program that has them.
 /// @param argv            the program's name, a command of what moves, and its arguments
 /// @return                exit code
 /// @throws droplet::Error on any failure; InvalidArgument: the program is missing

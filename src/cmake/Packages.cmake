@@ -17,7 +17,13 @@ install(FILES ${CMAKE_CURRENT_LIST_DIR}/package/lintian-overrides DESTINATION ${
 
 # The archive has the C library and its loader, too, which run on every kernel of Linux since 3.2. A small program without
 # libraries starts each of its programs through them; see cli/launch.
-install(RUNTIME_DEPENDENCY_SET droplet_runtime DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT bundle EXCLUDE_FROM_ALL
+set(own_data)
+if(DROPLET_ARCHIVE_LIBRARIES)
+  file(GLOB icu_data CONFIGURE_DEPENDS ${DROPLET_ARCHIVE_LIBRARIES}/libicudata.so.*)
+  install(PROGRAMS ${icu_data} DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT bundle EXCLUDE_FROM_ALL)
+  set(own_data PRE_EXCLUDE_REGEXES ^libicudata\\.)
+endif()
+install(RUNTIME_DEPENDENCY_SET droplet_runtime ${own_data} DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT bundle EXCLUDE_FROM_ALL
   PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 add_executable(droplet_launch ${PROJECT_SOURCE_DIR}/cli/launch/launch.cpp)
 target_compile_features(droplet_launch PRIVATE cxx_std_20)
@@ -30,7 +36,7 @@ target_link_options(droplet_launch PRIVATE -static -fno-sanitize=all)
 install(CODE "
   set(strip \"${CMAKE_STRIP}\")
   set(launch \"${PROJECT_BINARY_DIR}/droplet_launch\")
-  set(launched ${CMAKE_INSTALL_BINDIR}/droplet-shape ${CMAKE_INSTALL_LIBDIR}/${private}/droplet-motion
+  set(launched ${CMAKE_INSTALL_BINDIR}/droplet-shape $<$<NOT:$<BOOL:${DROPLET_ONE_PROGRAM}>>:${CMAKE_INSTALL_LIBDIR}/${private}/droplet-motion>
     ${CMAKE_INSTALL_LIBDIR}/${private}/droplet-svg)" COMPONENT command)
 install(SCRIPT ${CMAKE_CURRENT_LIST_DIR}/package/launch_programs.cmake COMPONENT command)
 

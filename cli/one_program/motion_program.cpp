@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Windows' linker brings all libraries into each program, so one program has all commands.
+// One program has all commands.
 #include "motion_program.h"
 
 #include "commands.h"
