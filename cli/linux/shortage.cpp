@@ -73,7 +73,7 @@ std::size_t pagesOf(std::size_t field)
 /// Whether an allocation by `new` has failed.
 std::atomic<bool> was_refused{false};
 
-void refuseMemory()
+[[noreturn]] void refuseMemory()
 {
     was_refused = true;
     throw std::bad_alloc();
