@@ -597,7 +597,7 @@ private:
         const std::optional<Column> angles = column("_CONTACT_ANGLE", TINYGLTF_TYPE_SCALAR);
         const std::optional<Column> weights = options_.weights ? weightsOf(primitive) : std::nullopt;
         const std::size_t count = vertices.size();
-        const auto fits = [count](const std::optional<Column>& column) { return !column || column->size() == count; };
+        const auto fits = [count](const std::optional<Column>& one) { return !one || one->size() == count; };
         if (!fits(uvs) || !fits(normals) || !fits(angles) || (weights && weights->size() != count)) {
             throw Damage(name + " has attributes of different lengths");
         }
