@@ -6,7 +6,8 @@
 // 1. The default glass with 2000 moving droplets, alone and among 200 000 still ones, dry and in the rain.
 // 2. Larger and larger glasses with the same number of droplets per area: time per droplet.
 // 3. Maps for a renderer that runs along, and for files, one core: the thesis' scale, and heavy rain with wipers.
-// 4. An hour, or SECONDS, of rain at 25 mm/h: water balance and number of droplets.
+// 4. Frames of 1280 x 720 pixels of the thesis' figures and of heavy rain, with wipers, one core: every part of them.
+// 5. An hour, or SECONDS, of rain at 25 mm/h: water balance and number of droplets.
 #include "droplet/windshield/windshield.h"
 
 #include <tbb/global_control.h>
@@ -19,13 +20,17 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <ostream>
 #include <random>
+#include <streambuf>
 #include <utility>
 #include <vector>
 
+#include "droplet/drawing/picture.h"
 #include "droplet/windshield/presets.h"
 #include "droplet/windshield/wipers.h"
 #include "droplet/windshield_view/glass_maps.h"
+#include "droplet/windshield_view/view.h"
 #include "droplet/windshield_view/windshield_maps.h"
 #include "memory.h"
 #include "windshield/still_droplets.h"
@@ -41,6 +46,22 @@ constexpr int kSteps = 31;
 double now()
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Time that work takes [s].
+template <typename Work>
+double timeOf(const Work& work)
+{
+    const double begin = now();
+    work();
+    return now() - begin;
+}
+
+double medianOf(std::vector<double> values)
+{
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 double uniform(std::mt19937_64& bits)
@@ -114,12 +135,8 @@ Timing time(WindshieldState state, const WindshieldParameters& p)
         timing.droplets += count / kSteps;
         timing.moving += static_cast<double>(state.tracks.size()) / kSteps;
     }
-    const auto median = [](std::vector<double>& values) {
-        std::nth_element(values.begin(), values.begin() + kSteps / 2, values.end());
-        return values[kSteps / 2];
-    };
-    timing.step = median(steps);
-    timing.droplet = median(each);
+    timing.step = medianOf(std::move(steps));
+    timing.droplet = medianOf(std::move(each));
     return timing;
 }
 
@@ -170,10 +187,6 @@ void timeMaps()
         std::size_t still;
         double rains;  // before [s]
     };
-    const auto median = [](std::vector<double> values) {
-        std::nth_element(values.begin(), values.begin() + kSteps / 2, values.end());
-        return values[kSteps / 2];
-    };
     for (const Case& c :
          {Case{"the thesis' scale", 5.0, 500, 40'000, 0.0}, Case{"50 mm/h for 20 s, wipers", 50.0, 0, 0, 20.0},
           Case{"many", 5.0, 14'000, 100'000, 0.0}}) {
@@ -189,24 +202,87 @@ void timeMaps()
         WindshieldMaps maps(p.glass);
         std::vector<std::uint16_t> pixels(4 * static_cast<std::size_t>(maps.width()) *
                                           static_cast<std::size_t>(maps.height()));
-        double begin = now();
-        maps.update(state, pixels);
-        const double first = now() - begin;
+        const double first = timeOf([&] { maps.update(state, pixels); });
         std::vector<double> steps;
         std::vector<double> updates;
         for (int k = 0; k < kSteps; ++k) {
-            begin = now();
-            state = step(std::move(state), p, kStep);
-            steps.push_back(now() - begin);
-            begin = now();
-            maps.update(state, pixels);
-            updates.push_back(now() - begin);
+            steps.push_back(timeOf([&] { state = step(std::move(state), p, kStep); }));
+            updates.push_back(timeOf([&] { maps.update(state, pixels); }));
         }
-        begin = now();
-        const GlassMaps files = glassMaps(p.glass, state, {.width = 1024});
-        const double whole = now() - begin;
+        const double whole = timeOf([&] { glassMaps(p.glass, state, {.width = 1024}); });
         std::printf("| %s | %zu | %zu | %.2f ms | %.2f ms | %.1f ms | %.1f ms |\n", c.name, state.droplets.size(),
-                    state.still.count(), 1e3 * median(steps), 1e3 * median(updates), 1e3 * first, 1e3 * whole);
+                    state.still.count(), 1e3 * medianOf(steps), 1e3 * medianOf(updates), 1e3 * first, 1e3 * whole);
+    }
+}
+
+/// Takes bytes and forgets them.
+class Nowhere : public std::streambuf {
+    int_type overflow(int_type c) override { return traits_type::not_eof(c); }
+    std::streamsize xsputn(const char* /*bytes*/, std::streamsize count) override { return count; }
+};
+
+void timeFrames()
+{
+    std::puts(
+        "\n| frames with wipers | running | still | step | frame without wipers | wipers add | its PNG | maps | PNGs "
+        "of maps |");
+    std::puts("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    struct Case {
+        const char* name;
+        const char* preset;
+        double rainfall;  // [mm/h]
+    };
+    for (const Case& c : {Case{"figure 3.10", "figure-3.10", 5.0}, Case{"figure 3.11", "figure-3.11", 5.0},
+                          Case{"figure 3.12", "figure-3.12", 5.0}, Case{"25 mm/h", "figure-3.12", 25.0}}) {
+        WindshieldParameters p = windshieldPresetNamed(c.preset).parameters;
+        p.rainfall = c.rainfall * kMillimetrePerHour;
+        p.wipers = tandemWipers(p.glass, 1.2);
+        ViewOptions options;
+        const Picture road = defaultBackground(options);
+        DriversView without(p.glass, options);
+        options.wipers = p.wipers;
+        DriversView with(p.glass, options);
+        without.setBackground(road);
+        with.setBackground(road);
+        WindshieldState state = startWindshield(p);
+        while (state.time < 6.0) {  // five strokes
+            state = step(std::move(state), p, kStep);
+        }
+        std::vector<double> steps;
+        std::vector<double> bare;
+        std::vector<double> added;
+        std::vector<double> pngs;
+        std::vector<double> maps;
+        std::vector<double> map_pngs;
+        Nowhere nowhere;
+        std::ostream out(&nowhere);
+        for (int k = 0; k < 72; ++k) {  // a stroke
+            steps.push_back(timeOf([&] { state = step(std::move(state), p, kStep); }));
+            Picture frame;
+            bare.push_back(timeOf([&] {
+                without.show(state);
+                frame = without.frame();
+            }));
+            added.push_back(timeOf([&] {
+                                with.show(state);
+                                frame = with.frame();
+                            }) -
+                            bare.back());
+            if (k % 8 == 0) {
+                pngs.push_back(timeOf([&] { writePng(frame, out, PngEffort::Fast); }));
+                GlassMaps files;
+                maps.push_back(timeOf([&] { files = glassMaps(p.glass, state, {.width = 1024}); }));
+                map_pngs.push_back(timeOf([&] {
+                    writePng(files.normal, out, PngEffort::Fast);
+                    writePng(files.thickness, out, PngEffort::Fast);
+                    writePng(files.velocity, out, PngEffort::Fast);
+                }));
+            }
+        }
+        std::printf("| %s | %zu | %zu | %.2f ms | %.1f ms | %.1f ms | %.1f ms | %.1f ms | %.1f ms |\n", c.name,
+                    state.droplets.size(), state.still.count(), 1e3 * medianOf(steps), 1e3 * medianOf(bare),
+                    1e3 * medianOf(added), 1e3 * medianOf(pngs), 1e3 * medianOf(maps), 1e3 * medianOf(map_pngs));
     }
 }
 
@@ -251,6 +327,7 @@ int main(int argc, char** argv)
         timeDefaultGlass();
         timeGrowth();
         timeMaps();
+        timeFrames();
         timeHour(seconds);
         return 0;
     } catch (const std::exception& error) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 
 namespace droplet {
 
@@ -58,10 +59,17 @@ inline const EncodedLevels& encodedLevels()
     return levels;
 }
 
+/// Step of the table for linear light.
+inline int encodedStep(float light)
+{
+    constexpr std::size_t kLast = std::tuple_size_v<EncodedLevels> - 1;
+    return nearest(static_cast<float>(kLast) * light, kLast);
+}
+
 /// sRGB level of linear light, exact to half a level except in the dark, where a step of 1/4096 is more.
 inline std::uint8_t encoded(float light, const EncodedLevels& levels = encodedLevels())
 {
-    return levels[static_cast<std::size_t>(nearest(static_cast<float>(levels.size() - 1) * light, levels.size() - 1))];
+    return levels[static_cast<std::size_t>(encodedStep(light))];
 }
 
 /// Mix of a level over another by alpha, rounded to the nearest.

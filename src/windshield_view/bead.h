@@ -18,7 +18,8 @@ struct WaterMet {
 /// Share of a pixel inside an edge, at a distance from it that is positive inside.
 inline float within(float distance, float pixel)
 {
-    return std::clamp(distance / pixel + 0.5F, 0.0F, 1.0F);
+    // Without a branch, unlike std::clamp.
+    return std::min(std::max(distance / pixel + 0.5F, 0.0F), 1.0F);
 }
 
 /// Line of water on the glass whose section is half an ellipse.

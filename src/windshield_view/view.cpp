@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -88,6 +89,11 @@ struct StraightPixel {
     return {encoded(straight[0], levels), encoded(straight[1], levels), encoded(straight[2], levels), alpha};
 }
 
+/// Pixels of a tile that are opaque, and whose levels are known without their light.
+struct KnownPixels {
+    std::array<StraightPixel, kTilePixels> pixels;  ///< alpha 0: not known
+};
+
 /// Linear light of levels.
 Float4 lightOf(std::uint8_t red, std::uint8_t green, std::uint8_t blue)
 {
@@ -103,6 +109,12 @@ public:
     void take(std::size_t pixel, const StraightPixel& seen)
     {
         std::uint8_t* const to = frame_.rgb.data() + 3 * pixel;
+        if (seen.alpha == 255) {
+            to[0] = seen.red;
+            to[1] = seen.green;
+            to[2] = seen.blue;
+            return;
+        }
         to[0] = mixedLevel(seen.red, to[0], seen.alpha);
         to[1] = mixedLevel(seen.green, to[1], seen.alpha);
         to[2] = mixedLevel(seen.blue, to[2], seen.alpha);
@@ -275,19 +287,22 @@ struct DriversView::Content {
     }
 
     /// Draws droplets of a tile that are not blurred; their light is premultiplied by their cover.
-    /// @return  number of moments of blurred droplets; 1: there are none
-    int drawResting(std::size_t tile, TileLight& light) const
+    /// @param known  gets pixels whose light is not needed
+    /// @return       number of moments of blurred droplets; 1: there are none
+    int drawResting(std::size_t tile, TileLight& light, KnownPixels& known) const
     {
         light.fill(float4(0.0F));
+        known.pixels.fill({});
         const float share = shareOfRay();
         for (const StillSample& sample : stills->inTile(tile)) {
             light[sample.pixel] += float4(share * static_cast<float>(sample.cover)) *
                                    seen(scene.backdrop.at(sample.outside), static_cast<float>(sample.light) / 255.0F);
         }
-        if (wipers.reach(tile)) {
-            drawWaterLeft(tile, light);
-        }
         const bool has_blades = wipers.reachNow(tile);
+        if (wipers.hasWaterLeft(tile)) {
+            const bool is_last = running->inTile(tile).empty() && !splashes.reach(tile) && !has_blades;
+            drawWaterLeft(tile, light, is_last ? &known : nullptr);
+        }
         int moments = has_blades ? wipers.moments() : 1;
         for (const RaysInTile& in_tile : running->inTile(tile)) {
             moments = std::max(moments, in_tile.moments);
@@ -373,50 +388,114 @@ struct DriversView::Content {
         return {by({kSlope, 0.0F}), by({0.0F, kSlope}), reflected, float4(reflected) * (pane * cabin)};
     }
 
-    /// Light through a film, premultiplied: the bare picture, slightly displaced.
-    /// @param column, row  the pixel
-    [[nodiscard]] Float4 throughFilm(const WaterMet& water, const FilmOptics& film, float column, float row) const
+    /// Pixel of the bare picture.
+    struct Levels {
+        std::uint8_t red = 0;
+        std::uint8_t green = 0;
+        std::uint8_t blue = 0;
+    };
+
+    /// What a film shows: the bare picture, slightly displaced. Levels, not light, are interpolated: a part of a pixel
+    /// makes no difference that is seen.
+    /// @param x, y  within the picture [px]
+    [[nodiscard]] Levels levelsAt(float x, float y) const
     {
         const Eye& eye = scene.eye;
-        const float x = std::clamp(column + film.by_x.x * water.slope.x + film.by_y.x * water.slope.y, 0.0F,
-                                   static_cast<float>(eye.width() - 1));
-        const float y = std::clamp(row + film.by_x.y * water.slope.x + film.by_y.y * water.slope.y, 0.0F,
-                                   static_cast<float>(eye.height() - 1));
         const int left = std::min(static_cast<int>(x), eye.width() - 2);
         const int top = std::min(static_cast<int>(y), eye.height() - 2);
         const std::uint8_t* const above = bare.rgb.data() + 3 * eye.at(left, top);
         const std::uint8_t* const below = above + 3 * static_cast<std::size_t>(eye.width());
         const Float4 right = float4(x - static_cast<float>(left));
-        // Levels, not light, are interpolated: a part of a pixel makes no difference that is seen.
-        const auto levels = [](const std::uint8_t* at) {
-            return Float4{static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2]), 0.0F};
+        const auto across = [&](const std::uint8_t* at) {
+            // Two words of four bytes have both pixels and nothing beyond them.
+            std::uint32_t first = 0;
+            std::uint32_t last = 0;
+            std::memcpy(&first, at, 4);
+            std::memcpy(&last, at + 2, 4);
+            const Float4 one = floatsOf(first);
+            return one + right * (floatsOf(last >> 8U) - one);
         };
-        const Float4 upper = levels(above) + right * (levels(above + 3) - levels(above));
-        const Float4 lower = levels(below) + right * (levels(below + 3) - levels(below));
-        const Float4 level = upper + float4(y - static_cast<float>(top)) * (lower - upper) + float4(0.5F);
-        Float4 light = float4(1.0F - film.reflected) * lightOf(static_cast<std::uint8_t>(level[0]),
-                                                               static_cast<std::uint8_t>(level[1]),
-                                                               static_cast<std::uint8_t>(level[2])) +
-                       film.cabin;
+        const Float4 upper = across(above);
+        const Float4 level = upper + float4(y - static_cast<float>(top)) * (across(below) - upper) + float4(0.5F);
+        return {static_cast<std::uint8_t>(level[0]), static_cast<std::uint8_t>(level[1]),
+                static_cast<std::uint8_t>(level[2])};
+    }
+
+    /// The lowest three bytes.
+    static Float4 floatsOf(std::uint32_t bytes)
+    {
+        using Int4 = std::int32_t __attribute__((vector_size(16)));
+        const auto byte = [bytes](unsigned k) { return static_cast<std::int32_t>(bytes >> (8U * k) & 255U); };
+        return __builtin_convertvector((Int4{byte(0), byte(1), byte(2), 0}), Float4);
+    }
+
+    /// Light through a film that covers its pixel.
+    static Float4 throughFilm(Levels behind, const FilmOptics& film)
+    {
+        Float4 light = float4(1.0F - film.reflected) * lightOf(behind.red, behind.green, behind.blue) + film.cabin;
         light[3] = 1.0F;
-        return float4(water.cover) * light;
+        return light;
     }
 
     /// Draws water that wipers have left below the light.
-    void drawWaterLeft(std::size_t number, TileLight& light) const
+    /// @param known  gets pixels that have nothing but a film; null: none
+    void drawWaterLeft(std::size_t number, TileLight& light, KnownPixels* known) const
     {
         const ViewTile& tile = scene.tiles[number];
-        const FilmOptics film = filmOpticsOf(number);
-        forTile(number, [&](int x, int y, Vec2f place) {
-            const std::uint8_t pixel = pixelInTile(x, y);
-            const WaterMet water = wipers.waterLeft({number, pixel}, place, tile.pixel);
-            if (water.cover > 0.0F) {
-                light[pixel] +=
-                    float4(1.0F - light[pixel][3]) *
-                    (water.is_bead ? throughBead(water, tile, scene.eye.ray(x, y))
-                                   : throughFilm(water, film, static_cast<float>(x), static_cast<float>(y)));
+        WiperView::WaterLeft left;
+        wipers.waterLeft(number, left);
+        const FilmOptics& film = filmOpticsOf(number);
+        const ViewContext::TilePlaces places = scene.placesOf(number);
+        // Displaced places of all pixels.
+        std::array<float, kTilePixels> xs;
+        std::array<float, kTilePixels> ys;
+        const auto max_x = static_cast<float>(scene.eye.width() - 1);
+        const auto max_y = static_cast<float>(scene.eye.height() - 1);
+        std::size_t plain = 0;
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            const float x = static_cast<float>(places.left + static_cast<int>(k % kTile)) +
+                            film.by_x.x * left.slope_x[k] + film.by_y.x * left.slope_y[k];
+            const float y = static_cast<float>(places.top + static_cast<int>(k / kTile)) +
+                            film.by_x.y * left.slope_x[k] + film.by_y.y * left.slope_y[k];
+            xs[k] = std::min(std::max(x, 0.0F), max_x);
+            ys[k] = std::min(std::max(y, 0.0F), max_y);
+            plain += left.cover[k] >= 1.0F ? 1 : 0;
+        }
+        // Levels by levels behind: worth their while for as many pixels as these.
+        std::array<std::array<std::uint8_t, 256>, 3> through;
+        const bool has_table = known != nullptr && plain > 64;
+        if (has_table) {
+            const EncodedLevels& levels = encodedLevels();
+            const std::array<float, 256>& lights = displayLevels();
+            std::array<int, 256> steps;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float part = 1.0F - film.reflected;
+                const float rest = film.cabin[static_cast<int>(c)];
+                for (std::size_t level = 0; level < 256; ++level) {
+                    steps[level] = encodedStep(part * lights[level] + rest);
+                }
+                for (std::size_t level = 0; level < 256; ++level) {
+                    through[c][level] = levels[static_cast<std::size_t>(steps[level])];
+                }
             }
-        });
+        }
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            if (!(left.cover[k] > 0.0F)) {
+                continue;
+            }
+            if (left.is_bead[k] != 0) {
+                const int x = places.left + static_cast<int>(k % kTile);
+                const int y = places.top + static_cast<int>(k / kTile);
+                light[k] += float4(1.0F - light[k][3]) * throughBead(left.at(k), tile, scene.eye.ray(x, y));
+                continue;
+            }
+            const Levels behind = levelsAt(xs[k], ys[k]);
+            if (has_table && left.cover[k] >= 1.0F && light[k][3] == 0.0F) {
+                known->pixels[k] = {through[0][behind.red], through[1][behind.green], through[2][behind.blue], 255};
+            } else {
+                light[k] += float4(1.0F - light[k][3]) * (float4(left.cover[k]) * throughFilm(behind, film));
+            }
+        }
     }
 
     /// Draws rings of splashes into the light of what rests.
@@ -541,16 +620,18 @@ struct DriversView::Content {
 
     /// Writes the light of a tile in which nothing is blurred.
     template <typename Writer>
-    void writeTile(int column, int row, const TileLight& light, const EncodedLevels& levels, Writer& writer) const
+    void writeTile(int column, int row, const TileLight& light, const KnownPixels& known, const EncodedLevels& levels,
+                   Writer& writer) const
     {
         const int left = column * kTile;
         const auto across = static_cast<std::size_t>(std::min(kTile, scene.eye.width() - left));
         const int bottom = std::min((row + 1) * kTile, scene.eye.height());
         const Float4* from = light.data();
-        for (int y = row * kTile; y < bottom; ++y, from += kTile) {
+        const StraightPixel* known_from = known.pixels.data();
+        for (int y = row * kTile; y < bottom; ++y, from += kTile, known_from += kTile) {
             const std::size_t first = scene.eye.at(left, y);
             for (std::size_t x = 0; x < across; ++x) {
-                const StraightPixel straight = straightOf(from[x], levels);
+                const StraightPixel straight = known_from[x].alpha > 0 ? known_from[x] : straightOf(from[x], levels);
                 if (straight.alpha > 0) {
                     writer.take(first + x, straight);
                 }
@@ -565,6 +646,7 @@ struct DriversView::Content {
         const Tiles& tiles = scene.tiles;
         tbb::parallel_for(0, tiles.rows(), [&](int r) {
             TileLight light;
+            KnownPixels known;
             MomentSums sums;
             const EncodedLevels& levels = encodedLevels();
             for (int c = 0; c < tiles.columns(); ++c) {
@@ -573,13 +655,13 @@ struct DriversView::Content {
                     !splashes.reach(tile)) {
                     continue;
                 }
-                const int moments = drawResting(tile, light);
+                const int moments = drawResting(tile, light, known);
                 const auto number = [&](std::size_t pixel) {
                     return scene.eye.at(c * kTile + static_cast<int>(pixel % kTile),
                                         r * kTile + static_cast<int>(pixel / kTile));
                 };
                 if (moments == 1) {
-                    writeTile(c, r, light, levels, writer);
+                    writeTile(c, r, light, known, levels, writer);
                     continue;
                 }
                 const auto look = [&](std::uint8_t pixel, const Float4& seen) {

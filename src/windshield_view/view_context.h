@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "drawing/tone.h"
@@ -70,6 +72,27 @@ struct ViewContext {
     [[nodiscard]] double timeOf(int moment, int moments) const
     {
         return options.shutter_time * ((moment + 0.5) / moments - 0.5);
+    }
+
+    /// Places on the glass of the pixels of a tile.
+    struct TilePlaces {
+        const Eye& eye;
+        int left = 0;
+        int top = 0;
+
+        /// As Eye::place(); NaN beyond the frame.
+        Vec2f operator()(std::size_t pixel) const
+        {
+            constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+            const int x = left + static_cast<int>(pixel % kTile);
+            const int y = top + static_cast<int>(pixel / kTile);
+            return x < eye.width() && y < eye.height() ? eye.place(x, y) : Vec2f{kNone, kNone};
+        }
+    };
+    [[nodiscard]] TilePlaces placesOf(std::size_t tile) const
+    {
+        const auto columns = static_cast<std::size_t>(tiles.columns());
+        return {eye, static_cast<int>(tile % columns) * kTile, static_cast<int>(tile / columns) * kTile};
     }
 
     ViewOptions options;

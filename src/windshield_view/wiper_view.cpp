@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -19,6 +20,7 @@ constexpr float kBesideBlade = 0.06F;  // reach of arm and water [m]
 constexpr float kFilmLasts = 0.75F;    // lifetime of a film [s]
 constexpr float kWedgeLasts = 0.8F;    // lifetime of a wedge [s]
 constexpr float kWidestBead = 0.007F;  // largest width of pushed water [m]
+constexpr float kWidestWedge = 1.7F * kWidestBead * 1.1F;
 
 /// Smooth random field from 0 to 1, and its derivatives.
 struct Field {
@@ -76,9 +78,17 @@ constexpr std::int32_t kSamplesAlong = 256;
 constexpr std::int32_t kSamplesAcross = 512;
 
 /// Level below which the glass is bare at an age of the film.
+constexpr float kBareAtOnce = 0.12F;
 float brokenAt(float age)
 {
-    return 0.12F + 0.88F * std::sqrt(age / kFilmLasts);
+    return kBareAtOnce + (1.0F - kBareAtOnce) * std::sqrt(age / kFilmLasts);
+}
+
+/// As std::floor(), without a call; for values that fit into an integer.
+std::int32_t floorOf(float value)
+{
+    const auto whole = static_cast<std::int32_t>(value);
+    return whole - (value < static_cast<float>(whole) ? 1 : 0);
 }
 
 /// Slope of a film over that of its level at an age [m].
@@ -159,18 +169,27 @@ Float4 WiperView::FilmField::at(float along, float across) const
 {
     const float u = along * (kSamplesAlong / kRoundAlong);
     const float v = across * (kSamplesAcross / kRoundAcross);
-    const float column = std::floor(u);
-    const float row = std::floor(v);
+    const std::int32_t column = floorOf(u);
+    const std::int32_t row = floorOf(v);
     const auto sample = [&](std::int32_t i, std::int32_t j) -> const Float4& {
-        return samples_[static_cast<std::size_t>((static_cast<std::int32_t>(row) + j) & (kSamplesAcross - 1)) *
-                            kSamplesAlong +
-                        static_cast<std::size_t>((static_cast<std::int32_t>(column) + i) & (kSamplesAlong - 1))];
+        return samples_[static_cast<std::size_t>((row + j) & (kSamplesAcross - 1)) * kSamplesAlong +
+                        static_cast<std::size_t>((column + i) & (kSamplesAlong - 1))];
     };
-    const Float4 x = float4(u - column);
-    const Float4 y = float4(v - row);
+    const Float4 x = float4(u - static_cast<float>(column));
+    const Float4 y = float4(v - static_cast<float>(row));
     const Float4 low = sample(0, 0) + x * (sample(1, 0) - sample(0, 0));
     const Float4 high = sample(0, 1) + x * (sample(1, 1) - sample(0, 1));
-    return low + y * (high - low);
+    Float4 field = low + y * (high - low);
+    field[3] = std::sqrt(field[1] * field[1] + field[2] * field[2]);
+    return field;
+}
+
+float WiperView::FilmField::dryAge(float level)
+{
+    // The bare level is tabulated by steps of age.
+    constexpr float kMore = 1.01F / static_cast<float>(kSteps);
+    const float root = std::max(level - kBareAtOnce, 0.0F) / (1.0F - kBareAtOnce);
+    return level > kBareAtOnce ? root * root + kMore : 0.0F;
 }
 
 WiperView::Blade WiperView::bladeAt(const Wiper& wiper, double time)
@@ -227,26 +246,37 @@ void WiperView::update(double time)
         one.wedge = wedgeOf(one);
         states_.push_back(std::move(one));
     }
-    // Tiles with a part within reach of a wiper, and of a blade now.
     tiles_.assign(scene_.tiles.count(), {});
-    for (std::size_t k = 0; k < tiles_.size(); ++k) {
-        const ViewTile& tile = scene_.tiles[k];
-        const Vec2f half{0.5F * (tile.high.x - tile.low.x), 0.5F * (tile.high.y - tile.low.y)};
-        for (const WiperState& one : states_) {
-            const Vec2f pivot = toFloats2(one.wiper.pivot);
-            const float x = std::clamp(pivot.x, tile.low.x, tile.high.x) - pivot.x;
-            const float y = std::clamp(pivot.y, tile.low.y, tile.high.y) - pivot.y;
-            const auto reach = static_cast<float>(one.wiper.outer) + 0.02F;
-            if (!tile.on_glass || x * x + y * y >= reach * reach) {
-                continue;
-            }
-            tiles_[k].in_field = true;
-            const Vec2f middle{tile.low.x + half.x - pivot.x, tile.low.y + half.y - pivot.y};
-            for (const Blade& blade : one.blades) {
-                const float aside = std::abs(middle.y * blade.along.x - middle.x * blade.along.y);
-                const float extent = half.x * std::abs(blade.along.y) + half.y * std::abs(blade.along.x);
-                tiles_[k].at_blade = tiles_[k].at_blade || aside <= kBesideBlade + extent;
-            }
+    tbb::parallel_for(std::size_t{0}, tiles_.size(), [&](std::size_t k) { updateTile(k); });
+}
+
+void WiperView::updateTile(std::size_t number)
+{
+    TileReach& reach = tiles_[number];
+    const ViewTile& tile = scene_.tiles[number];
+    if (!tile.on_glass) {
+        return;
+    }
+    const Vec2f half{0.5F * (tile.high.x - tile.low.x), 0.5F * (tile.high.y - tile.low.y)};
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+        const WiperState& one = states_[k];
+        if (FilmPixels* const film = films_[k][number].get(); film != nullptr) {
+            renew(one, *film, number);
+            reach.has_water_left = reach.has_water_left || film->is_wet;
+        }
+        reach.has_water_left = reach.has_water_left || reachWedge(one, tile);
+        const Vec2f pivot = toFloats2(one.wiper.pivot);
+        const float x = std::clamp(pivot.x, tile.low.x, tile.high.x) - pivot.x;
+        const float y = std::clamp(pivot.y, tile.low.y, tile.high.y) - pivot.y;
+        const auto far = static_cast<float>(one.wiper.outer) + 0.02F;
+        if (x * x + y * y >= far * far) {
+            continue;
+        }
+        const Vec2f middle{tile.low.x + half.x - pivot.x, tile.low.y + half.y - pivot.y};
+        for (const Blade& blade : one.blades) {
+            const float aside = std::abs(middle.y * blade.along.x - middle.x * blade.along.y);
+            const float extent = half.x * std::abs(blade.along.y) + half.y * std::abs(blade.along.x);
+            reach.at_blade = reach.at_blade || aside <= kBesideBlade + extent;
         }
     }
 }
@@ -278,44 +308,131 @@ WiperView::FilmPlace WiperView::filmPlaceOf(const Wiper& wiper, Vec2f from)
             angle * static_cast<float>(wiper.outer)};
 }
 
-WaterMet WiperView::film(const WiperState& one, const FilmPlace& place, Vec2f from, float pixel) const
+WiperView::Passed WiperView::passed(const WiperState& one, float there)
 {
-    if (one.since < 0.0 || place.there < 0.0F) {
-        return {};
-    }
-    const Wiper& wiper = one.wiper;
     // Times at which the blade passed: forward, and on its way back.
-    const auto stroke = static_cast<float>(wiper.stroke);
-    const float there = place.there;
+    const auto stroke = static_cast<float>(one.wiper.stroke);
     const auto since = static_cast<float>(one.since);
-    std::size_t way = 1;
-    float age = since - there;
     if (since >= stroke - there) {
-        age = since - (stroke - there);
-        way = 2;
-    } else if (age < 0.0F) {
-        if (one.stroke == 0) {
-            return {};
+        return {2, since - (stroke - there)};
+    }
+    if (since - there >= 0.0F) {
+        return {1, since - there};
+    }
+    if (one.stroke == 0) {
+        return {0, std::numeric_limits<float>::infinity()};
+    }
+    return {0, since + static_cast<float>(one.wiper.period) - (stroke - there)};
+}
+
+void WiperView::renew(const WiperState& one, FilmPixels& film, std::size_t tile) const
+{
+    const Passed first = passed(one, film.first);
+    const Passed last = passed(one, film.last);
+    const float age = std::min(first.age, last.age);
+    film.is_wet = age < kFilmLasts;
+    if (!film.is_wet || first.way != last.way) {
+        film.way.reset();
+        return;
+    }
+    const std::uint32_t way = 2 * one.stroke + first.way;
+    if (film.way != way) {
+        film.way = way;
+        setField(
+            one, film, tile, [&](std::size_t /*pixel*/) { return first.way; }, film.field);
+        film.lasts =
+            kFilmLasts * FilmField::dryAge(*std::max_element(film.field.level.begin(), film.field.level.end()));
+    }
+    film.is_wet = age < film.lasts;
+}
+
+template <typename Way>
+void WiperView::setField(const WiperState& one, const FilmPixels& film, std::size_t tile, const Way& way,
+                         FieldPixels& field) const
+{
+    const Vec2f pivot = toFloats2(one.wiper.pivot);
+    const ViewContext::TilePlaces places = scene_.placesOf(tile);
+    for (std::size_t k = 0; k < kTilePixels; ++k) {
+        if (film.there[k] < 0.0F) {
+            field.set(k, Float4{-1.0F, 0.0F, 0.0F, 1.0F});
+            continue;
         }
-        age = since + static_cast<float>(wiper.period) - (stroke - there);
-        way = 0;
+        const Vec2f place = places(k);
+        const Vec2f shift = one.film_shifts[way(k)];
+        field.set(k, film_->at(film.along[k] + shift.x, size({place.x - pivot.x, place.y - pivot.y}) + shift.y));
     }
-    if (age >= kFilmLasts) {
-        return {};
+}
+
+void WiperView::addFilm(const WiperState& one, const FilmPixels& film, std::size_t tile, WaterLeft& left) const
+{
+    std::array<float, kTilePixels> ages;
+    FieldPixels mixed;
+    const FieldPixels* field = &film.field;
+    if (film.way) {
+        const auto stroke = static_cast<float>(one.wiper.stroke);
+        const auto since = static_cast<float>(one.since);
+        const std::uint32_t way = *film.way - 2 * one.stroke;
+        const float later = way == 0 ? since + static_cast<float>(one.wiper.period) : since;
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            ages[k] = later - (way == 1 ? film.there[k] : stroke - film.there[k]);
+        }
+    } else {
+        std::array<std::uint32_t, kTilePixels> ways;
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            const Passed last = passed(one, film.there[k]);
+            ways[k] = last.way;
+            ages[k] = last.age;
+        }
+        setField(
+            one, film, tile, [&](std::size_t k) { return ways[k]; }, mixed);
+        field = &mixed;
     }
-    const auto [broken, thickness] = film_->ofAge(age / kFilmLasts);
-    const float radius = size(from);
-    const Vec2f shift = one.film_shifts[way];
-    const Float4 field = film_->at(place.along + shift.x, radius + shift.y);
-    const float level = field[0] - broken;
-    if (level <= 0.0F) {
-        return {};
+    std::array<std::int32_t, kTilePixels> steps;
+    for (std::size_t k = 0; k < kTilePixels; ++k) {
+        steps[k] = FilmField::stepOf(ages[k] / kFilmLasts);
     }
-    const float steepness = std::sqrt(field[1] * field[1] + field[2] * field[2]);
-    const float scale = thickness * film_->rimOf(level) / radius;
-    return {within(level / std::max(steepness, 1e-3F), pixel),
-            {scale * (field[2] * from.x - field[1] * from.y), scale * (field[2] * from.y + field[1] * from.x)},
-            false};
+
+    // The wet pixels and what their films are made of.
+    std::size_t count = 0;
+    std::array<std::uint32_t, kTilePixels> wet;
+    std::array<float, kTilePixels> level;
+    for (std::size_t k = 0; k < kTilePixels; ++k) {
+        wet[count] = static_cast<std::uint32_t>(k);
+        level[count] = field->level[k] - film_->ofAge(steps[k]).broken;
+        count += (level[count] > 0.0F) & (ages[k] < kFilmLasts) ? 1 : 0;
+    }
+    const Vec2f pivot = toFloats2(one.wiper.pivot);
+    const ViewContext::TilePlaces places = scene_.placesOf(tile);
+    std::array<float, kTilePixels> x;
+    std::array<float, kTilePixels> y;
+    std::array<float, kTilePixels> along;
+    std::array<float, kTilePixels> across;
+    std::array<float, kTilePixels> steepest;
+    std::array<float, kTilePixels> scale;
+    for (std::size_t j = 0; j < count; ++j) {
+        const std::size_t k = wet[j];
+        const Vec2f place = places(k);
+        x[j] = place.x - pivot.x;
+        y[j] = place.y - pivot.y;
+        along[j] = field->along[k];
+        across[j] = field->across[k];
+        steepest[j] = field->steepest[k];
+        scale[j] = film_->ofAge(steps[k]).thickness * film_->rimOf(FilmField::stepOf(level[j]));
+    }
+    const float pixel = scene_.tiles[tile].pixel;
+    std::array<float, kTilePixels> cover;
+    for (std::size_t j = 0; j < count; ++j) {
+        cover[j] = within(level[j] / std::max(steepest[j], 1e-3F), pixel);
+        scale[j] /= std::sqrt(x[j] * x[j] + y[j] * y[j]);
+    }
+    for (std::size_t j = 0; j < count; ++j) {
+        const std::size_t k = wet[j];
+        if (cover[j] > left.cover[k]) {
+            left.cover[k] = cover[j];
+            left.slope_x[k] = scale[j] * (across[j] * x[j] - along[j] * y[j]);
+            left.slope_y[k] = scale[j] * (across[j] * y[j] + along[j] * x[j]);
+        }
+    }
 }
 
 WiperView::Wedge WiperView::wedgeOf(const WiperState& one)
@@ -340,10 +457,9 @@ WiperView::Wedge WiperView::wedgeOf(const WiperState& one)
 
 WaterMet WiperView::wedge(const WiperState& one, Vec2f from, float pixel)
 {
-    constexpr float kWidest = 1.7F * kWidestBead * 1.1F;
     const Wedge& wedge = one.wedge;
     const float beyond = from.x * wedge.ahead.x + from.y * wedge.ahead.y - kBladeHalf;
-    if (beyond < -pixel || beyond > kWidest + pixel) {
+    if (beyond < -pixel || beyond > kWidestWedge + pixel) {
         return {};
     }
     const float radius = size(from);
@@ -362,36 +478,78 @@ WaterMet WiperView::wedge(const WiperState& one, Vec2f from, float pixel)
     return pushedAt(beyond, width, wedge.ahead, pixel);
 }
 
-WaterMet WiperView::waterLeft(TilePixel at, Vec2f place, float pixel) const
+bool WiperView::reachWedge(const WiperState& one, const ViewTile& tile)
 {
-    WaterMet met;
+    const Vec2f ahead = one.wedge.ahead;
+    const Vec2f pivot = toFloats2(one.wiper.pivot);
+    const Vec2f middle{0.5F * (tile.low.x + tile.high.x) - pivot.x, 0.5F * (tile.low.y + tile.high.y) - pivot.y};
+    const float extent =
+        0.5F * ((tile.high.x - tile.low.x) * std::abs(ahead.x) + (tile.high.y - tile.low.y) * std::abs(ahead.y)) +
+        tile.pixel;
+    const float beyond = middle.x * ahead.x + middle.y * ahead.y - kBladeHalf;
+    return one.wedge.is_there && beyond > -extent && beyond < kWidestWedge + extent;
+}
+
+void WiperView::waterLeft(std::size_t tile, WaterLeft& left) const
+{
+    left.cover.fill(0.0F);
+    left.slope_x.fill(0.0F);
+    left.slope_y.fill(0.0F);
+    left.is_bead.fill(0);
     for (std::size_t k = 0; k < states_.size(); ++k) {
-        const WiperState& one = states_[k];
-        const Vec2f pivot = toFloats2(one.wiper.pivot);
-        const Vec2f from{place.x - pivot.x, place.y - pivot.y};
-        const WaterMet bead = one.wedge.is_there ? wedge(one, from, pixel) : WaterMet();
-        if (bead.cover > 0.0F && !isInOtherField(one, place)) {
-            return bead;
-        }
-        const WaterMet thin = film(one, film_places_[k][at.tile * kTilePixels + at.pixel], from, pixel);
-        if (thin.cover > met.cover) {
-            met = thin;
+        if (const FilmPixels* film = films_[k][tile].get(); film != nullptr && film->is_wet) {
+            addFilm(states_[k], *film, tile, left);
         }
     }
-    return met;
+    addWedges(tile, left);
+}
+
+void WiperView::addWedges(std::size_t tile, WaterLeft& left) const
+{
+    const ViewTile& seen = scene_.tiles[tile];
+    const ViewContext::TilePlaces places = scene_.placesOf(tile);
+    for (const WiperState& one : states_) {
+        if (!reachWedge(one, seen)) {
+            continue;
+        }
+        const Vec2f pivot = toFloats2(one.wiper.pivot);
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            const Vec2f place = places(k);
+            if (std::isnan(place.x) || left.is_bead[k] != 0) {
+                continue;
+            }
+            const WaterMet bead = wedge(one, {place.x - pivot.x, place.y - pivot.y}, seen.pixel);
+            if (bead.cover > 0.0F && !isInOtherField(one, place)) {
+                left.cover[k] = bead.cover;
+                left.slope_x[k] = bead.slope.x;
+                left.slope_y[k] = bead.slope.y;
+                left.is_bead[k] = 1;
+            }
+        }
+    }
 }
 
 void WiperView::placeFilms()
 {
     const Tiles& tiles = scene_.tiles;
     for (const Wiper& wiper : scene_.options.wipers) {
-        std::vector<FilmPlace>& places = film_places_.emplace_back(tiles.count() * kTilePixels);
-        tbb::parallel_for(0, scene_.eye.height(), [&](int y) {
-            for (int x = 0; x < scene_.eye.width(); ++x) {
-                const Vec2f place = scene_.eye.place(x, y);
-                const Vec2f pivot = toFloats2(wiper.pivot);
-                places[tiles.number(x / kTile, y / kTile) * kTilePixels + pixelInTile(x, y)] =
-                    filmPlaceOf(wiper, {place.x - pivot.x, place.y - pivot.y});
+        std::vector<std::unique_ptr<FilmPixels>>& films = films_.emplace_back(tiles.count());
+        const Vec2f pivot = toFloats2(wiper.pivot);
+        tbb::parallel_for(std::size_t{0}, tiles.count(), [&](std::size_t tile) {
+            auto film = std::make_unique<FilmPixels>();
+            const ViewContext::TilePlaces places = scene_.placesOf(tile);
+            for (std::size_t k = 0; k < kTilePixels; ++k) {
+                const Vec2f place = places(k);
+                const FilmPlace at = filmPlaceOf(wiper, {place.x - pivot.x, place.y - pivot.y});
+                film->there[k] = at.there;
+                film->along[k] = at.along;
+                if (at.there >= 0.0F) {
+                    film->first = film->last < 0.0F ? at.there : std::min(film->first, at.there);
+                    film->last = std::max(film->last, at.there);
+                }
+            }
+            if (film->last >= 0.0F) {
+                films[tile] = std::move(film);
             }
         });
     }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -35,21 +36,27 @@ public:
     void update(double time);
 
     /// Whether wipers may be visible in a tile (upper bound).
-    [[nodiscard]] bool reach(std::size_t tile) const { return !tiles_.empty() && tiles_[tile].in_field; }
+    [[nodiscard]] bool reach(std::size_t tile) const { return hasWaterLeft(tile) || reachNow(tile); }
+    /// Whether water that wipers have left may be visible in a tile (upper bound).
+    [[nodiscard]] bool hasWaterLeft(std::size_t tile) const { return !tiles_.empty() && tiles_[tile].has_water_left; }
     /// Whether blades or arms, or the water that they push, may be visible in a tile (upper bound).
     [[nodiscard]] bool reachNow(std::size_t tile) const { return !tiles_.empty() && tiles_[tile].at_blade; }
     /// Number of moments at which blades are drawn while the shutter is open.
     [[nodiscard]] int moments() const { return moments_; }
 
-    /// Pixel of a tile.
-    struct TilePixel {
-        std::size_t tile = 0;
-        std::size_t pixel = 0;
+    /// Water that wipers have left in the pixels of a tile: films and wedges.
+    struct WaterLeft {
+        std::array<float, kTilePixels> cover;  ///< as WaterMet, also what follows
+        std::array<float, kTilePixels> slope_x;
+        std::array<float, kTilePixels> slope_y;
+        std::array<std::uint8_t, kTilePixels> is_bead;
+
+        [[nodiscard]] WaterMet at(std::size_t pixel) const
+        {
+            return {cover[pixel], {slope_x[pixel], slope_y[pixel]}, is_bead[pixel] != 0};
+        }
     };
-    /// Water that a wiper has left: films and wedges.
-    /// @param place  where the pixel's middle is on the glass [m]
-    /// @param pixel  size of a pixel's image on the glass [m]
-    [[nodiscard]] WaterMet waterLeft(TilePixel at, Vec2f place, float pixel) const;
+    void waterLeft(std::size_t tile, WaterLeft& left) const;
     /// Wiper at a place and moment.
     /// @param moment  0 … moments() − 1
     [[nodiscard]] WiperMet at(Vec2f place, float pixel, int moment) const;
@@ -66,7 +73,7 @@ private:
     class FilmField {
     public:
         FilmField();
-        /// Level, its slope along the blade's motion, and along the blade [1/m].
+        /// Level, its slope along the blade's motion, along the blade, and the steepest [1/m].
         /// @param along   [m], more than -1e6
         /// @param across  [m]
         [[nodiscard]] Float4 at(float along, float across) const;
@@ -75,17 +82,21 @@ private:
             float broken = 0.0F;     ///< level below which the glass is bare
             float thickness = 0.0F;  ///< slope of the film over that of its level [m]
         };
-        /// @param share  age over the film's lifetime, 0 to 1
-        [[nodiscard]] Age ofAge(float share) const { return ages_[index(share)]; }
+        /// @param step  age over the film's lifetime, in steps
+        [[nodiscard]] const Age& ofAge(std::int32_t step) const { return ages_[static_cast<std::size_t>(step)]; }
+        /// Age at which a level is bare, or a little more, over the film's lifetime.
+        [[nodiscard]] static float dryAge(float level);
         /// How much steeper rims are at a level above the bare one.
-        [[nodiscard]] float rimOf(float level) const { return rims_[index(level)]; }
+        /// @param step  the level in steps
+        [[nodiscard]] float rimOf(std::int32_t step) const { return rims_[static_cast<std::size_t>(step)]; }
+        /// Step of a share from 0 to 1; beyond it, the nearest.
+        static std::int32_t stepOf(float share)
+        {
+            return static_cast<std::int32_t>(std::min(std::max(share * kSteps, 0.0F), static_cast<float>(kSteps - 1)));
+        }
 
     private:
         static constexpr std::size_t kSteps = 1024;
-        static std::size_t index(float share)
-        {
-            return static_cast<std::size_t>(std::clamp(share * kSteps, 0.0F, static_cast<float>(kSteps - 1)));
-        }
 
         std::vector<Float4> samples_;
         std::array<Age, kSteps> ages_;
@@ -114,10 +125,54 @@ private:
         float there = -1.0F;  ///< when the blade passes on its way there [s after its start]; below 0: never
         float along = 0.0F;   ///< along the way of the blade's outer end [m]
     };
+    /// Field of a film in the pixels of a tile, as FilmField::at().
+    struct FieldPixels {
+        std::array<float, kTilePixels> level;  ///< below 0: no film
+        std::array<float, kTilePixels> along;
+        std::array<float, kTilePixels> across;
+        std::array<float, kTilePixels> steepest;
+
+        void set(std::size_t pixel, const Float4& field)
+        {
+            level[pixel] = field[0];
+            along[pixel] = field[1];
+            across[pixel] = field[2];
+            steepest[pixel] = field[3];
+        }
+    };
+    /// Film of a wiper in the pixels of a tile. A way of the blade gives a pixel a part of the field until the next
+    /// way.
+    struct FilmPixels {
+        std::array<float, kTilePixels> there;  ///< as FilmPlace
+        std::array<float, kTilePixels> along;
+        float first = 0.0F;                     ///< least time `there` of the pixels that the blade passes
+        float last = -1.0F;                     ///< largest one; below 0: it passes none
+        bool is_wet = false;                    ///< now (upper bound)
+        std::optional<std::uint32_t> way = {};  ///< last one over all pixels, if the film has been wet since then
+        FieldPixels field;                      ///< of that way
+        float lasts = 0.0F;                     ///< time until all of that film has dried, or a little more [s]
+    };
+    /// Last way of a blade over a place.
+    struct Passed {
+        std::uint32_t way = 0;  ///< 0: back in the stroke before; 1: there in this one; 2: back
+        float age = 0.0F;       ///< time since then [s]
+    };
+    void updateTile(std::size_t number);
     void placeFilms();
     [[nodiscard]] static FilmPlace filmPlaceOf(const Wiper& wiper, Vec2f from);
-    [[nodiscard]] WaterMet film(const WiperState& one, const FilmPlace& place, Vec2f from, float pixel) const;
+    [[nodiscard]] static Passed passed(const WiperState& one, float there);
+    /// Takes the film of a tile to the present time.
+    void renew(const WiperState& one, FilmPixels& film, std::size_t tile) const;
+    /// @param way  way(pixel) is the last one over a pixel, as Passed::way
+    template <typename Way>
+    void setField(const WiperState& one, const FilmPixels& film, std::size_t tile, const Way& way,
+                  FieldPixels& field) const;
+    /// Adds a film where it covers more than what is there.
+    void addFilm(const WiperState& one, const FilmPixels& film, std::size_t tile, WaterLeft& left) const;
+    void addWedges(std::size_t tile, WaterLeft& left) const;
     [[nodiscard]] static Wedge wedgeOf(const WiperState& one);
+    /// Whether a wedge may be visible in a tile (upper bound).
+    [[nodiscard]] static bool reachWedge(const WiperState& one, const ViewTile& tile);
     [[nodiscard]] static WaterMet wedge(const WiperState& one, Vec2f from, float pixel);
     /// Whether a place is in the field of another wiper.
     [[nodiscard]] bool isInOtherField(const WiperState& own, Vec2f place) const;
@@ -125,9 +180,9 @@ private:
     const ViewContext& scene_;
     std::vector<WiperState> states_;
     std::optional<FilmField> film_;
-    std::vector<std::vector<FilmPlace>> film_places_;  ///< for each wiper: of every pixel, tile by tile
+    std::vector<std::vector<std::unique_ptr<FilmPixels>>> films_;  ///< for each wiper: of every tile in its field
     struct TileReach {
-        bool in_field = false;
+        bool has_water_left = false;
         bool at_blade = false;  ///< at any moment
     };
     std::vector<TileReach> tiles_;
