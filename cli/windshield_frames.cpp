@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "windshield_frames.h"
 
-#include <array>
 #include <ostream>
 #include <sstream>
 #include <utility>
 
-#include "droplet/io/output.h"
 #include "droplet/render/environment.h"
-#include "droplet/windshield_view/glass_maps.h"
 #include "option_values.h"
 #include "windshield_files.h"
 #include "windshield_plan.h"
@@ -48,6 +45,9 @@ WindshieldFrames::WindshieldFrames(const WindshieldOptions& options, const dropl
         requireEvenSides("--frame-size", view_options_.width, view_options_.height);
     }
     forGlass(options_, [&] { view_ = std::make_unique<droplet::DriversView>(glass_, view_options_); });
+    if (options_.maps) {
+        forGlass(options_, [&] { maps_ = std::make_unique<droplet::GlassMapFrames>(glass_, options_.map); });
+    }
     if (options_.are_maps_exr) {
         // Writing EXR needs a library that may be missing; find this out before any work is done.
         std::ostringstream nowhere;
@@ -87,14 +87,20 @@ void WindshieldFrames::draw(const droplet::WindshieldState& state, std::size_t n
         layer_ = options_.layer ? view_->layer() : droplet::Layer();
         picture_ = options_.layer ? droplet::Picture() : view_->frame();
     }
+    std::vector<OutputFile> files;
     if (options_.files) {
-        film_.save({{options_.files->at(number),
-                     [layer = std::move(layer_), picture = std::move(picture_), this](std::ostream& out) {
-                         writePicture(out, layer, picture, droplet::PngEffort::Fast);
-                     }}});
+        files.push_back({options_.files->at(number),
+                         [layer = std::move(layer_), picture = std::move(picture_), this](std::ostream& out) {
+                             writePicture(out, layer, picture, droplet::PngEffort::Fast);
+                         }});
     }
-    if (options_.maps) {
-        writeMaps(state, number);
+    if (maps_) {
+        for (OutputFile& file : mapsOf(state, number)) {
+            files.push_back(std::move(file));
+        }
+    }
+    if (!files.empty()) {
+        film_.save(std::move(files));
     }
 }
 
@@ -108,25 +114,25 @@ void WindshieldFrames::writePicture(std::ostream& out, const droplet::Layer& lay
     }
 }
 
-void WindshieldFrames::writeMaps(const droplet::WindshieldState& state, std::size_t number) const
+std::vector<OutputFile> WindshieldFrames::mapsOf(const droplet::WindshieldState& state, std::size_t number)
 {
-    const auto write = [&](std::size_t map, const auto& writer) {
-        droplet::writeAtomically(options_.maps->beside(kMapNames[map]).at(number), writer, options_.run.files);
+    // They are written while the next ones are drawn: each file has a map of its own.
+    const auto file = [&](std::size_t map, auto picture, auto write) {
+        auto held = std::make_shared<const decltype(picture)>(std::move(picture));
+        return OutputFile{options_.maps->beside(kMapNames[map]).at(number),
+                          [held, write](std::ostream& out) { write(*held, out); }};
     };
     if (options_.are_maps_exr) {
-        const droplet::GlassFloatMaps maps = glassFloatMaps(glass_, state, options_.map);
-        const std::array<const droplet::FloatPicture*, kMapNames.size()> all{&maps.normal, &maps.thickness,
-                                                                             &maps.velocity};
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            write(k, [&](std::ostream& out) { writeExr(*all[k], out); });
-        }
-        return;
+        droplet::GlassFloatMaps maps = maps_->floatMaps(state);
+        const auto write = [](const droplet::FloatPicture& picture, std::ostream& out) { writeExr(picture, out); };
+        return {file(0, std::move(maps.normal), write), file(1, std::move(maps.thickness), write),
+                file(2, std::move(maps.velocity), write)};
     }
-    const droplet::GlassMaps maps = glassMaps(glass_, state, options_.map);
-    const std::array<const droplet::DeepPicture*, kMapNames.size()> all{&maps.normal, &maps.thickness, &maps.velocity};
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        write(k, [&](std::ostream& out) { writePng(*all[k], out, droplet::PngEffort::Fast); });
-    }
+    const droplet::GlassMaps& maps = maps_->maps(state);
+    const auto write = [](const droplet::DeepPicture& picture, std::ostream& out) {
+        writePng(picture, out, droplet::PngEffort::Fast);
+    };
+    return {file(0, maps.normal, write), file(1, maps.thickness, write), file(2, maps.velocity, write)};
 }
 
 void WindshieldFrames::write(std::ostream& out)

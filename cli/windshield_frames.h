@@ -5,9 +5,11 @@
 #include <iosfwd>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "background.h"
 #include "droplet/drawing/picture.h"
+#include "droplet/windshield_view/glass_maps.h"
 #include "droplet/windshield_view/view.h"
 #include "film.h"
 #include "video_writer.h"
@@ -48,7 +50,9 @@ public:
 private:
     void writePicture(std::ostream& out, const droplet::Layer& layer, const droplet::Picture& picture,
                       droplet::PngEffort effort) const;
-    void writeMaps(const droplet::WindshieldState& state, std::size_t number) const;
+    /// Draws maps.
+    /// @return  their files
+    [[nodiscard]] std::vector<OutputFile> mapsOf(const droplet::WindshieldState& state, std::size_t number);
 
     const WindshieldOptions& options_;
     Film& film_;
@@ -56,6 +60,7 @@ private:
     Background background_;
     droplet::ViewOptions view_options_;
     std::unique_ptr<droplet::DriversView> view_;
+    std::unique_ptr<droplet::GlassMapFrames> maps_;
     std::unique_ptr<VideoWriter> video_;
     droplet::Picture picture_;
     droplet::Layer layer_;

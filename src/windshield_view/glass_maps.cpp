@@ -8,88 +8,26 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "blocks.h"
 #include "require.h"
 #include "windshield_view/body_relief.h"
-#include "windshield_view/water_raster.h"
+#include "windshield_view/water_sums.h"
 
 namespace droplet {
 namespace {
 
+/// Nearest level; what is half way is rounded up.
 std::uint16_t unsignedLevel(double share)
 {
-    return static_cast<std::uint16_t>(std::lround(65535.0 * std::clamp(share, 0.0, 1.0)));
+    return static_cast<std::uint16_t>(65535.0 * std::min(std::max(share, 0.0), 1.0) + 0.5);
 }
 
 std::uint16_t signedLevel(double value)
 {
     return unsignedLevel(0.5 * (value + 1.0));
-}
-
-/// All that is drawn.
-struct MapWater {
-    std::vector<WaterDrop> drops;
-    std::vector<WaterStamp> rims;  ///< of splashes
-};
-
-MapWater waterOf(const WaterRaster& raster, const Glass& glass, const WindshieldState& state,
-                 const GlassMapOptions& options)
-{
-    const Reliefs reliefs(glass, options.body, options.forces);
-    std::vector<WaterDrop> drops;
-    for (const StillDroplet& still : state.still.all()) {
-        drops.push_back({still.position, {}, still.volume, runningShape(still.volume, 0.0, options.shape), false});
-    }
-    for (const RunningDroplet& running : state.droplets) {
-        const auto relief = reliefs.of(running);
-        drops.push_back({running.position, running.velocity, running.volume,
-                         runningShape(running.volume, length(running.velocity), options.shape), true,
-                         relief ? std::make_shared<const BodyRelief>(*relief) : nullptr});
-    }
-    return {std::move(drops), raster.rimsOf(state.splashes, state.time)};
-}
-
-/// A pixel of the maps.
-struct MapPixel {
-    WaterPixel water;
-    WaterMotion motion;
-};
-
-/// Sums up the pixels and calls take(row, its pixels), in parallel, once for each row.
-template <typename Take>
-void forRows(const WaterRaster& raster, const MapWater& water, const Take& take)
-{
-    const std::vector<WaterDrop>& drops = water.drops;
-    const auto width = static_cast<std::size_t>(raster.width());
-    const auto height = static_cast<std::size_t>(raster.height());
-    constexpr std::size_t kDropsPerBlock = 1024;
-    const auto blocks = mapBlocks<std::vector<WaterStamp>>(
-        drops.size(),
-        [&](std::size_t first, std::size_t last) {
-            std::vector<WaterStamp> stamps;
-            for (std::size_t k = first; k < last; ++k) {
-                raster.draw(drops[k], stamps);
-            }
-            return stamps;
-        },
-        kDropsPerBlock);
-    std::vector<MapPixel> sums(width * height);
-    for (const std::vector<WaterStamp>& block : blocks) {
-        for (const WaterStamp& stamp : block) {
-            sums[stamp.pixel].water.add(stamp.water, 1);
-            sums[stamp.pixel].motion.add(stamp.motion);
-        }
-    }
-    for (const WaterStamp& stamp : water.rims) {
-        sums[stamp.pixel].water.add(stamp.water, 1);
-    }
-    tbb::parallel_for(std::size_t{0}, height, [&](std::size_t row) {
-        take(static_cast<int>(row), std::span(std::as_const(sums)).subspan(row * width, width));
-    });
 }
 
 WaterRaster rasterFor(const Glass& glass, const GlassMapOptions& options)
@@ -100,22 +38,31 @@ WaterRaster rasterFor(const Glass& glass, const GlassMapOptions& options)
     return raster;
 }
 
-Vec2 velocityOf(const MapPixel& pixel)
+WaterSums::ReliefOf reliefsOf(const Glass& glass, const GlassMapOptions& options)
 {
-    return pixel.motion.cover > 0 ? (1.0 / pixel.motion.cover) * Vec2{static_cast<double>(pixel.motion.velocity[0]),
-                                                                      static_cast<double>(pixel.motion.velocity[1])}
-                                  : Vec2{};
+    if (options.body == BodyShape::Capsule) {
+        return {};
+    }
+    return [reliefs = std::make_shared<const Reliefs>(glass, options.body, options.forces)](
+               const RunningDroplet& droplet) { return reliefs->of(droplet); };
 }
 
-double thicknessOf(const MapPixel& pixel)
+Vec2 velocityOf(const WaterMotion& motion)
 {
-    return static_cast<double>(pixel.water.thickness) * WaterPixel::kThickness;
+    return motion.cover > 0 ? (1.0 / motion.cover) *
+                                  Vec2{static_cast<double>(motion.velocity[0]), static_cast<double>(motion.velocity[1])}
+                            : Vec2{};
+}
+
+double thicknessOf(const WaterPixel& water)
+{
+    return static_cast<double>(water.thickness) * WaterPixel::kThickness;
 }
 
 /// Share of a pixel that running droplets cover.
-double runsOf(const MapPixel& pixel)
+double runsOf(const WaterMotion& motion)
 {
-    return pixel.motion.cover * WaterPixel::kShare;
+    return motion.cover * WaterPixel::kShare;
 }
 
 // Levels of bare glass.
@@ -134,75 +81,154 @@ void GlassMapOptions::validate() const
     require(full_speed > 0.0 && std::isfinite(full_speed), "full_speed", full_speed, "positive");
 }
 
-GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options)
-{
-    const WaterRaster raster = rasterFor(glass, options);
-    const int width = raster.width();
-    const int height = raster.height();
-    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    GlassMaps maps{{width, height, 3, {}}, {width, height, 1, {}}, {width, height, 3, {}}};
-    maps.normal.levels.resize(3 * pixels);
-    maps.thickness.levels.resize(pixels);
-    maps.velocity.levels.resize(3 * pixels);
-    forRows(raster, waterOf(raster, glass, state, options), [&](int row, std::span<const MapPixel> held) {
-        // The rounding error goes to the next wet pixel of the row; else thin water would vanish.
+struct GlassMapFrames::Content {
+    GlassMapOptions options;
+    WaterSums sums;
+    GlassMaps maps;
+
+    Content(const Glass& glass, const GlassMapOptions& its_options)
+        : options(its_options), sums(rasterFor(glass, options), options.shape, reliefsOf(glass, options))
+    {
+    }
+
+    [[nodiscard]] int width() const { return sums.raster().width(); }
+    [[nodiscard]] int height() const { return sums.raster().height(); }
+
+    /// Makes maps of bare glass, if there are none.
+    void begin()
+    {
+        if (!maps.normal.levels.empty()) {
+            return;
+        }
+        maps = {{width(), height(), 3, {}}, {width(), height(), 1, {}}, {width(), height(), 3, {}}};
+        const std::size_t pixels = sums.water().size();
+        maps.thickness.levels.resize(pixels);
+        maps.normal.levels.resize(3 * pixels);
+        maps.velocity.levels.resize(3 * pixels);
+        for (std::size_t k = 0; k < pixels; ++k) {
+            writeBare(k);
+        }
+    }
+
+    void writeBare(std::size_t pixel)
+    {
+        std::copy(kBare.begin(), kBare.end(), &maps.normal.levels[3 * pixel]);
+        std::copy(kStill.begin(), kStill.end(), &maps.velocity.levels[3 * pixel]);
+    }
+
+    /// Writes normal and velocity.
+    void write(std::size_t pixel)
+    {
+        const WaterPixel& water = sums.water()[pixel];
+        if (water.cover == 0) {
+            writeBare(pixel);
+            return;
+        }
+        std::uint16_t* const facing = &maps.normal.levels[3 * pixel];
+        std::uint16_t* const moving = &maps.velocity.levels[3 * pixel];
+        const Vec3f normal = water.normal();
+        facing[0] = signedLevel(static_cast<double>(normal.x));
+        facing[1] = signedLevel(static_cast<double>(normal.y));
+        facing[2] = signedLevel(static_cast<double>(normal.z));
+        const WaterMotion& motion = sums.motion()[pixel];
+        if (motion.cover == 0) {
+            std::copy(kStill.begin(), kStill.end(), moving);
+            return;
+        }
+        const Vec2 velocity = velocityOf(motion);
+        moving[0] = signedLevel(velocity.x / options.full_speed);
+        moving[1] = signedLevel(velocity.y / options.full_speed);
+        moving[2] = unsignedLevel(runsOf(motion));
+    }
+
+    /// Writes the thickness of a row. The rounding error goes to the next wet pixel; else thin water would vanish.
+    void writeThickness(std::size_t row)
+    {
+        const auto columns = static_cast<std::size_t>(width());
+        const double step = options.full_thickness / 65535.0;
         double left_over = 0.0;
-        std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
-        for (const MapPixel& pixel : held) {
-            std::uint16_t* const facing = &maps.normal.levels[3 * at];
-            std::uint16_t* const motion = &maps.velocity.levels[3 * at];
-            if (pixel.water.cover == 0) {
-                std::copy(kBare.begin(), kBare.end(), facing);
-                std::copy(kStill.begin(), kStill.end(), motion);
-                ++at;
-                continue;
+        for (std::size_t at = row * columns; at < (row + 1) * columns; ++at) {
+            const WaterPixel& water = sums.water()[at];
+            std::uint16_t& level = maps.thickness.levels[at];
+            level = 0;
+            if (water.cover != 0 && water.thickness > 0) {
+                const double wanted = thicknessOf(water) + left_over;
+                level = unsignedLevel(wanted / options.full_thickness);
+                left_over = std::clamp(wanted - level / 65535.0 * options.full_thickness, -step, step);
             }
-            const Vec3f normal = pixel.water.normal();
-            facing[0] = signedLevel(static_cast<double>(normal.x));
-            facing[1] = signedLevel(static_cast<double>(normal.y));
-            facing[2] = signedLevel(static_cast<double>(normal.z));
-            if (pixel.water.thickness > 0) {
-                const double wanted = thicknessOf(pixel) + left_over;
-                maps.thickness.levels[at] = unsignedLevel(wanted / options.full_thickness);
-                const double in_map = maps.thickness.levels[at] / 65535.0 * options.full_thickness;
-                left_over =
-                    std::clamp(wanted - in_map, -options.full_thickness / 65535.0, options.full_thickness / 65535.0);
-            }
-            const Vec2 velocity = velocityOf(pixel);
-            motion[0] = signedLevel(velocity.x / options.full_speed);
-            motion[1] = signedLevel(velocity.y / options.full_speed);
-            motion[2] = unsignedLevel(runsOf(pixel));
-            ++at;
+        }
+    }
+};
+
+GlassMapFrames::GlassMapFrames(const Glass& glass, const GlassMapOptions& options)
+    : content_(std::make_unique<Content>(glass, options))
+{
+}
+
+GlassMapFrames::~GlassMapFrames() = default;
+GlassMapFrames::GlassMapFrames(GlassMapFrames&& other) noexcept = default;
+GlassMapFrames& GlassMapFrames::operator=(GlassMapFrames&& other) noexcept = default;
+
+const GlassMaps& GlassMapFrames::maps(const WindshieldState& state)
+{
+    Content& content = *content_;
+    content.begin();
+    content.sums.update(state);
+    std::vector<std::size_t> changed;
+    std::vector<std::uint8_t> is_stale(static_cast<std::size_t>(content.height()));  // for every row
+    content.sums.takeChanged([&](std::size_t pixel) {
+        changed.push_back(pixel);
+        is_stale[pixel / static_cast<std::size_t>(content.width())] = 1;
+    });
+    forBlocks(changed.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            content.write(changed[k]);
+        }
+    });
+    tbb::parallel_for(std::size_t{0}, is_stale.size(), [&](std::size_t row) {
+        if (is_stale[row] != 0) {
+            content.writeThickness(row);
+        }
+    });
+    return content.maps;
+}
+
+GlassFloatMaps GlassMapFrames::floatMaps(const WindshieldState& state)
+{
+    Content& content = *content_;
+    content.sums.update(state);
+    const WaterSums& sums = content.sums;
+    const int width = content.width();
+    const int height = content.height();
+    GlassFloatMaps maps{{width, height, 3, {}}, {width, height, 1, {}}, {width, height, 3, {}}};
+    const std::size_t pixels = sums.water().size();
+    maps.normal.values.resize(3 * pixels);
+    maps.thickness.values.resize(pixels);
+    maps.velocity.values.resize(3 * pixels);
+    forBlocks(pixels, [&](std::size_t first, std::size_t last) {
+        for (std::size_t at = first; at < last; ++at) {
+            const Vec3f normal = sums.water()[at].normal();
+            const WaterMotion& moving = sums.motion()[at];
+            const Vec2 velocity = velocityOf(moving);
+            const std::array<double, 3> motion{velocity.x, velocity.y, std::min(runsOf(moving), 1.0)};
+            const auto narrow = [](double value) { return static_cast<float>(value); };
+            const std::array facing{normal.x, normal.y, normal.z};
+            std::copy(facing.begin(), facing.end(), maps.normal.values.data() + 3 * at);
+            std::transform(motion.begin(), motion.end(), maps.velocity.values.data() + 3 * at, narrow);
+            maps.thickness.values[at] = narrow(thicknessOf(sums.water()[at]));
         }
     });
     return maps;
 }
 
+GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options)
+{
+    return GlassMapFrames(glass, options).maps(state);
+}
+
 GlassFloatMaps glassFloatMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options)
 {
-    const WaterRaster raster = rasterFor(glass, options);
-    const int width = raster.width();
-    const int height = raster.height();
-    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    GlassFloatMaps maps{{width, height, 3, {}}, {width, height, 1, {}}, {width, height, 3, {}}};
-    maps.normal.values.resize(3 * pixels);
-    maps.thickness.values.resize(pixels);
-    maps.velocity.values.resize(3 * pixels);
-    forRows(raster, waterOf(raster, glass, state, options), [&](int row, std::span<const MapPixel> held) {
-        std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(width);
-        for (const MapPixel& pixel : held) {
-            const Vec3f normal = pixel.water.normal();
-            const Vec2 velocity = velocityOf(pixel);
-            const std::array<double, 3> motion{velocity.x, velocity.y, std::min(runsOf(pixel), 1.0)};
-            const auto narrow = [](double value) { return static_cast<float>(value); };
-            const std::array facing{normal.x, normal.y, normal.z};
-            std::copy(facing.begin(), facing.end(), maps.normal.values.data() + 3 * at);
-            std::transform(motion.begin(), motion.end(), maps.velocity.values.data() + 3 * at, narrow);
-            maps.thickness.values[at] = narrow(thicknessOf(pixel));
-            ++at;
-        }
-    });
-    return maps;
+    return GlassMapFrames(glass, options).floatMaps(state);
 }
 
 }  // namespace droplet

@@ -56,11 +56,11 @@ void WaterPixel::add(const WaterPixel& other, int sign)
     up += sign * other.up;
 }
 
-void WaterMotion::add(const WaterMotion& other)
+void WaterMotion::add(const WaterMotion& other, int sign)
 {
-    cover += other.cover;
-    velocity[0] += other.velocity[0];
-    velocity[1] += other.velocity[1];
+    cover += sign * other.cover;
+    velocity[0] += sign * other.velocity[0];
+    velocity[1] += sign * other.velocity[1];
 }
 
 Vec3f WaterPixel::normal() const

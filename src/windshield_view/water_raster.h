@@ -50,7 +50,8 @@ struct WaterMotion {
     std::int32_t cover = 0;
     std::array<std::int32_t, 2> velocity = {};  ///< in 2^-18 m/s
 
-    void add(const WaterMotion& other);
+    /// Adds another one, or with sign −1 takes it away.
+    void add(const WaterMotion& other, int sign);
     friend bool operator==(const WaterMotion&, const WaterMotion&) = default;
 };
 

@@ -364,6 +364,21 @@ TEST_F(VisibleWipers, TheWedgeOfPushedWaterLiesOnlyAtThePillar)
     EXPECT_LT(beside_other, alone / 4) << "the left blade wipes there";
 }
 
+TEST_F(VisibleWipers, FramesDoNotDependOnThoseBefore)
+{
+    DriversView kept(parameters_.glass, options_);
+    kept.setBackground(slanted(320, 180));
+    for (const double time : {0.1, 0.3, 0.35, 0.9, 0.65, 1.7, 2.9, 3.1, 3.15}) {
+        state_.time = time;
+        DriversView fresh(parameters_.glass, options_);
+        fresh.setBackground(slanted(320, 180));
+        fresh.show(state_);
+        kept.show(state_);
+        EXPECT_EQ(kept.frame(), fresh.frame()) << time;
+        EXPECT_EQ(kept.frame(), over(kept.layer(), kept.bare())) << time;
+    }
+}
+
 TEST_F(VisibleWipers, BladesAreBlurredWhileTheShutterIsOpen)
 {
     const Wiper& wiper = parameters_.wipers[1];

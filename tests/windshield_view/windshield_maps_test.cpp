@@ -132,6 +132,35 @@ TEST(WindshieldMapsOf, NameEveryTileThatChanges)
     EXPECT_GT(changed, 40U);
 }
 
+TEST(GlassMapFramesOf, AreThoseOfTheStateAlone)
+{
+    const WindshieldParameters parameters = storm();
+    for (const BodyShape body : {BodyShape::Capsule, BodyShape::Capillary}) {
+        const GlassMapOptions options{.width = 200, .body = body};
+        WindshieldState state = startWindshield(parameters);
+        GlassMapFrames frames(parameters.glass, options);
+        for (int k = 0; k < 60; ++k) {
+            state = step(std::move(state), parameters, 1.0 / 60.0);
+            if (k % 7 != 3) {
+                frames.maps(state);
+            }
+        }
+        EXPECT_GT(state.counts.wiped, 0U);
+        for (const WindshieldState& shown : {state, startWindshield(parameters)}) {
+            const GlassMaps& kept = frames.maps(shown);
+            const GlassMaps fresh = glassMaps(parameters.glass, shown, options);
+            EXPECT_EQ(kept.normal, fresh.normal);
+            EXPECT_EQ(kept.thickness, fresh.thickness);
+            EXPECT_EQ(kept.velocity, fresh.velocity);
+        }
+        const GlassFloatMaps kept = frames.floatMaps(state);
+        const GlassFloatMaps fresh = glassFloatMaps(parameters.glass, state, options);
+        EXPECT_EQ(kept.normal, fresh.normal);
+        EXPECT_EQ(kept.thickness, fresh.thickness);
+        EXPECT_EQ(kept.velocity, fresh.velocity);
+    }
+}
+
 TEST(WindshieldMapsOf, AgreeWithTheMapsOfFiles)
 {
     WindshieldParameters parameters = storm();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
+
 #include "droplet/body/droplet_body.h"
 #include "droplet/body/running_shape.h"
 #include "droplet/drawing/picture.h"
@@ -10,7 +12,7 @@
 
 namespace droplet {
 
-/// Options of glassMaps() and glassFloatMaps().
+/// Options of glassMaps(), glassFloatMaps() and GlassMapFrames.
 struct GlassMapOptions {
     int width = 2048;  ///< [px], 16 … 8192; the height follows from the glass, with nearly square pixels
     BodyShape body = BodyShape::Capsule;  ///< shape of running droplets: Capsule or Capillary
@@ -63,5 +65,32 @@ GlassMaps glassMaps(const Glass& glass, const WindshieldState& state, const Glas
 
 /// Draws maps in floating point; full_thickness and full_speed have no effect.
 GlassFloatMaps glassFloatMaps(const Glass& glass, const WindshieldState& state, const GlassMapOptions& options = {});
+
+/// Maps of a simulation, frame by frame: only what has changed since the last frame is drawn.
+///
+/// Guarantees: each frame has the bytes of glassMaps() or glassFloatMaps(), with any number of threads.
+class GlassMapFrames {
+public:
+    /// Maps of a dry glass.
+    /// @param glass    glass of the simulation
+    /// @param options  valid
+    /// @throws Error   InvalidArgument if an option is out of its range
+    explicit GlassMapFrames(const Glass& glass, const GlassMapOptions& options = {});
+    ~GlassMapFrames();
+    GlassMapFrames(GlassMapFrames&& other) noexcept;             ///< Moves the data.
+    GlassMapFrames& operator=(GlassMapFrames&& other) noexcept;  ///< Moves the data.
+
+    /// Maps of a state.
+    /// @param state  of one simulation; for another one make new maps
+    /// @return       valid until the next call
+    const GlassMaps& maps(const WindshieldState& state);
+    /// Maps of a state in floating point.
+    /// @param state  of one simulation; for another one make new maps
+    GlassFloatMaps floatMaps(const WindshieldState& state);
+
+private:
+    struct Content;
+    std::unique_ptr<Content> content_;
+};
 
 }  // namespace droplet

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "droplet/body/running_shape.h"
+#include "droplet/windshield/windshield.h"
+#include "windshield/still_droplets.h"
+#include "windshield_view/body_relief.h"
+#include "windshield_view/water_raster.h"
+
+namespace droplet {
+
+/// Water of a state in every pixel of a raster. It follows a simulation: what has not changed is not drawn again, and
+/// as sums are whole numbers, they are those of the state alone.
+class WaterSums {
+public:
+    /// Relief of a running droplet; empty: it is a capsule.
+    using ReliefOf = std::function<std::optional<BodyRelief>(const RunningDroplet& droplet)>;
+
+    /// Sums of a dry glass.
+    /// @param shape  of droplets at rest, and of capsules
+    /// @param relief_of  thread-safe; none: all are capsules
+    WaterSums(const WaterRaster& raster, const ShapeOptions& shape, ReliefOf relief_of = {});
+
+    /// Brings the sums up to a state of the same simulation.
+    void update(const WindshieldState& state);
+
+    [[nodiscard]] const WaterRaster& raster() const { return raster_; }
+    /// Water of every pixel, row by row from the upper left.
+    [[nodiscard]] const std::vector<WaterPixel>& water() const { return water_; }
+    [[nodiscard]] const std::vector<WaterMotion>& motion() const { return motion_; }
+    /// Calls work(pixel) for every pixel that changed since the last call.
+    template <typename Work>
+    void takeChanged(const Work& work)
+    {
+        for (const std::uint32_t pixel : changed_) {
+            is_changed_[pixel] = 0;
+            work(std::size_t{pixel});
+        }
+        changed_.clear();
+    }
+
+private:
+    /// Running droplet as it is drawn.
+    struct Drawn {
+        RunningDroplet droplet;
+        std::vector<WaterStamp> water;
+    };
+
+    void update(const StillCells& now);
+    void update(const std::vector<RunningDroplet>& now);
+    void update(const std::vector<Splash>& splashes, double time);
+    void add(std::span<const WaterStamp> stamps, int sign);
+    void draw(const std::vector<StillDroplet>& droplets, int sign);
+    void draw(Drawn& one) const;
+
+    WaterRaster raster_;
+    ShapeOptions shape_;
+    ReliefOf relief_of_;
+    std::vector<WaterPixel> water_;
+    std::vector<WaterMotion> motion_;
+    StillCells still_;  ///< as drawn
+    std::vector<Drawn> running_;
+    std::vector<WaterStamp> rims_;        ///< of splashes
+    std::vector<std::uint32_t> changed_;  ///< pixels, each once
+    std::vector<std::uint8_t> is_changed_;
+};
+
+}  // namespace droplet
