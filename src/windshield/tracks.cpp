@@ -2,6 +2,7 @@
 #include "windshield/tracks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -10,12 +11,6 @@ namespace {
 
 /// Width of a cell [m]; a cell has few droplets, and a track few cells.
 constexpr double kContactCell = 8e-3;
-
-/// Reach in the grid: droplets that just touch share a cell in spite of rounding.
-double roundedUp(double reach)
-{
-    return reach * (1.0 + 1e-9);
-}
 
 }  // namespace
 
@@ -36,23 +31,39 @@ void Tracks::add(Vec2 a, Vec2 b, double reach_of_track)
 TrackCells::TrackCells(const Tracks& tracks, Vec2 size)
     : tracks_(tracks), cells_(Cells::over(size, kContactCell)), first_(cells_.count() + 1, 0)
 {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> entries;  // cell, and track that passes through it
-    entries.reserve(2 * tracks.count());
-    for (std::uint32_t i = 0; i < tracks.count(); ++i) {
-        cells_.visitAround(tracks.from[i], tracks.to[i], roundedUp(tracks.reach[i]),
+    const auto visit = [&](std::uint32_t track, const auto& work) {
+        cells_.visitAround(tracks.from[track], tracks.to[track], roundedUp(tracks.reach[track]),
                            [&](std::size_t first, std::size_t last) {
                                for (std::size_t cell = first; cell <= last; ++cell) {
-                                   entries.emplace_back(static_cast<std::uint32_t>(cell), i);
-                                   ++first_[cell];
+                                   work(cell);
                                }
                            });
+    };
+    const auto count = static_cast<std::uint32_t>(tracks.count());
+    for (std::uint32_t i = 0; i < count; ++i) {
+        visit(i, [&](std::size_t cell) { ++first_[cell]; });
     }
     std::inclusive_scan(first_.begin(), first_.end(), first_.begin());
-    numbers_.resize(entries.size());
+    entries_.resize(first_.back());
     // Filled backward: the end of each cell becomes its beginning.
-    for (std::size_t k = entries.size(); k-- > 0;) {
-        numbers_[--first_[entries[k].first]] = entries[k].second;
+    for (std::uint32_t i = count; i-- > 0;) {
+        visit(i, [&, entry = entryOf(i)](std::size_t cell) { entries_[--first_[cell]] = entry; });
     }
+}
+
+TrackCells::Entry TrackCells::entryOf(std::uint32_t track) const
+{
+    const Vec2 from = tracks_.from[track];
+    const Vec2 to = tracks_.to[track];
+    const Vec2 middle = 0.5 * (from + to);
+    double radius = tracks_.reach[track];
+    if (from != to) {
+        radius += 0.5 * std::hypot(to.x - from.x, to.y - from.y);
+    }
+    // More than what rounding to floats may take from the distance of two places.
+    constexpr double kMore = 1e-6;
+    radius += kMore * (1.0 + radius + std::abs(middle.x) + std::abs(middle.y));
+    return {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(radius), track};
 }
 
 std::optional<std::uint32_t> TrackCells::touchedBy(Vec2 place, double reach) const
@@ -62,8 +73,8 @@ std::optional<std::uint32_t> TrackCells::touchedBy(Vec2 place, double reach) con
     std::uint32_t least = kNone;
     cells_.visitAround(place, place, roundedUp(reach), [&](std::size_t first, std::size_t last) {
         for (std::size_t cell = first; cell <= last; ++cell) {
-            for (std::uint32_t k = first_[cell]; k < first_[cell + 1] && numbers_[k] < least; ++k) {
-                const std::uint32_t i = numbers_[k];
+            for (std::uint32_t k = first_[cell]; k < first_[cell + 1] && entries_[k].number < least; ++k) {
+                const std::uint32_t i = entries_[k].number;
                 const double touching = reach + tracks_.reach[i];
                 if (Segment(tracks_.from[i], tracks_.to[i]).squaredDistance(place) <= touching * touching) {
                     least = i;
@@ -90,10 +101,15 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> TrackCells::touchingPairs()
     };
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
     for (std::size_t cell = 0; cell < cells_.count(); ++cell) {
-        for (std::uint32_t a = first_[cell]; a + 1 < first_[cell + 1]; ++a) {
-            for (std::uint32_t b = a + 1; b < first_[cell + 1]; ++b) {
-                if (meet(numbers_[a], numbers_[b])) {
-                    pairs.emplace_back(numbers_[a], numbers_[b]);
+        for (std::uint32_t k = first_[cell]; k + 1 < first_[cell + 1]; ++k) {
+            const Entry a = entries_[k];
+            for (std::uint32_t other = k + 1; other < first_[cell + 1]; ++other) {
+                const Entry& b = entries_[other];
+                const float x = a.x - b.x;
+                const float y = a.y - b.y;
+                const float reach = a.radius + b.radius;
+                if (x * x + y * y <= reach * reach && meet(a.number, b.number)) {
+                    pairs.emplace_back(a.number, b.number);
                 }
             }
         }

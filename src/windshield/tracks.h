@@ -38,14 +38,38 @@ public:
     /// First track that a droplet at a place touches.
     [[nodiscard]] std::optional<std::uint32_t> touchedBy(Vec2 place, double reach) const;
 
+    /// Whether test(track) holds for a track whose droplet may touch one at a place.
+    template <typename Test>
+    [[nodiscard]] bool hasNear(Vec2 place, double reach, const Test& test) const
+    {
+        bool found = false;
+        cells_.visitAround(place, place, roundedUp(reach), [&](std::size_t first, std::size_t last) {
+            for (std::uint32_t k = first_[first]; !found && k < first_[last + 1]; ++k) {
+                found = test(entries_[k].number);
+            }
+        });
+        return found;
+    }
+
     /// Pairs of tracks whose droplets touch at some time, if they move at constant speed; some pairs appear repeatedly.
     [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> touchingPairs() const;
 
 private:
+    /// Track in a cell, with a circle around all that its droplet sweeps: most pairs are told apart by it alone.
+    struct Entry {
+        float x = 0.0F;
+        float y = 0.0F;
+        float radius = 0.0F;  ///< rounded up
+        std::uint32_t number = 0;
+    };
+    /// Reach in the grid: droplets that just touch share a cell in spite of rounding.
+    static double roundedUp(double reach) { return reach * (1.0 + 1e-9); }
+    [[nodiscard]] Entry entryOf(std::uint32_t track) const;
+
     const Tracks& tracks_;
     Cells cells_;
-    std::vector<std::uint32_t> first_;    // index of each cell's first number in numbers_, and the end
-    std::vector<std::uint32_t> numbers_;  // numbers of tracks, cell by cell, in order
+    std::vector<std::uint32_t> first_;  // index of each cell's first entry, and the end
+    std::vector<Entry> entries_;        // cell by cell, in the order of tracks
 };
 
 }  // namespace droplet

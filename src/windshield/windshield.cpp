@@ -66,7 +66,7 @@ public:
         merge(cells);
         gatherMist();
         sweepStill();
-        breakUp();
+        breakUp(cells);
         wipe();
         removeBeyondEdges();
         s_.time += dt_;
@@ -157,29 +157,57 @@ private:
         std::iota(owner_.begin(), owner_.end(), 0U);
         grown_.assign(before_rain_, 0);
         grown_.resize(count, 1);  // raindrops may land on still droplets
-        const double speed = p_.vehicle.speedAt(s_.time + 0.5 * dt_);
         const double acceleration = p_.vehicle.meanAcceleration(s_.time, s_.time + dt_);
+        speed_ = p_.vehicle.speedAt(s_.time + 0.5 * dt_);
+        const double resting = restingVolume(acceleration);
         forBlocks(
             count,
             [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i) {
-                    moveOne(i, speed, acceleration);
+                    moveOne(i, acceleration, resting);
                 }
             },
             kDropletsPerBlock);
         moved_to_ = tracks_.to;
     }
 
-    void moveOne(std::size_t i, double speed, double acceleration)
+    /// Volume below which no droplet at rest begins to move in this step, wherever it is and however it is shaken [m³].
+    /// What drives it over what holds it grows with its volume.
+    double restingVolume(double acceleration) const
+    {
+        if (p_.forces.wetting.sliding_angle) {
+            return 0.0;
+        }
+        const double peak = 2.0 * std::numbers::sqrt3 * p_.fluctuation.acceleration;  // √6 of each component
+        const double pushed = p_.forces.gravity + std::abs(acceleration) + peak;
+        double low = 0.0;  // cube root [m]
+        double high = 0.1;
+        constexpr int kHalvings = 40;
+        for (int k = 0; k < kHalvings; ++k) {
+            const double middle = 0.5 * (low + high);
+            const DropletForces forces = forcesOn(p_.forces, caps_.cap(middle * middle * middle));
+            constexpr double kSafe = 1.0 - 1e-9;
+            (forces.mass * pushed + forces.drag * speed_ * speed_ < kSafe * forces.retention ? low : high) = middle;
+        }
+        return low * low * low;
+    }
+
+    void moveOne(std::size_t i, double acceleration, double resting)
     {
         RunningDroplet& d = s_.droplets[i];
         tracks_.from[i] = d.position;
         const CapSize cap = caps_.cap(d.volume);
         tracks_.reach[i] = caps_.reach(cap);
+        if (d.velocity == Vec2{} && d.volume < resting) {
+            tracks_.to[i] = d.position;
+            wind_[i].reset();
+            return;
+        }
+        wind_[i] = Vec2{};
         if (const std::optional<GlassPlace> place = p_.glass.place(d.position)) {
             const DropletForces forces = forcesOn(p_.forces, cap);
-            wind_[i] = windAlong(*place, speed, p_.wind);
-            const Vec2 wind = p_.relative_wind ? wind_[i] - d.velocity : wind_[i];
+            wind_[i] = windAlong(*place, speed_, p_.wind);
+            const Vec2 wind = p_.relative_wind ? *wind_[i] - d.velocity : *wind_[i];
             const Vec2 push = gravityAlong(*place, p_.forces.gravity) + inertiaAlong(*place, acceleration) +
                               fluctuationOf(d.id, s_.time + 0.5 * dt_, p_.fluctuation, p_.seed);
             const Vec2 driving = forces.mass * push + (forces.drag * sizeOf(wind)) * wind;
@@ -188,6 +216,16 @@ private:
             d.velocity = result.velocity;
         }
         tracks_.to[i] = d.position;
+    }
+
+    /// Wind along the glass at a droplet's place before the step; none beside the glass.
+    Vec2 windOn(std::size_t i) const
+    {
+        if (wind_[i]) {
+            return *wind_[i];
+        }
+        const std::optional<GlassPlace> place = p_.glass.place(tracks_.from[i]);
+        return place ? windAlong(*place, speed_, p_.wind) : Vec2{};
     }
 
     /// Adds small raindrops: each joins the first track that it touches, else still droplets that it touches.
@@ -364,10 +402,10 @@ private:
     }
 
     /// Splits droplets after all have moved and merged: the wind tears some, others leave streaks behind.
-    void breakUp()
+    void breakUp(const TrackCells& cells)
     {
         const std::size_t count = s_.droplets.size();
-        tearOff();
+        tearOff(cells);
         for (std::size_t i = 0; p_.streaks.film > 0.0 && i < count; ++i) {
             if (s_.droplets[i].volume > 0.0 && tracks_.from[i] != tracks_.to[i]) {
                 leaveStreak(i);
@@ -383,17 +421,19 @@ private:
     /// Splits droplets that are too high for the wind. What is left stays where the droplet itself would be, even if
     /// it has merged in this step; the parts are scattered downwind, each in the next free place or beyond the edge.
     /// No part is too small to run; water and momentum are conserved.
-    void tearOff()
+    void tearOff(const TrackCells& cells)
     {
         std::vector<Torn> torn;
-        double fastest = 0.0;  // squared
+        double fastest = 0.0;  // squared; no wind along the glass is faster than the car
         for (std::size_t i = 0; i < wind_.size(); ++i) {
-            const Vec2 relative = wind_[i] - s_.droplets[i].velocity;
-            fastest = std::max(fastest, dot(relative, relative));
+            const Vec2 velocity = s_.droplets[i].velocity;
+            const double most = std::abs(speed_) + (velocity == Vec2{} ? 0.0 : sizeOf(velocity));
+            fastest = std::max(fastest, most * most);
         }
-        const double least = stableVolume(std::sqrt(fastest));
+        constexpr double kSafe = 1.0 - 1e-9;
+        const double least = kSafe * stableVolume(std::sqrt(fastest));
         for (std::uint32_t i = 0; i < wind_.size(); ++i) {
-            if (s_.droplets[i].volume > least && wind_[i] != Vec2{}) {
+            if (s_.droplets[i].volume > least && windOn(i) != Vec2{}) {
                 if (Torn one = tornFrom(i); !one.parts.empty()) {
                     // A merger moved it to the centre of a group that does not last.
                     s_.droplets[i].position = moved_to_[i];
@@ -404,16 +444,15 @@ private:
         if (torn.empty()) {
             return;
         }
-        Tracks present;
-        for (const RunningDroplet& d : s_.droplets) {
-            if (d.volume > 0.0) {
-                present.add(d.position, d.position, caps_.reach(d.volume));
+        // Droplets that are not where their tracks have them, or are larger.
+        Tracks changed;
+        for (std::size_t i = 0; i < s_.droplets.size(); ++i) {
+            if (const RunningDroplet& d = s_.droplets[i]; d.volume > 0.0 && grown_[i] != 0) {
+                changed.add(d.position, d.position, caps_.reach(d.volume));
             }
         }
-        const TrackCells cells(present, {p_.glass.width(), p_.glass.height()});
-        Tracks placed;
         for (const Torn& one : torn) {
-            placeParts(one, cells, placed);
+            placeParts(one, cells, changed);
         }
     }
 
@@ -435,7 +474,7 @@ private:
         // Parts have half of the largest volume that is stable, to all of it.
         constexpr double kSmallest = 0.5;
         const RunningDroplet& d = s_.droplets[i];
-        Torn torn{i, wind_[i] - d.velocity, {}};
+        Torn torn{i, windOn(i) - d.velocity, {}};
         const double stable = stableVolume(sizeOf(torn.wind));
         const RandomStream random(p_.seed, RandomPurpose::TornPart, d.id);
         // An id may be torn more than once.
@@ -454,22 +493,24 @@ private:
     }
 
     /// Places the parts of a torn droplet downwind of it.
-    /// @param cells   droplets before any was torn
-    /// @param placed  parts that have been placed since
-    void placeParts(const Torn& torn, const TrackCells& cells, Tracks& placed)
+    /// @param cells  droplets before any was torn
+    /// @param other  places of those that have changed since, and of parts
+    void placeParts(const Torn& torn, const TrackCells& cells, Tracks& other)
     {
         // A part lies up to so far aside, over its distance downwind.
         constexpr double kSpread = 0.6;
         const auto is_free = [&](Vec2 place, double reach) {
-            if (cells.touchedBy(place, reach)) {
-                return false;
-            }
-            for (std::size_t k = 0; k < placed.count(); ++k) {
-                if (sizeOf(placed.to[k] - place) <= placed.reach[k] + reach) {
+            for (std::size_t k = 0; k < other.count(); ++k) {
+                if (sizeOf(other.to[k] - place) <= other.reach[k] + reach) {
                     return false;
                 }
             }
-            return true;
+            return !cells.hasNear(place, reach, [&](std::uint32_t i) {
+                const RunningDroplet& d = s_.droplets[i];
+                const Vec2 apart = d.position - place;
+                const double touching = tracks_.reach[i] + reach;
+                return d.volume > 0.0 && grown_[i] == 0 && dot(apart, apart) <= touching * touching;
+            });
         };
         RunningDroplet& whole = s_.droplets[torn.droplet];
         const Vec2 velocity = whole.velocity;
@@ -489,7 +530,7 @@ private:
                 place = place + onward;
             }
             addRunning(place, velocity, part);
-            placed.add(place, place, reach);
+            other.add(place, place, reach);
             ++s_.counts.torn;
         }
     }
@@ -589,15 +630,16 @@ private:
     StillCells& still_;
     const WindshieldParameters& p_;
     double dt_;
+    double speed_ = 0.0;  // of the car
     CapScale caps_;
     StillRules rules_;
     std::vector<StillDroplet> drizzle_;  // small raindrops of this step
     std::size_t before_rain_ = 0;        // number of running droplets before the rain
     // One entry for each running droplet, in their order:
     Tracks tracks_;
-    std::vector<Vec2> moved_to_;        // its place after it moved, before it merged
-    std::vector<Vec2> wind_;            // wind along the glass at its place before the step
-    std::vector<std::uint32_t> owner_;  // droplet that has its water
+    std::vector<Vec2> moved_to_;             // its place after it moved, before it merged
+    std::vector<std::optional<Vec2>> wind_;  // wind along the glass at its place before the step, if it was needed
+    std::vector<std::uint32_t> owner_;       // droplet that has its water
     std::vector<std::uint8_t> grown_;
 };
 
