@@ -41,13 +41,13 @@ TrackCells::TrackCells(const Tracks& tracks, Vec2 size)
     };
     const auto count = static_cast<std::uint32_t>(tracks.count());
     for (std::uint32_t i = 0; i < count; ++i) {
-        visit(i, [&](std::size_t cell) { ++first_[cell]; });
+        visit(i, [this](std::size_t cell) { ++first_[cell]; });
     }
     std::inclusive_scan(first_.begin(), first_.end(), first_.begin());
     entries_.resize(first_.back());
     // Filled backward: the end of each cell becomes its beginning.
     for (std::uint32_t i = count; i-- > 0;) {
-        visit(i, [&, entry = entryOf(i)](std::size_t cell) { entries_[--first_[cell]] = entry; });
+        visit(i, [this, entry = entryOf(i)](std::size_t cell) { entries_[--first_[cell]] = entry; });
     }
 }
 
@@ -56,10 +56,8 @@ TrackCells::Entry TrackCells::entryOf(std::uint32_t track) const
     const Vec2 from = tracks_.from[track];
     const Vec2 to = tracks_.to[track];
     const Vec2 middle = 0.5 * (from + to);
-    double radius = tracks_.reach[track];
-    if (from != to) {
-        radius += 0.5 * std::hypot(to.x - from.x, to.y - from.y);
-    }
+    // Half the way, at most.
+    double radius = tracks_.reach[track] + 0.5 * (std::abs(to.x - from.x) + std::abs(to.y - from.y));
     // More than what rounding to floats may take from the distance of two places.
     constexpr double kMore = 1e-6;
     radius += kMore * (1.0 + radius + std::abs(middle.x) + std::abs(middle.y));
