@@ -13,6 +13,7 @@ const kNames = new Map(kParameters.map((name) => [camelCase(name), name]));
 /** Bytes of the largest structure of the interface, DropletPlace. */
 const kRoom = 96;
 const kMaxBlades = 8;
+const kBladeRoom = 64;
 
 /** Decodes IEEE 754 binary16, for programs that read pixels; textures take them as they are. */
 export function halfFloat(bits) {
@@ -56,7 +57,7 @@ export async function loadRain(wasm) {
             rain.free(place);
         }
     };
-    const room = allocated(Math.max(kRoom, 32 * kMaxBlades));
+    const room = allocated(Math.max(kRoom, kBladeRoom * kMaxBlades));
     const numbers = (count, from = room) => Array.from({ length: count }, (_, k) => view().getFloat64(from + 8 * k, true));
     const count64 = (place) => Number(view().getBigUint64(place, true));
     const putNumbers = (values) => values.forEach((value, k) => view().setFloat64(room + 8 * k, value, true));
@@ -154,8 +155,8 @@ export async function loadRain(wasm) {
         blades() {
             const count = Math.min(rain.droplet_windshield_blades(this.#kept(), room, kMaxBlades), kMaxBlades);
             return Array.from({ length: count }, (_, k) => {
-                const [innerX, innerY, outerX, outerY] = numbers(4, room + 32 * k);
-                return { inner: { x: innerX, y: innerY }, outer: { x: outerX, y: outerY } };
+                const [innerX, innerY, outerX, outerY, x, y, first, last] = numbers(8, room + kBladeRoom * k);
+                return { inner: { x: innerX, y: innerY }, outer: { x: outerX, y: outerY }, pivot: { x, y }, first, last };
             });
         }
 

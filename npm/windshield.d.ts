@@ -133,8 +133,8 @@ export interface Windshield {
     /** Droplets that are large enough to run, in the order of their ids. */
     running(): RunningDroplet[];
     place(x: number, y: number): GlassPlace;
-    /** Blades where they are now [m]. */
-    blades(): { inner: Position; outer: Position }[];
+    /** Blades where they are now [m], and their angles about the pivot at rest and at the turn [rad]. */
+    blades(): { inner: Position; outer: Position; pivot: Position; first: number; last: number }[];
     /** Brings the map of the water up to the state. */
     draw(): WaterMap;
     /** Brings the map of the mist up to the state. */

@@ -394,7 +394,7 @@ size_t droplet_windshield_blades(const DropletWindshield* windshield, DropletBla
         const Vec2 along{std::cos(angle), std::sin(angle)};
         const Vec2 inner = wiper.pivot + wiper.inner * along;
         const Vec2 outer = wiper.pivot + wiper.outer * along;
-        blades[k] = {inner.x, inner.y, outer.x, outer.y};
+        blades[k] = {inner.x, inner.y, outer.x, outer.y, wiper.pivot.x, wiper.pivot.y, wiper.first, wiper.last};
     }
     return wipers.size();
 }

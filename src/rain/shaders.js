@@ -133,6 +133,73 @@ void main() {
     colour = vec4(light * kPane, cover);
 }`;
 
+/**
+ * The line of water that a blade pushes, or leaves where it turns, with the vertices of glass.glsl: half an ellipse across, whose
+ * width differs along it (src/windshield_view/wiper_view.cpp).
+ */
+export const kPushed = `${kHead}uniform sampler2D outside;
+uniform vec2 glass, wide, pivot, along, ahead, reach;  // reach: of the blade, from the pivot [m]
+uniform vec3 eye, cabin;
+uniform float begins;   // distance from the blade's middle [m]
+uniform float pushed, drained, seed;
+uniform float border;   // [m]
+uniform vec2 other_pivot, other_reach, other_angles;  // another blade's field, which lets no water stay
+in vec3 place, normal, across, up;
+in vec2 uv;
+out vec4 colour;
+const float kIor = 1.333, kPi = 3.14159265, kWidest = 0.007;
+const vec3 kPane = vec3(0.97, 0.985, 0.98);
+float hashed(float cell) { return fract(sin(cell * 91.7 + seed * 17.0) * 4375.5); }
+float uneven(float x) { return mix(hashed(floor(x)), hashed(floor(x) + 1.0), smoothstep(0.0, 1.0, fract(x))); }
+bool isInOther(vec2 p) {
+    vec2 from = p - other_pivot;
+    float far = length(from), share = (atan(from.y, from.x) - other_angles.x) / (other_angles.y - other_angles.x);
+    return far > other_reach.x && far < other_reach.y && share > 0.0 && share < 1.0;
+}
+void main() {
+    vec2 position = vec2(uv.x, 1.0 - uv.y) * glass, from = position - pivot;
+    float far = dot(from, along), beyond = dot(from, ahead) - begins, end = min(far - reach.x, reach.y - far);
+    float width = smoothstep(0.0, 0.03, end);
+    if (drained < 0.0) {
+        width *= kWidest * pushed * (0.35 + 0.65 * uneven(far / 0.014));
+        width *= isInOther(position) ? 1.0 - smoothstep(0.6, 0.95, pushed) : 1.0;
+    } else {
+        // It drains along the blade's line, last at thick places, and is wider further out.
+        float out_there = (far - reach.x) / (reach.y - reach.x);
+        width *= 1.7 * kWidest * (0.35 + 0.65 * out_there) * max(0.6 * uneven(far / 0.018 + 2.0 * drained) + 0.5 - 1.1 * drained, 0.0);
+        width *= isInOther(position) ? 0.0 : 1.0;
+    }
+    float pixel = max(length(dFdx(position)), length(dFdy(position)));
+    float cover = clamp(beyond / pixel + 0.5, 0.0, 1.0) + clamp((width - beyond) / pixel + 0.5, 0.0, 1.0) - 1.0;
+    vec2 from_edge = min(uv, 1.0 - uv) * glass;
+    cover *= border > 0.0 ? smoothstep(border, 1.6 * border, min(from_edge.x, from_edge.y)) : 1.0;
+    float x = clamp(2.0 * beyond / max(width, 1e-6) - 1.0, -0.96, 0.96);
+    vec2 slope = -0.7 * x * inversesqrt(1.0 - x * x) * ahead;
+    vec3 facing = normalize(vec3(-slope, 1.0)), n = normalize(normal), ray = normalize(place - eye);
+    vec3 inside = vec3(dot(ray, across), dot(ray, up), 0.0) / kIor;
+    inside.z = sqrt(1.0 - dot(inside.xy, inside.xy));
+    vec3 leaving = refract(inside, -facing, kIor);
+    bool passes = dot(leaving, leaving) > 0.0;
+    leaving = passes ? leaving : inside;
+    vec3 direction = leaving.x * across + leaving.y * up + leaving.z * n;
+    vec2 s = direction.xz / (max(abs(direction.y), 1e-4) * max(wide, 1e-4));
+    vec2 mirrored = mix(s, sign(s) / max(abs(s), 1e-4), step(1.0, abs(s)));
+    vec2 at = wide.x == 0.0 ? vec2(0.5 + atan(direction.x, direction.y) / (2.0 * kPi), acos(clamp(direction.z, -1.0, 1.0)) / kPi)
+                            : vec2(0.5 + 0.5 * mirrored.x, 0.5 - 0.5 * mirrored.y);
+    vec2 pixels = vec2(textureSize(outside, 0)) / (wide.x == 0.0 ? vec2(2.0 * kPi, kPi) : 2.0 * wide);
+    float apart = max(length(dFdx(direction.xz) * pixels), length(dFdy(direction.xz) * pixels));
+    vec3 light = cabin;
+    if (passes) {
+        float c = dot(inside, facing), k = dot(leaving, facing);
+        float across_plane = (kIor * c - k) / (kIor * c + k), in_plane = (c - kIor * k) / (c + kIor * k);
+        light = mix(textureLod(outside, at, clamp(log2(max(apart, 1.0)), 0.0, 7.0)).rgb, cabin, 0.5 * (across_plane * across_plane + in_plane * in_plane));
+    }
+    if (width < 3e-4 || cover <= 0.0) {
+        discard;
+    }
+    colour = vec4(light * kPane, cover);
+}`;
+
 /** The street without its lights: sky, hills, wet road and its lines. */
 export const kScenery = `${kHead}in vec2 at;
 uniform vec2 wide;

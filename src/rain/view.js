@@ -4,7 +4,7 @@ import glass from './glass.glsl';
 import rain from './rain.glsl';
 import { Road, kNumbers } from './road.js';
 import {
-    kAhead, kDefocus, kDevelop, kDevelopFrame, kDouble, kDry, kFilmLeft, kHalve, kLights, kPaint, kPart, kScenery, kShine, kSweep, kSwept,
+    kAhead, kDefocus, kDevelop, kDevelopFrame, kDouble, kDry, kFilmLeft, kHalve, kLights, kPaint, kPart, kPushed, kScenery, kShine, kSweep, kSwept,
     kWhole, shaderOf,
 } from './shaders.js';
 import { Sweeps } from './sweeps.js';
@@ -19,6 +19,9 @@ const kPanoramaMap = [2048, 1024];
 const kLens = { glowing: 0.075, falloff: 0.42 };
 const kFilmLasts = 0.75;      // behind a blade [s]
 const kFilmMap = 1024;        // width of the map of films [px]
+const kBladeHalf = 0.0075;    // half its width [m]
+const kPushedReach = 0.024;   // of pushed water from the middle of a blade [m]
+const kStrip = 24;            // parts of its mesh along the blade
 const kGrain = { street: 0.014, picture: 0.008 };
 
 class Program {
@@ -85,6 +88,7 @@ export class View {
     #parts;
     #lights;
     #swept;
+    #strip;
     #sweeps;
     #drawn_with = '';
 
@@ -100,12 +104,13 @@ export class View {
             rain: [shaderOf(glass), shaderOf(rain)], part: [kPart, kPaint], scenery: [kWhole, kScenery], lights: [kLights, kShine],
             develop: [kWhole, kDevelop], ahead: [kWhole, kAhead], defocus: [kWhole, kDefocus], halve: [kWhole, kHalve],
             double: [kWhole, kDouble], film: [kWhole, kDevelopFrame], sweep: [kSweep, kSwept], dry: [kWhole, kDry],
-            left: [shaderOf(glass), kFilmLeft],
+            left: [shaderOf(glass), kFilmLeft], pushed: [shaderOf(glass), kPushed],
         }).map(([name, [vertex, fragment]]) => [name, new Program(gl, vertex, fragment)]));
         this.#empty = gl.createVertexArray();
         this.#pane = this.#mesh([3, 3, 3, 3, 2]);
         this.#parts = this.#mesh([3, 2, 4]);
         this.#swept = this.#mesh([2, 4]);
+        this.#strip = this.#mesh([3, 3, 3, 3, 2]);
         this.#lights = this.#mesh([2], new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
         this.#lights.numbers = gl.createBuffer();
         gl.bindBuffer(gl.ARRAY_BUFFER, this.#lights.numbers);
@@ -216,10 +221,7 @@ export class View {
     setGlass(windshield) {
         const { width, height } = windshield.figures();
         this.glass = [width, height];
-        const corner = (x, y) => {
-            const { point, normal, across, up } = windshield.place(Math.min(x, width), Math.min(y, height));
-            return [...point, ...normal, ...across, ...up, x / width, 1 - y / height];
-        };
+        const corner = (x, y) => this.#corner(windshield, x, y);
         const numbers = [];
         for (let k = 0; k < kColumns; ++k) {
             const [left, right] = [k, k + 1].map((i) => i * width / kColumns);
@@ -230,6 +232,14 @@ export class View {
         this.middle = windshield.place(0.5 * width, 0.5 * height).point;
         this.#drawn_with = '';
         this.#sweeps = new Sweeps(kFilmLasts);
+    }
+
+    /** A vertex of the glass. */
+    #corner(windshield, x, y) {
+        const [width, height] = this.glass;
+        const [u, v] = [Math.min(Math.max(x, 0), width), Math.min(Math.max(y, 0), height)];
+        const { point, normal, across, up } = windshield.place(u, v);
+        return [...point, ...normal, ...across, ...up, u / width, 1 - v / height];
     }
 
     /** Shows a picture, a video or a panorama behind the glass; nothing: the street. */
@@ -443,13 +453,48 @@ export class View {
         }
     }
 
+    /** Water that blades push ahead, and what is left of it where they have turned. */
+    #drawPushed(windshield, values) {
+        const gl = this.#gl;
+        const blades = windshield.blades();
+        for (const { blade, angle, side, pushed, drained, seed } of this.#sweeps.beads()) {
+            const { inner, outer, pivot } = blades[blade] ?? {};
+            if (!pivot) {
+                continue;
+            }
+            const reachOf = (one) => [one.inner, one.outer].map(({ x, y }) => Math.hypot(x - one.pivot.x, y - one.pivot.y));
+            const reach = reachOf({ inner, outer, pivot });
+            const along = [Math.cos(angle), Math.sin(angle)];
+            const ahead = [-side * along[1], side * along[0]];
+            const numbers = [];
+            const corner = (far, aside) => this.#corner(windshield, pivot.x + far * along[0] + aside * ahead[0], pivot.y + far * along[1] + aside * ahead[1]);
+            for (let k = 0; k < kStrip; ++k) {
+                const [from, to] = [k, k + 1].map((i) => reach[0] + (reach[1] - reach[0]) * i / kStrip);
+                const [a, b, c, d] = [corner(from, 0), corner(to, 0), corner(to, kPushedReach), corner(from, kPushedReach)];
+                numbers.push(...a, ...b, ...c, ...a, ...c, ...d);
+            }
+            const other = blades.find((_, k) => k !== blade);
+            this.#programs.pushed.use({
+                ...values, glass: this.glass, pivot: [pivot.x, pivot.y], along, ahead, reach, begins: kBladeHalf, pushed, drained, seed,
+                other_pivot: other ? [other.pivot.x, other.pivot.y] : [0, 0], other_reach: other ? reachOf(other) : [0, 0],
+                other_angles: other ? [other.first, other.last] : [0, 1],
+            });
+            this.#fill(this.#strip, numbers);
+            gl.enable(gl.BLEND);
+            gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE);
+            gl.bindVertexArray(this.#strip.array);
+            gl.drawArrays(gl.TRIANGLES, 0, this.#strip.count);
+            gl.disable(gl.BLEND);
+        }
+    }
+
     /** Wipers, beyond the glass. */
     #drawBlades(windshield, camera) {
         const numbers = [];
         for (const { inner, outer } of windshield.blades()) {
             const along = { x: outer.x - inner.x, y: outer.y - inner.y };
             const at = (share) => ({ x: inner.x + share * along.x, y: inner.y + share * along.y });
-            View.#bar(numbers, windshield, this.glass, at(0), at(1), 0.0075, [0.0035, 0.0036, 0.004, 1]);
+            View.#bar(numbers, windshield, this.glass, at(0), at(1), kBladeHalf, [0.0035, 0.0036, 0.004, 1]);
             View.#bar(numbers, windshield, this.glass, at(-0.4), at(0.5), 0.006, [0.006, 0.006, 0.007, 1], 0.02);
         }
         this.#drawParts(numbers, camera);
@@ -501,6 +546,7 @@ export class View {
         gl.bindVertexArray(this.#pane.array);
         gl.drawArrays(gl.TRIANGLES, 0, this.#pane.count);
         this.#drawFilms(windshield, shown.time, camera, { dry, cabin, border: shown.border });
+        this.#drawPushed(windshield, { ...camera, outside, wide, cabin, border: shown.border });
         this.#drawBlades(windshield, camera);
         if (shown.border > 0) {
             this.#drawDashboard(camera);

@@ -178,6 +178,10 @@ static void rain(void)
     HOLDS(droplet_windshield_advance(windshield, 0.1) == DROPLET_OK);
     HOLDS(droplet_windshield_set(windshield, "wiper-period", 0.0) == DROPLET_OK);
     HOLDS(droplet_windshield_blades(windshield, &blade, 1) == 2 && blade.outer_y > blade.inner_y);
+    // The blade's line goes through the pivot, about which it has turned.
+    const double across = (blade.inner_x - blade.pivot_x) * (blade.outer_y - blade.pivot_y) -
+                          (blade.inner_y - blade.pivot_y) * (blade.outer_x - blade.pivot_x);
+    HOLDS(across < 1e-12 && across > -1e-12 && blade.last > blade.first);
     for (int frame = 0; frame < 12; ++frame) {
         HOLDS(droplet_windshield_advance(windshield, 0.1) == DROPLET_OK);
     }

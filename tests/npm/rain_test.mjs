@@ -104,6 +104,10 @@ test('places and blades are those of the glass', async () => {
     advance(rain, 0.5);
     const [left, right] = rain.blades();
     assert.ok(left.outer.y > left.inner.y && right.outer.x > left.outer.x);
+    for (const { inner, outer, pivot, first, last } of [left, right]) {
+        const angles = [inner, outer].map(({ x, y }) => Math.atan2(y - pivot.y, x - pivot.x));
+        assert.ok(Math.abs(angles[0] - angles[1]) < 1e-9 && angles[0] > first && angles[0] < last);
+    }
 });
 
 test('arguments are refused by name', async () => {

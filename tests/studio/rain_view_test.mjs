@@ -129,6 +129,28 @@ view('the page draws rain as rays do', async (page) => {
     assert.ok(seen.alike > 0.55, text);
 });
 
+test('blades push water ahead, and leave it where they turn', async () => {
+    const { Sweeps } = await import(join(SOURCES, 'rain/sweeps.js'));
+    const sweeps = new Sweeps(0.75);
+    const [first, last, stroke, period] = [0.1, 2.1, 1.2, 3];
+    const beads = [];
+    for (let k = 0; k <= 180; ++k) {
+        const way = Math.min(k / 60, stroke);
+        const angle = first + (last - first) * 0.5 * (1 - Math.cos(2 * Math.PI * way / stroke));
+        const at = (far) => ({ x: far * Math.cos(angle), y: far * Math.sin(angle) });
+        sweeps.follow([{ inner: at(0.1), outer: at(0.6), pivot: at(0), first, last }], k / 60);
+        sweeps.follow([{ inner: at(0.1), outer: at(0.6), pivot: at(0), first, last }], k / 60);  // a frame without a step
+        beads.push(sweeps.beads());
+    }
+    const ahead = (k) => beads[k].find(({ drained }) => drained < 0);
+    assert.ok(ahead(20).pushed < ahead(30).pushed && ahead(30).side === 1 && ahead(50).side === -1);
+    assert.ok(ahead(35).pushed < 0.05, 'it is released at the turn');
+    assert.equal(ahead(period * 60), undefined);
+    const left = (k) => beads[k].filter(({ drained }) => drained >= 0);
+    assert.deepEqual([30, 45, 80, 90, 175].map((k) => left(k).map(({ side }) => side)), [[], [1], [-1], [-1], []]);
+    assert.ok(Math.abs(left(45)[0].angle - last) < 0.02 && left(45)[0].drained < left(60)[0].drained);
+});
+
 view('a blade leaves a film, which dries', async (page) => {
     const small = { width: 320, height: 180 };
     const every = (steps) => Array.from({ length: steps / 5 }, (_, k) => 5 * k + 5);

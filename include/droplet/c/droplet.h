@@ -260,6 +260,10 @@ typedef struct DropletBlade {
     double inner_y;  ///< end near the pivot [m]
     double outer_x;  ///< other end [m]
     double outer_y;  ///< other end [m]
+    double pivot_x;  ///< about which it turns [m]
+    double pivot_y;  ///< about which it turns [m]
+    double first;    ///< angle at rest, from the glass's x towards its y [rad]
+    double last;     ///< angle at the turn [rad]
 } DropletBlade;
 
 /// Blades where they are now.
