@@ -399,7 +399,9 @@ void WiperView::addFilm(const WiperState& one, const FilmPixels& film, std::size
     for (std::size_t k = 0; k < kTilePixels; ++k) {
         wet[count] = static_cast<std::uint32_t>(k);
         level[count] = field->level[k] - film_->ofAge(steps[k]).broken;
-        count += (level[count] > 0.0F) & (ages[k] < kFilmLasts) ? 1 : 0;
+        // Without a branch, which would be guessed wrong.
+        const int is_wet = (level[count] > 0.0F ? 1 : 0) & (ages[k] < kFilmLasts ? 1 : 0);
+        count += static_cast<std::size_t>(is_wet);
     }
     const Vec2f pivot = toFloats2(one.wiper.pivot);
     const ViewContext::TilePlaces places = scene_.placesOf(tile);
