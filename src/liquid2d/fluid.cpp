@@ -92,8 +92,10 @@ private:
                 const double gone = state.emitted[k] - row * row_height;
                 const bool is_odd = std::fmod(row, 2.0) != 0.0;
                 const int count = std::max(columns - (is_odd ? 0 : 1), 1);
+                // Every row reaches to the edges, which stay straight where the jet stretches.
+                const double wide = count > 1 ? step * (columns - 1) / (count - 1) : 0.0;
                 for (int c = 0; c < count && state.position.size() < scene_.max_particles; ++c) {
-                    const double offset = (c - 0.5 * (count - 1)) * step;
+                    const double offset = (c - 0.5 * (count - 1)) * wide;
                     place(state, emitter.position + gone * ahead + offset * across, emitter.velocity);
                     ++state.counts.emitted;
                 }
