@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads the rain, and calls it: the C interface of include/droplet/c/droplet.h.
+import { loadModule } from './c_module.js';
 import { DropletError } from './droplet_error.js';
-import { instantiate } from './droplet_shape.js';
-import { pageSystem } from './page_system.js';
 
-const kCodes = [undefined, 'Internal', 'InvalidArgument', 'InvalidInput', 'OutputFailed', 'NoSuchDroplet', 'OutOfMemory'];
 /** Parameters, as droplet_windshield_set() has them; those of the glass come first, before others depend on it. */
 const kParameters = ['glass-width', 'glass-height', 'glass-radius', 'slope', 'seed', 'speed', 'rain', 'noise', 'wiper-period', 'gravity',
     'contact-angle', 'hysteresis', 'kinetic-fraction', 'viscosity-factor', 'film', 'still-diameter', 'mist', 'splashes'];
@@ -29,38 +27,8 @@ export function halfFloat(bits) {
  * @return      function that makes a windshield: see windshield() in windshield.js
  */
 export async function loadRain(wasm) {
-    const rain = await instantiate(wasm, (memory) => pageSystem(memory, new Map()));
-    const view = () => new DataView(rain.memory.buffer);
-    const textAt = (place) => {
-        const bytes = new Uint8Array(rain.memory.buffer, place);
-        return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
-    };
-    const allocated = (bytes) => rain.malloc(bytes) || (() => {
-        throw new DropletError('OutOfMemory', 'out of memory; use smaller maps');
-    })();
-    const check = (code) => {
-        if (code !== 0) {
-            throw new DropletError(kCodes[code] ?? 'Internal', textAt(rain.droplet_message()));
-        }
-    };
-    /** Calls with a text that ends with 0; an empty place for none. */
-    const withText = (text, call) => {
-        if (text === undefined) {
-            return call(0);
-        }
-        const bytes = new TextEncoder().encode(`${text}\0`);
-        const place = allocated(bytes.length);
-        new Uint8Array(rain.memory.buffer, place, bytes.length).set(bytes);
-        try {
-            return call(place);
-        } finally {
-            rain.free(place);
-        }
-    };
-    const room = allocated(Math.max(kRoom, kBladeRoom * kMaxBlades));
-    const numbers = (count, from = room) => Array.from({ length: count }, (_, k) => view().getFloat64(from + 8 * k, true));
-    const count64 = (place) => Number(view().getBigUint64(place, true));
-    const putNumbers = (values) => values.forEach((value, k) => view().setFloat64(room + 8 * k, value, true));
+    const { calls: rain, room, check, allocated, withText, view, numbers, count64, putNumbers } =
+        await loadModule(wasm, Math.max(kRoom, kBladeRoom * kMaxBlades), 'use smaller maps');
 
     /** What windshield.d.ts says. */
     class Windshield {

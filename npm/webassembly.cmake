@@ -16,3 +16,18 @@ function(link_headers)
     file(CREATE_LINK ${folder_of_${library}}/${library} ${headers}/${library} SYMBOLIC)
   endforeach()
 endfunction()
+
+# add_c_module(NAME SOURCE...): the C interface as a module of its own.
+function(add_c_module name)
+  add_executable(${name} ${ARGN})
+  set_target_properties(${name} PROPERTIES SUFFIX .wasm)
+  target_include_directories(${name} PRIVATE ${root}/include ${root}/src ${root}/c/src ${root}/npm/src)
+  target_include_directories(${name} SYSTEM PRIVATE ${headers})
+  target_compile_definitions(${name} PRIVATE FMT_HEADER_ONLY)
+  # Clang 14 makes wrong vectors of similar code: see CMakeLists.txt.
+  target_compile_options(${name} PRIVATE
+    -Wall -Wextra -Wpedantic -Wno-unknown-pragmas -fno-slp-vectorize -include ${root}/npm/src/standard_library.h)
+  target_link_options(${name} PRIVATE
+    -fwasm-exceptions -sSUPPORT_LONGJMP=wasm --no-entry -sSTANDALONE_WASM -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=2GB -sTOTAL_STACK=1MB
+    -sFILESYSTEM=0 -sEXPORTED_FUNCTIONS=_malloc,_free -O3)
+endfunction()

@@ -9,16 +9,15 @@
 #include <memory>
 #include <utility>
 
-#include "cell_grid.h"
 #include "dfsph.h"
 #include "droplet/error.h"
+#include "free_places.h"
 #include "grid_liquid.h"
 #include "kernel.h"
 #include "number_text.h"
 #include "region.h"
 #include "reorder.h"
 #include "require.h"
-#include "wall_samples.h"
 
 namespace droplet {
 namespace {
@@ -96,7 +95,7 @@ private:
                 const double wide = count > 1 ? step * (columns - 1) / (count - 1) : 0.0;
                 for (int c = 0; c < count && state.position.size() < scene_.max_particles; ++c) {
                     const double offset = (c - 0.5 * (count - 1)) * wide;
-                    place(state, emitter.position + gone * ahead + offset * across, emitter.velocity);
+                    addParticle(state, emitter.position + gone * ahead + offset * across, emitter.velocity);
                     ++state.counts.emitted;
                 }
             }
@@ -127,20 +126,6 @@ private:
         }
     }
 
-public:
-    static void place(FluidState& state, Vec2 position, Vec2 velocity)
-    {
-        state.position.push_back(position);
-        state.velocity.push_back(velocity);
-        state.id.push_back(state.next_id++);
-        state.density.push_back(1.0);
-        state.pressure.push_back(0.0);
-        if (!state.affine.empty()) {
-            state.affine.emplace_back();
-        }
-    }
-
-private:
     const FluidScene& scene_;
     std::unique_ptr<FluidSolver> solver_;
 };
@@ -159,114 +144,21 @@ void validate(const FluidOptions& options)
 
 }  // namespace
 
-namespace {
-
-/// Places for liquid at the start.
-class FreePlaces {
-public:
-    FreePlaces(const FluidScene& scene, const Kernel& kernel)
-        : scene_(scene),
-          walls_(WallSampler(scene, kernel).at(0.0)),
-          lower_(Vec2{-scene.margin, -scene.margin}),
-          upper_(scene.size + Vec2{scene.margin, scene.size.y + scene.margin}),
-          cells_(lower_, upper_, kernel.support()),
-          order_(cells_.sort(walls_.position)),
-          taken_(lower_, upper_, kernel.support())
-    {
-        for (const Wall& wall : scene.walls) {
-            taken_regions_.emplace_back(wallAt(wall, 0.0));
-        }
-    }
-
-    /// Calls visit(place) for the places of a body that neither walls nor earlier bodies take.
-    template <typename Visit>
-    void visit(const Region& body, const Visit& visit)
-    {
-        std::vector<Vec2> own;
-        visitLattice(body, {scene_.spacing, lower_, upper_}, [&](Vec2 place) {
-            if (isFree(place)) {
-                visit(place);
-                own.push_back(place);
-            }
-        });
-        taken_regions_.emplace_back(body);
-        places_.insert(places_.end(), own.begin(), own.end());
-        taken_order_ = taken_.sort(places_);
-    }
-
-private:
-    [[nodiscard]] bool isFree(Vec2 place) const
-    {
-        const auto holds = [place](const Interior& region) { return region.contains(place); };
-        return std::none_of(taken_regions_.begin(), taken_regions_.end(), holds) && !isAtWall(place) &&
-               !isAtParticle(place);
-    }
-
-    /// Calls meets(index) for what a grid has around a place, until it returns true.
-    template <typename Meets>
-    static bool anyAround(Vec2 place, const CellGrid& cells, const std::vector<std::uint32_t>& order,
-                          const Meets& meets)
-    {
-        const int column = cells.column(place.x);
-        const int row = cells.row(place.y);
-        for (int r = row - 1; r <= row + 1; ++r) {
-            const auto [first, last] = cells.range(r, column - 1, column + 1);
-            for (std::uint32_t k = first; k < last; ++k) {
-                if (meets(order[k])) {
-                    return true;
-                }
-            }
-        }
-        return false;
-    }
-
-    [[nodiscard]] bool isAtWall(Vec2 place) const
-    {
-        const double clearance = 0.4 * scene_.spacing;
-        return anyAround(place, cells_, order_, [&](std::uint32_t k) {
-            const Vec2 arm = place - walls_.position[k];
-            const Vec2 normal = walls_.normal[k];
-            return std::abs(cross(normal, arm)) < scene_.spacing && dot(arm, normal) > 0.0 &&
-                   dot(arm, normal) < walls_.depth + clearance;
-        });
-    }
-
-    /// Beside an earlier body: particles of two bodies that share a side are at least half a spacing apart.
-    [[nodiscard]] bool isAtParticle(Vec2 place) const
-    {
-        return !places_.empty() && anyAround(place, taken_, taken_order_, [&](std::uint32_t k) {
-            return length(place - places_[k]) < 0.5 * scene_.spacing;
-        });
-    }
-
-    const FluidScene& scene_;
-    WallSamples walls_;
-    std::vector<Interior> taken_regions_;  ///< of the walls, and of the bodies so far
-    Vec2 lower_;                           ///< beyond these corners particles are removed
-    Vec2 upper_;
-    CellGrid cells_;  ///< of the walls' samples
-    std::vector<std::uint32_t> order_;
-    std::vector<Vec2> places_;  ///< of the bodies' particles so far
-    CellGrid taken_;
-    std::vector<std::uint32_t> taken_order_;
-};
-
-}  // namespace
-
 FluidState startFluid(const FluidScene& scene)
 {
     scene.validate();
     FluidState state;
     state.emitted.resize(scene.emitters.size());
-    FreePlaces places(scene, Kernel(scene.spacing));
+    FreePlaces places(scene, state.time);
     for (const LiquidBody& body : scene.liquid) {
         const Vec2 centre = momentsOf(body.region).centroid;
-        places.visit(body.region, [&](Vec2 place) {
+        // Particles of two bodies that share a side are at least half a spacing apart.
+        places.visit(body.region, 0.5, [&](Vec2 place) {
             if (state.position.size() >= scene.max_particles) {
                 refuseValue("max_particles", scene.max_particles, "at least the number that the liquid needs");
             }
             const Vec2 arm = place - centre;
-            Stepper::place(state, place, body.velocity + body.spin * Vec2{-arm.y, arm.x});
+            addParticle(state, place, body.velocity + body.spin * Vec2{-arm.y, arm.x});
         });
     }
     if (state.position.empty() && scene.emitters.empty()) {

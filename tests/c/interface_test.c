@@ -195,6 +195,126 @@ static void rain(void)
     droplet_windshield_delete(NULL);
 }
 
+static DropletLiquid2dFigures figures_of(const DropletLiquid2d* liquid)
+{
+    DropletLiquid2dFigures figures = {0};
+    HOLDS(droplet_liquid2d_figures(liquid, &figures) == DROPLET_OK);
+    return figures;
+}
+
+// Area within the outlines of a layer, holes taken off.
+static double area_of(DropletLiquid2d* liquid, int32_t layer)
+{
+    DropletOutlines outlines;
+    HOLDS(droplet_liquid2d_outlines(liquid, &outlines) == DROPLET_OK);
+    const float* p = outlines.points;
+    double area = 0.0;
+    for (size_t k = 0; k < outlines.count; ++k) {
+        const size_t n = outlines.list[k].points;
+        HOLDS(n >= 3);
+        for (size_t i = 0; i < n && outlines.list[k].layer == layer; ++i) {
+            const float* a = p + 2 * i;
+            const float* b = p + 2 * ((i + 1) % n);
+            area += 0.5 * ((double)a[0] * b[1] - (double)a[1] * b[0]);
+        }
+        p += 2 * n;
+    }
+    return area;
+}
+
+static void advance(DropletLiquid2d* liquid, int frames)
+{
+    for (int k = 0; k < frames; ++k) {
+        HOLDS(droplet_liquid2d_advance(liquid, 1.0 / 24.0) == DROPLET_OK);
+    }
+}
+
+// An empty basin is filled by what is poured, a stirrer moves it, and outlines enclose its area.
+static void liquids(void)
+{
+    DropletLiquid2d* liquid = NULL;
+    const DropletLiquid2dScene unknown = {"lake", 1000, NULL};
+    HOLDS(droplet_liquid2d_new(&unknown, &liquid) == DROPLET_INVALID_ARGUMENT && liquid == NULL);
+    HOLDS(strstr(droplet_message(), "basin") != NULL);  // the message lists all names
+    const DropletLiquid2dScene few = {NULL, 10, NULL};
+    HOLDS(droplet_liquid2d_new(&few, &liquid) == DROPLET_INVALID_ARGUMENT && liquid == NULL);
+    const DropletLiquid2dScene scene = {"basin", 2000, "realistic"};
+    HOLDS(droplet_liquid2d_new(&scene, &liquid) == DROPLET_OK);
+    HOLDS(figures_of(liquid).particles == 0 && area_of(liquid, DROPLET_LIQUID) == 0.0);
+    HOLDS(area_of(liquid, DROPLET_WALL) > 0.0);
+    advance(liquid, 1);  // nothing at all
+
+    const double spacing = figures_of(liquid).spacing;
+    const DropletPour pour = {2.0, 1.5, 0.3, 0.0, -1.0};
+    HOLDS(droplet_liquid2d_pour(liquid, &pour) == DROPLET_OK);
+    const DropletLiquid2dFigures first = figures_of(liquid);
+    // As many as the disc holds, but for its rim.
+    HOLDS(fabs((double)first.particles * spacing * spacing / (3.14159265 * 0.09) - 1.0) < 0.1);
+    HOLDS(fabs(first.mean_speed - 1.0) < 1e-12);
+    HOLDS(droplet_liquid2d_pour(liquid, &pour) == DROPLET_OK);
+    HOLDS(figures_of(liquid).particles == first.particles);  // the place is taken
+    const DropletPour below = {2.0, -0.1, 0.05, 0.0, 0.0};
+    HOLDS(droplet_liquid2d_pour(liquid, &below) == DROPLET_OK);
+    HOLDS(figures_of(liquid).particles == first.particles);  // the floor's, too
+    for (int frame = 0; frame < 200; ++frame) {
+        HOLDS(droplet_liquid2d_pour(liquid, &pour) == DROPLET_OK);
+        advance(liquid, 1);
+    }
+    const DropletLiquid2dFigures full = figures_of(liquid);
+    HOLDS(full.particles > 3 * first.particles && full.particles <= 6000);
+    advance(liquid, 72);
+    const double area = area_of(liquid, DROPLET_LIQUID) + area_of(liquid, DROPLET_DROPLETS);
+    HOLDS(fabs(area / ((double)full.particles * spacing * spacing) - 1.0) < 0.05);
+
+    const char* svg = NULL;
+    HOLDS(droplet_liquid2d_svg(liquid, "comic", 800, &svg) == DROPLET_OK);
+    HOLDS(strstr(svg, "<g id=\"liquid\"><path") != NULL && strstr(svg, "<g id=\"walls\">") != NULL);
+    HOLDS(droplet_liquid2d_svg(liquid, "oil", 800, &svg) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_liquid2d_svg(liquid, NULL, 8, &svg) == DROPLET_INVALID_ARGUMENT);
+
+    DropletLiquidLook look;
+    HOLDS(droplet_liquid2d_look("ink", &look) == DROPLET_OK);
+    HOLDS(look.water == 0xFFFFFF && look.foam == DROPLET_NO_COLOUR && look.line == 0x141418 && look.line_width == 2.0);
+    HOLDS(droplet_liquid2d_look("oil", &look) == DROPLET_INVALID_ARGUMENT);
+
+    double value = 0.0;
+    HOLDS(droplet_liquid2d_set(liquid, "gravity", 0.0) == DROPLET_OK);
+    HOLDS(droplet_liquid2d_get(liquid, "gravity", &value) == DROPLET_OK && value == 0.0);
+    HOLDS(droplet_liquid2d_set(liquid, "gravity", NAN) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_liquid2d_set(liquid, "surface-tension", -1.0) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_liquid2d_set(liquid, "nothing", 1.0) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_liquid2d_style(liquid, "wave") == DROPLET_OK);
+    HOLDS(droplet_liquid2d_style(liquid, "oil") == DROPLET_INVALID_ARGUMENT);
+    advance(liquid, 2);
+    HOLDS(area_of(liquid, DROPLET_LIQUID) > 0.5 * area);
+    HOLDS(droplet_liquid2d_advance(liquid, 0.0) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_liquid2d_pour(liquid, NULL) == DROPLET_INVALID_ARGUMENT);
+    const DropletStir still = {1.0, 0.2, 1.2, 0.2, 0.3, 0.0};
+    HOLDS(droplet_liquid2d_stir(liquid, &still) == DROPLET_INVALID_ARGUMENT);
+    droplet_liquid2d_delete(liquid);
+    droplet_liquid2d_delete(NULL);
+
+    // A stirrer moves a pool at rest.
+    const DropletLiquid2dScene pool = {"splash", 3000, NULL};
+    HOLDS(droplet_liquid2d_new(&pool, &liquid) == DROPLET_OK);
+    const double calm = figures_of(liquid).mean_speed;
+    const DropletStir stir = {0.8, 0.35, 1.0, 0.35, 0.3, 1.0 / 24.0};
+    HOLDS(droplet_liquid2d_stir(liquid, &stir) == DROPLET_OK);
+    HOLDS(figures_of(liquid).mean_speed > calm + 0.1);
+    advance(liquid, 1);
+    HOLDS(figures_of(liquid).mean_speed > calm + 0.1);
+    droplet_liquid2d_delete(liquid);
+
+    // Each preset has about the particles that were asked for, once its jet has ended.
+    const char* const presets[] = {"splash", "wave", "dam"};
+    for (int k = 0; k < 3; ++k) {
+        const DropletLiquid2dScene wanted = {presets[k], 3000, NULL};
+        HOLDS(droplet_liquid2d_new(&wanted, &liquid) == DROPLET_OK);
+        HOLDS(fabs((double)figures_of(liquid).particles / 3000.0 - 1.0) < 0.05);
+        droplet_liquid2d_delete(liquid);
+    }
+}
+
 int main(int argc, char** argv)
 {
     if (argc != 3) {
@@ -205,5 +325,6 @@ int main(int argc, char** argv)
     HOLDS(strchr(droplet_version(), '.') != NULL);
     shapes(argv[1], argv[2]);
     rain();
+    liquids();
     return failures;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The library for programs that are not written in C++: droplets of footprints, and rain on a windshield as it falls.
+// The library for programs that are not written in C++: droplets of footprints, rain on a windshield as it falls, and
+// 2D liquids.
 //
 // Objects are opaque. Each belongs to one thread at a time; different ones may be used by different threads. All
 // quantities are in SI units, texts are UTF-8. Functions that can fail return a code, and droplet_message() has one
@@ -322,6 +323,156 @@ typedef struct DropletMistMap {
 /// @param windshield  valid
 /// @param map         receives it
 DROPLET_API DropletCode droplet_windshield_mist(DropletWindshield* windshield, DropletMistMap* map);
+
+// ---- 2D liquids ----
+//
+// Positions are in the window: x from 0 at the left edge to the width, y from 0 at the lower edge to the height [m].
+
+/// A liquid in the plane: scene, state and outlines.
+typedef struct DropletLiquid2d DropletLiquid2d;
+
+/// What a liquid starts from.
+typedef struct DropletLiquid2dScene {
+    const char* preset;  ///< "splash", "wave", "dam", "pour" or "basin", which is empty; NULL: splash
+    uint64_t particles;  ///< of the liquid, about, 100 to 1e6; in an empty basin these fill half of it
+    const char* style;   ///< "realistic", "cartoon" or "wave"; NULL: what suits the preset
+} DropletLiquid2dScene;
+
+/// Makes a liquid at time 0.
+/// @param scene  what it starts from
+/// @param made   receives the liquid; droplet_liquid2d_delete() ends it
+DROPLET_API DropletCode droplet_liquid2d_new(const DropletLiquid2dScene* scene, DropletLiquid2d** made);
+
+/// Ends a liquid, and with it all arrays and texts that it gave.
+/// @param liquid  or NULL
+DROPLET_API void droplet_liquid2d_delete(DropletLiquid2d* liquid);
+
+/// Sets a parameter, at any time.
+///
+/// | name | unit | range | of |
+/// | --- | --- | --- | --- |
+/// | gravity | m/s² | -100 to 100 | gravity, downwards |
+/// | surface-tension | N/m | 0 to 100 | the liquid, whose density is 1000 kg/m³ |
+/// | viscosity | m²/s | 0 to 1 | the liquid, kinematic |
+/// @param liquid  valid
+/// @param name    in the table
+/// @param value   in the table
+DROPLET_API DropletCode droplet_liquid2d_set(DropletLiquid2d* liquid, const char* name, double value);
+
+/// Value of a parameter of droplet_liquid2d_set().
+/// @param liquid  valid
+/// @param name    in its table
+/// @param value   receives the value
+DROPLET_API DropletCode droplet_liquid2d_get(const DropletLiquid2d* liquid, const char* name, double* value);
+
+/// Sets the style of the outlines, at any time: droplets in flight have no tails until they have flown on.
+/// @param liquid  valid
+/// @param style   "realistic", "cartoon" or "wave"
+DROPLET_API DropletCode droplet_liquid2d_style(DropletLiquid2d* liquid, const char* style);
+
+/// Advances the liquid.
+/// @param liquid   valid
+/// @param seconds  > 0; at most 1/24 is advised
+DROPLET_API DropletCode droplet_liquid2d_advance(DropletLiquid2d* liquid, double seconds);
+
+/// Liquid that appears in a disc.
+typedef struct DropletPour {
+    double x;       ///< middle [m]
+    double y;       ///< middle [m]
+    double radius;  ///< [m], > 0
+    double vx;      ///< velocity of the liquid across [m/s]
+    double vy;      ///< velocity of the liquid upwards [m/s]
+} DropletPour;
+
+/// Adds liquid where a disc has room, until there are three times the particles that the scene asked for.
+/// @param liquid  valid
+/// @param pour    place and velocity
+DROPLET_API DropletCode droplet_liquid2d_pour(DropletLiquid2d* liquid, const DropletPour* pour);
+
+/// Straight movement of a round stirrer.
+typedef struct DropletStir {
+    double from_x;   ///< where its middle was [m]
+    double from_y;   ///< where its middle was [m]
+    double to_x;     ///< where its middle is [m]
+    double to_y;     ///< where its middle is [m]
+    double radius;   ///< [m], > 0
+    double seconds;  ///< that the movement took, > 0
+} DropletStir;
+
+/// Gives liquid on the way of a stirrer its velocity: wholly in its middle, less towards its rim.
+/// @param liquid  valid
+/// @param stir    of the stirrer
+DROPLET_API DropletCode droplet_liquid2d_stir(DropletLiquid2d* liquid, const DropletStir* stir);
+
+/// Figures of a liquid.
+typedef struct DropletLiquid2dFigures {
+    double time;         ///< since the start [s]
+    double width;        ///< of the window [m]
+    double height;       ///< of the window [m]
+    double spacing;      ///< of particles [m]; each stands for its square
+    double mean_speed;   ///< of all particles [m/s]; 0 without any
+    uint64_t particles;  ///< number of particles
+} DropletLiquid2dFigures;
+
+/// Figures of the state.
+/// @param liquid   valid
+/// @param figures  receives them
+DROPLET_API DropletCode droplet_liquid2d_figures(const DropletLiquid2d* liquid, DropletLiquid2dFigures* figures);
+
+/// What an outline bounds; the numbers stay.
+typedef enum DropletLiquidLayer {
+    DROPLET_LIQUID = 0,    ///< connected liquid; its holes run clockwise
+    DROPLET_DROPLETS = 1,  ///< a small detached body
+    DROPLET_FOAM = 2,      ///< air that is also a hole of the liquid
+    DROPLET_WALL = 3       ///< a wall that is visible
+} DropletLiquidLayer;
+
+/// Closed polyline.
+typedef struct DropletOutline {
+    int32_t layer;    ///< of DropletLiquidLayer
+    uint32_t points;  ///< number of its points; the first is not repeated at the end
+} DropletOutline;
+
+/// Outlines of a liquid.
+typedef struct DropletOutlines {
+    const DropletOutline* list;  ///< in the order of their points; stays until the next call
+    size_t count;                ///< number of outlines
+    const float* points;         ///< x and y of all points, outline by outline [m]; stays until the next call
+} DropletOutlines;
+
+/// Outlines of the state. Tails of droplets and air in crests come from the states at which this was called before:
+/// call it once a frame.
+/// @param liquid    valid
+/// @param outlines  receives them
+DROPLET_API DropletCode droplet_liquid2d_outlines(DropletLiquid2d* liquid, DropletOutlines* outlines);
+
+/// Colours and lines of drawings. Colours are 0xRRGGBB, sRGB.
+typedef struct DropletLiquidLook {
+    uint32_t water;       ///< connected liquid
+    uint32_t droplet;     ///< detached droplets
+    uint32_t foam;        ///< foam, or DROPLET_NO_COLOUR: what is behind shows
+    uint32_t line;        ///< outlines
+    uint32_t wall;        ///< walls
+    uint32_t background;  ///< what is behind, or DROPLET_NO_COLOUR: transparent
+    double line_width;    ///< of outlines, in thousandths of the window's width; 0: none
+} DropletLiquidLook;
+
+/// No colour of a look.
+#define DROPLET_NO_COLOUR 0xFFFFFFFFU
+
+/// Colours and lines of a look.
+/// @param name  "flat", "comic", "ink" or "night"
+/// @param look  receives them
+DROPLET_API DropletCode droplet_liquid2d_look(const char* name, DropletLiquidLook* look);
+
+/// The outlines that droplet_liquid2d_outlines() gave last, as SVG: Bézier curves in groups named walls, liquid,
+/// droplets and foam.
+/// @param liquid  valid
+/// @param look    colours and lines: "flat", "comic", "ink" or "night"; NULL: flat
+/// @param width   [px], 16 to 16384
+/// @param svg     receives a text that stays until the next call
+DROPLET_API DropletCode droplet_liquid2d_svg(DropletLiquid2d* liquid, const char* look, int32_t width,
+                                             const char** svg);
 
 #ifdef __cplusplus
 }
