@@ -11,6 +11,7 @@ export function studioPage() {
     const module = (id, file) => () =>
         `<script id="${id}" type="text/plain">${deflateRawSync(fs.readFileSync(here(file)), { level: 9 }).toString('base64')}</script>\n`;
     page ??= Buffer.from(fs.readFileSync(here('./studio.html'), 'utf8').replace('{{solver}}', module('solver', './droplet_shape.wasm'))
-        .replace('{{rain}}', module('rain-module', './droplet_rain.wasm')));
+        .replace('{{rain}}', module('rain-module', './droplet_rain.wasm'))
+        .replace('{{liquid}}', module('liquid-module', './droplet_liquid.wasm')));
     return page;
 }

@@ -11,7 +11,7 @@ const script = await bundleScript(join(sources, 'page.js'), {
     ...wasm ? await withWorker(studio) : {},
     alias: { studio: wasm ? join(studio, 'from_page.js') : join(sources, 'no_studio.js') },
 });
-const styles = [join(studio, 'studio.css'), join(studio, 'dew.css'), join(studio, '../rain/rain.css')];
+const styles = [join(studio, 'studio.css'), join(studio, 'dew.css'), join(studio, '../live/live.css'), join(studio, '../liquid/liquid.css')];
 const style = await bundleStyle([join(sources, 'page.css'), ...wasm ? styles : []]);
 const filled = {
     style,

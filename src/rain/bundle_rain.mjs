@@ -8,7 +8,7 @@ import { bundleScript, bundleStyle, fill, moduleElement, policyOf } from '../htm
 
 const [sources, output, wasm] = process.argv.slice(2);
 const script = await bundleScript(join(sources, 'alone.js'));
-const style = await bundleStyle([join(sources, 'rain.css')]);
+const style = await bundleStyle([join(sources, '../live/live.css')]);
 writeFileSync(output, fill(readFileSync(join(sources, 'rain.html'), 'utf8'), {
     script, style, policy: policyOf(script, style, { compiles: true, plays: true }), module: moduleElement('rain-module', wasm),
 }, ['values']));

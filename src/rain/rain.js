@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Rain on a windshield in a page: the simulation in fixed steps, its view, and the controls.
 import { loadRain } from '../../npm/rain.js';
+import { Recorder, savePicture } from '../live/recorder.js';
 import { Backdrop } from './backdrop.js';
 import { Panel } from './panel.js';
-import { Recorder, savePicture } from './recorder.js';
 import { View } from './view.js';
 
 const kStep = 1 / 60;
@@ -19,7 +19,6 @@ const kSprayRadius = 0.035;
 const kFinger = 16e-3;           // width [m]
 const kBorder = 0.035;           // of the glass [m]
 const kWarmUpAtOnce = 60;        // [ms]
-const kCalm = 3500;              // [ms] until the bar hides
 
 /** Names of the library's parameters that the page sets. */
 const kParameters = ['speed', 'rain', 'noise', 'wiperPeriod', 'seed', 'gravity', 'contactAngle', 'hysteresis', 'kineticFraction',
@@ -36,7 +35,7 @@ const kParameters = ['speed', 'rain', 'noise', 'wiperPeriod', 'seed', 'gravity',
  */
 export async function openRain(parent, wasm, given = {}, leave = undefined) {
     const root = document.createElement('div');
-    root.className = 'rain';
+    root.className = 'live rain';
     parent.append(root);
     const state = document.documentElement.dataset;
     try {
@@ -87,7 +86,7 @@ class Rain {
             this.values[name] ??= this.windshield.get(name);
         }
         this.backdrop = new Backdrop(this.view, root, this.ends.signal, (name, trouble) => this.panel?.showBackdrop(name, trouble));
-        this.recorder = new Recorder(canvas);
+        this.recorder = new Recorder(canvas, 'rain');
         this.panel = new Panel(root, this);
         if (given.background) {
             this.backdrop.load(given.background, 'own');
@@ -275,7 +274,7 @@ class Rain {
     /** Saves the frame as a picture; a canvas keeps it only until the browser shows it. */
     savePicture() {
         this.#draw();
-        savePicture(this.canvas);
+        savePicture(this.canvas, 'rain');
     }
 
     /** The pointer is a finger, or a sprayer. */
@@ -319,9 +318,5 @@ class Rain {
                 this.sprays.delete(pointerId);
             });
         }
-    }
-
-    get calmAfter() {
-        return kCalm;
     }
 }

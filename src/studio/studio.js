@@ -9,13 +9,13 @@ import { Dew } from './dew.js';
 import { History } from './history.js';
 import { askPicture } from './import_dialog.js';
 import { buildLayers } from './layers.js';
+import { kLiveParts, showLive } from './live_parts.js';
 import markup from './markup.html';
 import { inkOf, lookOf } from './looks.js';
 import { commandOf, kLayerFields, kSceneFields, optionsOf } from './physics.js';
 import { buildForm } from './physics_form.js';
-import { fitted } from './pictures.js';
+import { fitted, levelsOf, maskOfLevels } from './pictures.js';
 import { newLayer, newProject, projectOf, selectedLayer, withLayer } from './project.js';
-import { hasRain, showRain } from './rain_part.js';
 import { save } from './save.js';
 import { Sheet } from './sheet.js';
 import { Solver } from './solver.js';
@@ -484,8 +484,10 @@ class Studio {
         for (const button of find('saves').querySelectorAll('[data-save]')) {
             button.addEventListener('click', () => this.#save(button.dataset.save));
         }
-        find('rain').hidden = !hasRain();
-        find('rain').addEventListener('click', showRain);
+        for (const name of kLiveParts) {
+            find(name).hidden = false;
+            find(name).addEventListener('click', () => showLive(name, { draw: (canvas, title) => this.#draw(canvas, title) }));
+        }
         for (const button of [find('new'), find('afresh')]) {
             button.addEventListener('click', () => {
                 if (this.dew.is_shown) {
@@ -558,6 +560,13 @@ class Studio {
         } else if (use === 'underlay') {
             this.#change({ ...this.project, underlay: { picture: canvas.toDataURL(photo ? 'image/jpeg' : 'image/png', 0.9), opacity: 0.5 } });
         }
+    }
+
+    /** Takes a drawing of a part over Studio, whose transparency is dry, and shows it on the sheet. */
+    #draw(canvas, title) {
+        this.#show('draw');
+        this.#take(maskOfLevels(levelsOf(canvas), 0.5, false), title);
+        this.#say(`${title} is on the sheet`);
     }
 
     /** Takes a mask for the selected layer. An empty sheet gets its size and its name. */

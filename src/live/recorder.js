@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Saves pictures and videos of a canvas.
 
-function download(blob, name) {
+export function download(blob, name) {
     const link = document.createElement('a');
     link.href = URL.createObjectURL(blob);
     link.download = name;
@@ -10,15 +10,17 @@ function download(blob, name) {
 }
 
 /** Call it in the task in which the canvas was drawn. */
-export function savePicture(canvas) {
-    canvas.toBlob((blob) => download(blob, 'rain.png'), 'image/png');
+export function savePicture(canvas, name) {
+    canvas.toBlob((blob) => download(blob, `${name}.png`), 'image/png');
 }
 
 export class Recorder {
     #recorder;
 
-    constructor(canvas) {
+    /** @param name  of the file, without its ending */
+    constructor(canvas, name) {
         this.canvas = canvas;
+        this.name = name;
     }
 
     /** Whether the browser can. */
@@ -35,7 +37,7 @@ export class Recorder {
         const recorder = new MediaRecorder(this.canvas.captureStream(60), { mimeType: type, videoBitsPerSecond: 16e6 });
         const parts = [];
         recorder.addEventListener('dataavailable', ({ data }) => parts.push(data));
-        recorder.addEventListener('stop', () => download(new Blob(parts, { type }), type.startsWith('video/mp4') ? 'rain.mp4' : 'rain.webm'));
+        recorder.addEventListener('stop', () => download(new Blob(parts, { type }), type.startsWith('video/mp4') ? `${this.name}.mp4` : `${this.name}.webm`));
         recorder.start(1000);
         this.#recorder = recorder;
     }
