@@ -115,6 +115,7 @@ void draw(DropletLiquid2d& liquid)
     const droplet::ParticleFrame frame = frameOf(liquid.state, liquid.scene);
     liquid.memory = droplet::advanceExpression(std::move(liquid.memory), frame, liquid.options);
     liquid.shape = droplet::liquidShape(liquid.memory, frame, liquid.options);
+    liquid.memory = droplet::remember(std::move(liquid.memory), liquid.shape);
     liquid.shape.time = liquid.state.time;
     liquid.walls.clear();
     for (const droplet::Wall& wall : liquid.scene.walls) {

@@ -213,7 +213,7 @@ class Liquid {
             if (fill) {
                 const path = pathOf(outlines[layer]);
                 context.fillStyle = fill;
-                context.fill(path, 'evenodd');
+                context.fill(path);
                 if (colours.lineWidth > 0) {
                     context.stroke(path);
                 }
@@ -256,7 +256,7 @@ class Liquid {
         canvas.height = Math.round(scale * height);
         const context = canvas.getContext('2d', { willReadFrequently: true });
         context.setTransform(scale, 0, 0, -scale, 0, canvas.height);
-        context.fill(pathOf([...this.outlines.liquid, ...this.outlines.droplets]), 'evenodd');
+        context.fill(pathOf([...this.outlines.liquid, ...this.outlines.droplets]));
         const { draw, values } = this;
         this.leave();
         draw(canvas, kPresets[values.preset][0]);
