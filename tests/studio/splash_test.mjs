@@ -138,6 +138,7 @@ studio('made 3D, the liquid is on the sheet and a droplet stands beside it', kDe
 });
 
 studio('on a phone the bar is reachable and the panel closed at first', kPhone, async (page) => {
+    assert.equal(await page.evaluate(() => innerWidth), 390);  // the bar of Studio fits, too
     await page.locator('#liquid2d').click();
     await page.waitForFunction(() => document.documentElement.dataset.state === 'running');
     for (const button of await page.locator('.liquid2d .bar button').all()) {
