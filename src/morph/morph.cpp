@@ -326,7 +326,9 @@ void morph(const std::vector<Region>& footprints, const MorphOptions& options, c
                 const double t = static_cast<double>(frame - begin) / static_cast<double>(end - begin);
                 transition.advance(t);
                 shape.liquid = transition.loops();
-                const double side = std::sqrt(area[leg] + t * (area[leg + 1] - area[leg]));
+                // Then liquid that is in both footprints stays where it is: its ways are those of the scaled ones.
+                const double way = wayAt(t);
+                const double side = 1.0 / ((1.0 - way) / std::sqrt(area[leg]) + way / std::sqrt(area[leg + 1]));
                 for (Loop& loop : shape.liquid) {
                     for (Vec2& p : loop.points) {
                         p = middle + side * p;

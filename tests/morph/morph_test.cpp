@@ -67,7 +67,7 @@ std::vector<std::vector<Vec2>> pointsOf(const std::vector<Loop>& loops)
     return points;
 }
 
-TEST(Morph, AreaChangesEvenlyAndTheEndsAreTheFootprints)
+TEST(Morph, AreaFollowsTheWayAndTheEndsAreTheFootprints)
 {
     const std::vector<Region> footprints{ring(), twoDiscs(), droplet::circle({0.5, 0.5}, 0.3)};
     const std::vector<LiquidShape> frames = framesOf(footprints, quick(21));
@@ -76,14 +76,40 @@ TEST(Morph, AreaChangesEvenlyAndTheEndsAreTheFootprints)
     const double two = std::numbers::pi * (0.15 * 0.15 + 0.12 * 0.12);
     for (std::size_t k = 0; k <= 10; ++k) {
         const double t = static_cast<double>(k) / 10.0;
-        EXPECT_NEAR(frames[k].area() / (hollow + t * (two - hollow)), 1.0, 1e-3) << k;
-        EXPECT_NEAR(frames[10 + k].area() / (two + t * (disc - two)), 1.0, 1e-3) << k;
+        const double way = t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
+        const auto between = [way](double from, double to) {
+            return std::pow((1.0 - way) / std::sqrt(from) + way / std::sqrt(to), -2.0);
+        };
+        EXPECT_NEAR(frames[k].area() / between(hollow, two), 1.0, 1e-3) << k;
+        EXPECT_NEAR(frames[10 + k].area() / between(two, disc), 1.0, 1e-3) << k;
     }
     EXPECT_EQ(frames[10].liquid.size(), 2U);
     EXPECT_EQ(pointsOf(frames[20].liquid), footprints[2].loops);
     // The hole runs the other way round.
     ASSERT_EQ(frames[0].liquid.size(), 2U);
     EXPECT_LT(droplet::signedArea(frames[0].liquid[1]), 0.0);
+}
+
+/// Two dots that grow where they are.
+TEST(Morph, LiquidInBothFootprintsStaysInItsPlace)
+{
+    const auto dots = [](double radius) {
+        Region region = droplet::circle({0.25, 0.5}, radius);
+        region.loops.push_back(droplet::circle({0.75, 0.5}, radius).loops[0]);
+        return region;
+    };
+    for (const LiquidShape& frame : framesOf({dots(0.06), dots(0.2)}, quick(13))) {
+        ASSERT_EQ(frame.liquid.size(), 2U);
+        for (const Loop& loop : frame.liquid) {
+            Vec2 middle;
+            for (const Vec2 p : loop.points) {
+                middle = middle + (1.0 / static_cast<double>(loop.points.size())) * p;
+            }
+            // The liquid is a little behind its way.
+            EXPECT_NEAR(std::abs(middle.x - 0.5), 0.25, 0.02);
+            EXPECT_NEAR(middle.y, 0.5, 0.01);
+        }
+    }
 }
 
 TEST(Morph, OutlinesNextToTheEndsAreCloseToTheFootprints)
