@@ -411,15 +411,27 @@ private:
     std::priority_queue<Pass, std::vector<Pass>, std::greater<>> passes_;
 };
 
+/// Whether liquid is below its ground: it lies in no hollow, whatever rises around it.
+bool hangs(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid)
+{
+    return !(dot(surface.faces[liquid.face].normal, up) > 0.0);
+}
+
 }  // namespace
 
 Hollow hollowAround(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid)
 {
+    if (hangs(surface, up, liquid)) {
+        return {std::nullopt, liquid.volume};
+    }
     return Flood(surface, up, liquid).run();
 }
 
 std::optional<FilledHollow> pondAround(const FlowSurface& surface, Vec3 up, const RestingLiquid& liquid)
 {
+    if (hangs(surface, up, liquid)) {
+        return std::nullopt;
+    }
     return Flood(surface, up, liquid).pond();
 }
 

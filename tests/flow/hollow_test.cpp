@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "droplet/flow/flow.h"
@@ -67,6 +68,30 @@ std::optional<Brim> brimOf(const FlowSurface& surface, Vec3 up, const RestingLiq
     const Hollow hollow = hollowAround(surface, up, liquid);
     EXPECT_TRUE(hollow.brim || hollow.held >= liquid.volume);
     return hollow.brim;
+}
+
+/// The outer side of an open box: its floor is the lowest ground, and walls rise around it, but on the other side.
+TEST(Hollow, LiquidBelowItsGroundLiesInNone)
+{
+    constexpr double kHalf = 0.025;
+    std::vector<Vec3> vertices;
+    for (const double z : {0.0, 0.03}) {
+        for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+            vertices.push_back({kHalf * x, kHalf * y, z});
+        }
+    }
+    std::vector<Triangle> triangles{{0, 2, 1}, {0, 3, 2}};
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        const std::uint32_t next = (k + 1) % 4;
+        triangles.push_back({k, next, 4 + next});
+        triangles.push_back({k, 4 + next, 4 + k});
+    }
+    const FlowTerrain terrain(flowSurface(vertices, triangles));
+    const RestingLiquid below{
+        faceAt(terrain, {0.005, 0.003, 0.0}), {0.005, 0.003, 0.0}, 5e-9, 1.2e-3, 90.0 * kDegree, 4e-3};
+    ASSERT_LT(terrain.surface().faces[below.face].normal.z, 0.0);
+    EXPECT_FALSE(brimOf(terrain.surface(), kUp, below));
+    EXPECT_FALSE(pondAround(terrain.surface(), kUp, below));
 }
 
 TEST(Hollow, HoldsAConesVolume)
