@@ -87,6 +87,7 @@ LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame
 
 /// Remembers the holes of a frame that was drawn, so that holes of the next one last: small ones are drawn once they
 /// are a twelfth of a second old, and none closes before a tenth of a second. Without it all holes are drawn.
+/// @param state  from advanceExpression()
 /// @param shape  from liquidShape() with this state
 ExpressionState remember(ExpressionState state, const LiquidShape& shape);
 

@@ -25,7 +25,7 @@ struct LiquidHole {
     double seen = 0.0;            ///< time at which it opened [s]
     std::optional<double> shown;  ///< time from which on it is drawn [s]; empty: not yet
 
-    friend bool operator==(const LiquidHole&, const LiquidHole&) = default;
+    friend bool operator==(const LiquidHole&, const LiquidHole&) = default;  ///< Compares all members.
 };
 
 /// Outlines of a 2D liquid at one moment.

@@ -16,6 +16,8 @@ enum class Floor {
 
 /// Adds a floor just below an object, centred under it, as more triangles with the material `floor`. Its texture
 /// coordinates are one point, so that textures of the object have no part of it.
+/// @param object  of one shape or, with `shapes`, one that deforms
+/// @param floor   what is added
 /// @param shapes  vertices of the object in all frames, if it deforms; the floor is below all of them, rests, and is
 ///                added to each. Empty otherwise.
 FlowObject onFloor(FlowObject object, Floor floor, std::vector<std::vector<Vec3>>& shapes);
