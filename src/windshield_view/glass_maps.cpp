@@ -22,7 +22,8 @@ namespace {
 /// Nearest level; what is half way is rounded up.
 std::uint16_t unsignedLevel(double share)
 {
-    return static_cast<std::uint16_t>(65535.0 * std::min(std::max(share, 0.0), 1.0) + 0.5);
+    constexpr double kHalf = 0.5;  // a call of lround() for every value takes as long as the map
+    return static_cast<std::uint16_t>(65535.0 * std::min(std::max(share, 0.0), 1.0) + kHalf);
 }
 
 std::uint16_t signedLevel(double value)

@@ -104,10 +104,10 @@ void WaterSums::update(const StillCells& now)
 void WaterSums::draw(Drawn& one) const
 {
     const RunningDroplet& droplet = one.droplet;
-    std::optional<BodyRelief> relief = relief_of_ ? relief_of_(droplet) : std::nullopt;
+    const std::optional<BodyRelief> relief = relief_of_ ? relief_of_(droplet) : std::nullopt;
     raster_.draw({droplet.position, droplet.velocity, droplet.volume,
                   runningShape(droplet.volume, length(droplet.velocity), shape_), true,
-                  relief ? std::make_shared<const BodyRelief>(*std::move(relief)) : nullptr},
+                  relief ? std::make_shared<const BodyRelief>(*relief) : nullptr},
                  one.water);
 }
 
