@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "liquid2d/bounds.h"
 #include "liquid2d/cell_grid.h"
 
 namespace droplet {
@@ -56,16 +57,12 @@ LiquidHole measured(const Loop& rim)
 /// Gives holes the mean velocity of the particles along their rims.
 void addVelocities(std::vector<LiquidHole>& holes, const std::vector<Loop>& rims, const ParticleFrame& frame)
 {
-    Vec2 lower{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-    Vec2 upper = -1.0 * lower;
+    Bounds box;
     for (const Loop& rim : rims) {
-        for (const Vec2 x : rim.points) {
-            lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
-            upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
-        }
+        box.include(rim.points);
     }
     const double cell = 2.0 * frame.spacing;
-    CellGrid cells(lower - Vec2{cell, cell}, upper + Vec2{cell, cell}, cell);
+    CellGrid cells(box.lower - Vec2{cell, cell}, box.upper + Vec2{cell, cell}, cell);
     const std::vector<std::uint32_t> order = cells.sort(frame.position);
     for (std::size_t k = 0; k < holes.size(); ++k) {
         Vec2 sum;

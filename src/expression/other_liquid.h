@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "droplet/liquid2d/particle_frame.h"
+#include "liquid2d/bounds.h"
 #include "liquid2d/cell_grid.h"
 
 namespace droplet {
@@ -17,7 +17,7 @@ public:
     /// @param frame  with a particle
     /// @param group  of each particle's droplet, by id
     OtherLiquid(const ParticleFrame& frame, const std::vector<std::uint32_t>& group)
-        : reach_(kNear * frame.spacing), cells_(lowerOf(frame), upperOf(frame), reach_)
+        : reach_(kNear * frame.spacing), cells_(boundsOf(frame.position).lower, boundsOf(frame.position).upper, reach_)
     {
         for (const std::uint32_t i : cells_.sort(frame.position)) {
             position_.push_back(frame.position[i]);
@@ -51,23 +51,6 @@ private:
     /// Distance from liquid at which a droplet begins to flow together with it, in spacings: the reach of a kernel in
     /// bulk liquid and that of the droplet's rim.
     static constexpr double kNear = 3.0;
-
-    static Vec2 lowerOf(const ParticleFrame& frame)
-    {
-        Vec2 lower = frame.position.front();
-        for (const Vec2 x : frame.position) {
-            lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
-        }
-        return lower;
-    }
-    static Vec2 upperOf(const ParticleFrame& frame)
-    {
-        Vec2 upper = frame.position.front();
-        for (const Vec2 x : frame.position) {
-            upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
-        }
-        return upper;
-    }
 
     double reach_;
     CellGrid cells_;

@@ -11,6 +11,7 @@
 
 #include "blocks.h"
 #include "droplet/error.h"
+#include "liquid2d/bounds.h"
 #include "liquid2d/kernel.h"
 #include "number_text.h"
 #include "union_find.h"
@@ -43,12 +44,7 @@ Surroundings surroundingsOf(const ParticleFrame& frame)
     if (count == 0) {
         return result;
     }
-    Vec2 lower = frame.position.front();
-    Vec2 upper = lower;
-    for (const Vec2 x : frame.position) {
-        lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
-        upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
-    }
+    const auto [lower, upper] = boundsOf(frame.position);
     const Kernel kernel(frame.spacing);
     const double reach = kernel.support();
     constexpr double kMaxCells = 1e8;

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "blocks.h"
+#include "bounds.h"
 #include "forces.h"
 #include "kernel.h"
 #include "neighbours.h"
@@ -103,18 +104,14 @@ private:
     /// Sorts the particles by cells, and samples the walls near them.
     WallSamples sortAndSample(FluidState& state)
     {
-        Vec2 lower = scene_.size;
-        Vec2 upper{};
-        for (const Vec2 x : state.position) {
-            lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
-            upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
+        Bounds box{scene_.size, {}};
+        box.include(state.position);
+        if (state.position.empty()) {
+            box = {{}, {}};
         }
         const double reach = kernel_.support();
-        if (state.position.empty()) {
-            lower = upper = {};
-        }
-        lower = lower - Vec2{reach, reach};
-        upper = upper + Vec2{reach, reach};
+        const Vec2 lower = box.lower - Vec2{reach, reach};
+        const Vec2 upper = box.upper + Vec2{reach, reach};
         cells_.emplace(lower, upper, reach);
         wall_cells_.emplace(lower, upper, reach);
         const std::vector<std::uint32_t> order = cells_->sort(state.position);

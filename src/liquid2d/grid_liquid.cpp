@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "blocks.h"
+#include "bounds.h"
 #include "grid_pressure.h"
 #include "grid_shape.h"
 #include "grid_viscosity.h"
@@ -314,12 +315,7 @@ private:
     [[nodiscard]] bool growTo(const FluidState& state)
     {
         const double h = grid_.cell;
-        Vec2 lower = state.position.empty() ? Vec2{} : state.position.front();
-        Vec2 upper = lower;
-        for (const Vec2 x : state.position) {
-            lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
-            upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
-        }
+        const auto [lower, upper] = state.position.empty() ? Bounds{{}, {}} : boundsOf(state.position);
         // One more than what matters, which has neighbours then.
         constexpr auto kMargin = static_cast<std::int64_t>(kPad) + 1;
         const auto number = [h](double x) { return static_cast<std::int64_t>(std::floor(x / h)); };

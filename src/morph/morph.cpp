@@ -14,6 +14,7 @@
 #include "droplet/liquid2d/fluid.h"
 #include "droplet/morph/morph_targets.h"
 #include "expression/surface_kernel.h"
+#include "liquid2d/bounds.h"
 #include "liquid2d/region.h"
 #include "morph_field.h"
 #include "require.h"
@@ -69,14 +70,9 @@ class VelocityAverage {
 public:
     VelocityAverage(const std::vector<Vec2>& position, double radius) : cell_(0.5 * radius)
     {
-        Vec2 upper = position.front();
-        lower_ = upper;
-        for (const Vec2 x : position) {
-            lower_ = {std::min(lower_.x, x.x), std::min(lower_.y, x.y)};
-            upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
-        }
+        const auto [lower, upper] = boundsOf(position);
         constexpr double kMargin = 4.0;
-        lower_ = lower_ - Vec2{kMargin * cell_, kMargin * cell_};
+        lower_ = lower - Vec2{kMargin * cell_, kMargin * cell_};
         columns_ = static_cast<std::size_t>((upper.x - lower_.x) / cell_ + 2.0 * kMargin);
         rows_ = static_cast<std::size_t>((upper.y - lower_.y) / cell_ + 2.0 * kMargin);
     }
@@ -198,22 +194,15 @@ public:
         const double radius = kFine * d + (greatest - kFine * d) * coarse;
         const double of_from = 1.0 - smoothRamp(t / kBlend, 0.0, 1.0);
         const double of_to = 1.0 - smoothRamp((1.0 - t) / kBlend, 0.0, 1.0);
-        Vec2 lower = state_.position.front();
-        Vec2 upper = lower;
-        const auto include = [&](const std::vector<Vec2>& points) {
-            for (const Vec2 x : points) {
-                lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
-                upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
-            }
-        };
-        include(state_.position);
+        Bounds box = boundsOf(state_.position);
         for (const Region* region : {of_from > 0.0 ? &from_ : nullptr, of_to > 0.0 ? &to_ : nullptr}) {
             if (region != nullptr) {
-                std::for_each(region->loops.begin(), region->loops.end(), include);
+                std::for_each(region->loops.begin(), region->loops.end(),
+                              [&](const std::vector<Vec2>& loop) { box.include(loop); });
             }
         }
         const Vec2 margin{2.0 * greatest, 2.0 * greatest};
-        MorphField field(lower - margin, upper + margin, 0.5 * d);
+        MorphField field(box.lower - margin, box.upper + margin, 0.5 * d);
         field.add({state_.position, d * d, radius}, 1.0 - of_from - of_to);
         if (of_from > 0.0) {
             field.add(from_, 2.0 * d, of_from);
