@@ -79,6 +79,7 @@ Measured measure(const FluidScene& scene, PressureSolver solver, const Expressio
         const ParticleFrame frame = frameOf(state, scene);
         surface = advanceExpression(std::move(surface), frame, controls);
         const LiquidShape shape = liquidShape(surface, frame, controls);
+        surface = remember(std::move(surface), shape);
         measured.surface += (now() - middle) / frames;
         simulation += middle - begin;
         measured.compression += state.density_error / frames;
@@ -133,13 +134,11 @@ void timeFrames(bool is_quick)
     std::puts("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |");
     for (const FluidPreset& preset : fluidPresets()) {
         const FluidScene scene = withParticles(preset.scene, is_quick ? 1000 : 20000);
-        const LiquidStyle style = preset.style == "wave"      ? LiquidStyle::Wave
-                                  : preset.style == "cartoon" ? LiquidStyle::Cartoon
-                                                              : LiquidStyle::Realistic;
+        const ExpressionOptions controls = expressionOf(liquidStyleNamed(preset.style));
         for (const PressureSolver solver : {PressureSolver::Grid, PressureSolver::Dfsph}) {
             for (const std::size_t threads : {1U, 2U}) {
                 const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-                const Measured m = measure(scene, solver, expressionOf(style), 0.0, is_quick ? 4 : 24);
+                const Measured m = measure(scene, solver, controls, 0.0, is_quick ? 4 : 24);
                 std::printf("| %s | %s | %zu | %zu | %.1f | %.0f ms | %.1f ms | %.1f | %.3f |\n", preset.name.c_str(),
                             nameOf(solver), threads, m.particles, m.steps, 1e3 * m.step * m.steps, 1e3 * m.surface,
                             1.0 / (m.step * m.steps + m.surface), m.area);

@@ -171,14 +171,6 @@ void readLiquid(const CommandLine& line, Liquid2dOptions& options)
     }
 }
 
-droplet::LiquidStyle styleNamed(const Given& given)
-{
-    return choice<droplet::LiquidStyle>(given, {{"realistic", droplet::LiquidStyle::Realistic},
-                                                {"cartoon", droplet::LiquidStyle::Cartoon},
-                                                {"wave", droplet::LiquidStyle::Wave},
-                                                {"paper", droplet::LiquidStyle::Paper}});
-}
-
 /// Reads --style, whose controls the other options change.
 void readStyle(const CommandLine& line, Liquid2dOptions& options)
 {
@@ -190,7 +182,8 @@ void readStyle(const CommandLine& line, Liquid2dOptions& options)
     }
     const Given style = line.value("--style").value_or(Given{options.style, "--style"});
     options.style = style.text;
-    options.controls = droplet::expressionOf(styleNamed(style));
+    options.controls =
+        droplet::expressionOf(forOption("--style", [&] { return droplet::liquidStyleNamed(style.text); }));
 }
 
 void readLook(const CommandLine& line, Liquid2dOptions& options)

@@ -152,13 +152,7 @@ public:
     [[nodiscard]] Vec2 size() const override { return scene_.size; }
     [[nodiscard]] std::vector<droplet::Region> walls() const override
     {
-        std::vector<droplet::Region> regions;
-        for (const droplet::Wall& wall : scene_.walls) {
-            if (wall.visible) {
-                regions.push_back(droplet::wallAt(wall, state_.time));
-            }
-        }
-        return regions;
+        return droplet::visibleWalls(scene_, state_.time);
     }
     [[nodiscard]] std::uint64_t steps() const override { return state_.counts.steps; }
     [[nodiscard]] std::uint64_t removed() const override { return state_.counts.removed; }

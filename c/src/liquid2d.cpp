@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -71,10 +70,7 @@ const std::vector<Parameter>& parameters()
 
 droplet::ExpressionOptions optionsOf(std::string_view style)
 {
-    using droplet::LiquidStyle;
-    constexpr std::array<std::pair<LiquidStyle, const char*>, 3> kStyles{
-        {{LiquidStyle::Realistic, "realistic"}, {LiquidStyle::Cartoon, "cartoon"}, {LiquidStyle::Wave, "wave"}}};
-    return droplet::expressionOf(droplet::valueNamed(kStyles, style, "style"));
+    return droplet::expressionOf(droplet::liquidStyleNamed(style));
 }
 
 /// The presets, and an empty basin.
@@ -117,12 +113,7 @@ void draw(DropletLiquid2d& liquid)
     liquid.shape = droplet::liquidShape(liquid.memory, frame, liquid.options);
     liquid.memory = droplet::remember(std::move(liquid.memory), liquid.shape);
     liquid.shape.time = liquid.state.time;
-    liquid.walls.clear();
-    for (const droplet::Wall& wall : liquid.scene.walls) {
-        if (wall.visible) {
-            liquid.walls.push_back(droplet::wallAt(wall, liquid.state.time));
-        }
-    }
+    liquid.walls = droplet::visibleWalls(liquid.scene, liquid.state.time);
 }
 
 std::uint32_t numberOf(const std::optional<droplet::Colour>& colour)

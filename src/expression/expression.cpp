@@ -2,9 +2,12 @@
 #include "droplet/expression/expression.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "drops.h"
+#include "entry_named.h"
 #include "field.h"
 #include "holes.h"
 #include "isoline.h"
@@ -93,6 +96,15 @@ void ExpressionOptions::validate() const
     within("resolution", resolution, 0.2, 1.0, "from 0.2 to 1 spacings");
     at_least_zero("min_area", min_area);
     at_least_zero("droplet_size", droplet_size);
+}
+
+LiquidStyle liquidStyleNamed(std::string_view name)
+{
+    constexpr std::array<std::pair<LiquidStyle, const char*>, 4> kStyles{{{LiquidStyle::Realistic, "realistic"},
+                                                                          {LiquidStyle::Cartoon, "cartoon"},
+                                                                          {LiquidStyle::Wave, "wave"},
+                                                                          {LiquidStyle::Paper, "paper"}}};
+    return valueNamed(kStyles, name, "style");
 }
 
 ExpressionOptions expressionOf(LiquidStyle style)

@@ -158,6 +158,17 @@ Region wallAt(const Wall& wall, double time)
     return region;
 }
 
+std::vector<Region> visibleWalls(const FluidScene& scene, double time)
+{
+    std::vector<Region> regions;
+    for (const Wall& wall : scene.walls) {
+        if (wall.visible) {
+            regions.push_back(wallAt(wall, time));
+        }
+    }
+    return regions;
+}
+
 WallSampler::WallSampler(const FluidScene& scene, const Kernel& kernel)
 {
     rest_.depth = restDepth(kernel, scene.spacing);

@@ -335,7 +335,7 @@ typedef struct DropletLiquid2d DropletLiquid2d;
 typedef struct DropletLiquid2dScene {
     const char* preset;  ///< "splash", "wave", "dam", "pour" or "basin", which is empty; NULL: splash
     uint64_t particles;  ///< of the liquid, about, 100 to 1e6; in an empty basin these fill half of it
-    const char* style;   ///< "realistic", "cartoon" or "wave"; NULL: what suits the preset
+    const char* style;   ///< "realistic", "cartoon", "wave" or "paper"; NULL: what suits the preset
 } DropletLiquid2dScene;
 
 /// Makes a liquid at time 0.
@@ -367,7 +367,7 @@ DROPLET_API DropletCode droplet_liquid2d_get(const DropletLiquid2d* liquid, cons
 
 /// Sets the style of the outlines, at any time: droplets in flight have no tails until they have flown on.
 /// @param liquid  valid
-/// @param style   "realistic", "cartoon" or "wave"
+/// @param style   "realistic", "cartoon", "wave" or "paper"
 DROPLET_API DropletCode droplet_liquid2d_style(DropletLiquid2d* liquid, const char* style);
 
 /// Advances the liquid.

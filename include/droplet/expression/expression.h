@@ -19,6 +19,10 @@ enum class LiquidStyle {
     Paper,      ///< tails, and air that hollows the crests of waves
 };
 
+/// Style with a name.
+/// @throws Error InvalidArgument if there is none; the message lists all names
+LiquidStyle liquidStyleNamed(std::string_view name);
+
 /// Controls of the surface drawn around particles.
 struct ExpressionOptions {
     double tail_length = 0.0;    ///< time whose way the tail of a detached droplet shows [s], ≥ 0

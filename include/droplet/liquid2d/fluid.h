@@ -95,6 +95,9 @@ std::vector<double> pressures(const FluidState& state, const FluidScene& scene);
 /// Place of a wall's region at a time.
 Region wallAt(const Wall& wall, double time);
 
+/// Places of a scene's visible walls at a time.
+std::vector<Region> visibleWalls(const FluidScene& scene, double time);
+
 /// State as bytes, for resuming.
 std::string bytesOf(const FluidState& state);
 
