@@ -168,7 +168,8 @@ struct Sides {
 
     [[nodiscard]] Vec2 placeOf(std::size_t k, const GridShape& grid) const
     {
-        return grid.placeOf(first.x + static_cast<double>(k % columns), first.y + static_cast<double>(k / columns));
+        const std::size_t row = k / columns;
+        return grid.placeOf(first.x + static_cast<double>(k % columns), first.y + static_cast<double>(row));
     }
 
     /// Gives values that are not given the mean of those beside them, layer by layer.
