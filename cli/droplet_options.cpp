@@ -395,6 +395,11 @@ void declareSurface(CommandLine& line, DropletSettings& settings)
         "where gravity flattens all but the rim",
         into(mesh.grading,
              {{"auto", std::nullopt}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}}));
+    line.addFlag(
+        kGroup, "--quads",
+        "Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; --triangles counts "
+        "their halves",
+        mesh.quads);
     line.addFlag(kGroup, "--open", "Leave out the base", settings.droplet.open);
     line.add(kGroup, "--material", "water|ink|mercury|honey|plain",
              "Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own]");
@@ -402,6 +407,7 @@ void declareSurface(CommandLine& line, DropletSettings& settings)
              into(settings.unit,
                   {{"m", LengthUnit::Metre}, {"cm", LengthUnit::Centimetre}, {"mm", LengthUnit::Millimetre}}));
     line.exclude({"--triangles", "--edge"});
+    line.exclude({"--quads", "--grading"});
 }
 
 void declareRun(CommandLine& line)
@@ -483,6 +489,11 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
     if (settings.colour_map && !is_gltf && format != droplet::Format::Usdz && !is_shown) {
         settings.warnings.push_back(std::string("--colour-map has no effect: ") + droplet::name(format) +
                                     " files have no texture" + (is_usd ? "; usdz files have one" : ""));
+    }
+    if (settings.droplet.mesh.quads && !droplet::hasQuads(format)) {
+        settings.warnings.push_back(std::string("--quads: ") + droplet::name(format) +
+                                    " files hold triangles alone, here the halves; obj, ply and usda files hold "
+                                    "quadrilaterals");
     }
     if (settings.nodes == droplet::Nodes::Each && !is_gltf && !is_usd && format != droplet::Format::ThreeMf) {
         warn({"each", "--nodes"}, "have no nodes");

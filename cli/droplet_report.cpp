@@ -41,6 +41,7 @@ droplet::OutputReport describeOutput(const droplet::Surface& surface, const std:
     output.path = path;
     output.format = format;
     output.triangles = surface.triangles.size();
+    output.quads = droplet::hasQuads(format) ? droplet::quadrilaterals(surface).size() : 0;
     output.topology = droplet::topology(surface);
     output.texture_map = surface.texture_map;
     // Only glTF repeats a vertex to give it a second normal.

@@ -265,6 +265,12 @@ std::string details(const Report& report)
     return text;
 }
 
+std::string faces(const droplet::OutputReport& output)
+{
+    const std::string triangles = counted(output.triangles - 2 * output.quads, "triangle");
+    return output.quads == 0 ? triangles : counted(output.quads, "quadrilateral") + " and " + triangles;
+}
+
 }  // namespace
 
 std::string summary(const Report& report, bool with_details)
@@ -288,9 +294,9 @@ std::string summary(const Report& report, bool with_details)
     if (with_details) {
         text += details(report);
     }
-    text += line("written", oneLine(report.output.path) + ": " + bytes(report.output.bytes) + ", " +
-                                counted(report.output.triangles, "triangle") + ", " +
-                                (report.output.topology.closed ? "closed" : "open") + compression(report.output));
+    text +=
+        line("written", oneLine(report.output.path) + ": " + bytes(report.output.bytes) + ", " + faces(report.output) +
+                            ", " + (report.output.topology.closed ? "closed" : "open") + compression(report.output));
     return text;
 }
 

@@ -522,6 +522,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const Progress& pro
                         .extent = droplet.domain.extent,
                         .ground = options.solve.ground,
                         .bases = basesOf(droplet.solution, std::move(film.bases)),
+                        .even_base = options.mesh.quads,
                         .keeps_dry = film.keeps_triangles || options.fill_range};
     const bool is_affine = solved.model == Model::Linear;
     if (options.fill_range && is_affine) {
@@ -533,6 +534,9 @@ void finish(Droplet& droplet, const DropletOptions& options, const Progress& pro
         if (!refill.states.empty()) {
             droplet.surface.refill = std::move(refill);
         }
+    }
+    if (options.mesh.quads) {
+        joinTriangles(droplet.surface, droplet.domain.extent);
     }
     droplet.warnings = warningsOf(droplet, options, shapes);
     if (std::string less = lessWarning(shapes, solved.fill, droplet.meshes.size()); !less.empty()) {

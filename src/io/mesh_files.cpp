@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <ostream>
 #include <string>
@@ -68,6 +69,23 @@ void requireName(const char* field, const std::string& name)
     }
 }
 
+/// Calls visit(first triangle, corners) for every face in order; quadrilaterals have four corners.
+template <class Visit>
+void forEachFace(const Surface& surface, const Visit& visit)
+{
+    const std::vector<std::uint32_t> quads = quadrilaterals(surface);
+    auto quad = quads.begin();
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        const auto& [a, b, c] = surface.triangles[t];
+        if (quad != quads.end() && *quad == t) {
+            ++quad;
+            visit(t, std::initializer_list<std::uint32_t>{a, b, c, surface.triangles[++t][2]});
+        } else {
+            visit(t, std::initializer_list<std::uint32_t>{a, b, c});
+        }
+    }
+}
+
 std::string signature()
 {
     return std::string("droplet-shape ") + kVersion;
@@ -115,13 +133,13 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptio
         writeLine(bytes, "vn", up.x, up.y, up.z);
     }
     auto part = surface.parts.begin();
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-        if (!looks.empty() && part != surface.parts.end() && part->first_triangle == t) {
+    forEachFace(surface, [&](std::size_t triangle, std::initializer_list<std::uint32_t> corners) {
+        if (!looks.empty() && part != surface.parts.end() && part->first_triangle == triangle) {
             bytes.text("usemtl " + looks[part->droplet].name + "\n");
             ++part;
         }
         bytes.u8('f');
-        for (const std::uint32_t vertex : surface.triangles[t]) {
+        for (const std::uint32_t vertex : corners) {
             const std::uint64_t own = vertex + std::uint64_t{1};
             bytes.u8(' ');
             bytes.digits(welded.number[vertex] + std::uint64_t{1});
@@ -131,7 +149,7 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptio
             bytes.digits(own);
         }
         bytes.u8('\n');
-    }
+    });
     return bytes.finish();
 }
 
@@ -195,7 +213,8 @@ std::uint64_t writePly(const Surface& surface, std::ostream& out)
                "property float nx\nproperty float ny\nproperty float nz\n"
                "property float s\nproperty float t\n" +
                (surface.contact_angle.empty() ? "" : "property float contact_angle\n") + "element face " +
-               std::to_string(surface.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n");
+               std::to_string(surface.triangles.size() - quadrilaterals(surface).size()) +
+               "\nproperty list uchar int vertex_indices\nend_header\n");
     for (const std::uint32_t i : welded.first) {
         writeVec3(bytes, surface.vertices[i]);
         writeVec3(bytes, surface.normals[i]);
@@ -205,10 +224,12 @@ std::uint64_t writePly(const Surface& surface, std::ostream& out)
             bytes.f32(surface.contact_angle[i] / kDegree);
         }
     }
-    for (const auto& [a, b, c] : surface.triangles) {
-        bytes.u8(3);
-        bytes.u32(welded.number[a], welded.number[b], welded.number[c]);
-    }
+    forEachFace(surface, [&](std::size_t /*triangle*/, std::initializer_list<std::uint32_t> corners) {
+        bytes.u8(static_cast<std::uint8_t>(corners.size()));
+        for (const std::uint32_t vertex : corners) {
+            bytes.u32(welded.number[vertex]);
+        }
+    });
     return bytes.finish();
 }
 

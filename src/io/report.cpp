@@ -207,6 +207,7 @@ Json outputSection(const OutputReport& output)
             {"bytes", output.bytes},
             {"vertices", output.vertices},
             {"triangles", output.triangles},
+            {"quads", output.quads},
             {"closed", output.topology.closed},
             {"manifold", output.topology.manifold},
             {"euler", output.topology.euler},

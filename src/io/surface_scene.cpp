@@ -132,7 +132,7 @@ SceneGeometry geometryOf(const Surface& surface, std::size_t material)
             geometry.targets.push_back({sceneVectors(state.vertices), sceneVectors(state.normals)});
         }
     }
-    geometry.parts.push_back({material, surface.triangles});
+    geometry.parts.push_back({material, surface.triangles, quadrilaterals(surface)});
     return geometry;
 }
 

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "mesh/aligned_points.h"
 #include "mesh/band.h"
 #include "mesh/lattice_core.h"
 #include "mesh/mean_edge.h"
@@ -48,16 +49,29 @@ constexpr int kMaxGrading = 64;
 /// Layers that fit into the area over the length of the rim from which on liquid is wide: a disc of a radius of 4.
 constexpr double kWide = 2.0;
 
-/// Growth of the edges, from the rim inward.
-struct Growth {
-    int longest = 1;     ///< times the edges along the rim
-    double layer = 0.0;  ///< as of layeredPoints(); 0: none
+/// How triangles cover the inside.
+struct Pattern {
+    int longest = 1;       ///< times the edges along the rim
+    double layer = 0.0;    ///< as of layeredPoints(); 0: none
+    bool squares = false;  ///< as of alignedPoints(); the others are then not used
 };
 
 /// Length of the edges of equilateral triangles.
 double evenEdge(double area, std::size_t triangles)
 {
     return std::sqrt(4.0 * area / (kRoot3 * static_cast<double>(triangles)));
+}
+
+/// Area of a triangle by the square of its edge: equilateral, or half a square.
+double areaPerSquaredEdge(bool squares)
+{
+    return squares ? 0.5 : kRoot3 / 4.0;
+}
+
+/// Whether the inside is an even lattice.
+bool isLattice(const Pattern& pattern)
+{
+    return pattern.longest == 1 && !pattern.squares;
 }
 
 double areaOf(const Domain& domain)
@@ -78,25 +92,26 @@ double rimLengthOf(const Domain& domain)
     return total;
 }
 
-std::vector<Vec2> innerPoints(const std::vector<RimPolygon>& polygons, double edge, Growth growth)
+std::vector<Vec2> innerPoints(const std::vector<RimPolygon>& polygons, double edge, Pattern pattern)
 {
-    return growth.layer > 0.0 ? layeredPoints(polygons, edge, growth.longest, growth.layer)
-                              : gradedPoints(polygons, edge, growth.longest);
+    return pattern.squares       ? alignedPoints(polygons, edge)
+           : pattern.layer > 0.0 ? layeredPoints(polygons, edge, pattern.longest, pattern.layer)
+                                 : gradedPoints(polygons, edge, pattern.longest);
 }
 
-PlanarMesh meshFootprint(const RimSampler& sampler, double edge, Growth growth)
+PlanarMesh meshFootprint(const RimSampler& sampler, double edge, Pattern pattern)
 {
     const std::vector<RimPolygon> polygons = sampler.sample(edge);
     const double finest = kFinest * sampler.finest();
-    return growth.longest > 1 ? triangulatePoints(polygons, innerPoints(polygons, edge, growth), finest)
-                              : triangulateBand(polygons, LatticeCore(polygons, edge), finest);
+    return !isLattice(pattern) ? triangulatePoints(polygons, innerPoints(polygons, edge, pattern), finest)
+                               : triangulateBand(polygons, LatticeCore(polygons, edge), finest);
 }
 
-std::vector<PlanarMesh> meshAll(const std::vector<RimSampler>& samplers, double edge, Growth growth)
+std::vector<PlanarMesh> meshAll(const std::vector<RimSampler>& samplers, double edge, Pattern pattern)
 {
     std::vector<PlanarMesh> meshes(samplers.size());
     tbb::parallel_for(std::size_t{0}, samplers.size(),
-                      [&](std::size_t k) { meshes[k] = meshFootprint(samplers[k], edge, growth); });
+                      [&](std::size_t k) { meshes[k] = meshFootprint(samplers[k], edge, pattern); });
     return meshes;
 }
 
@@ -111,7 +126,7 @@ std::size_t countTriangles(const std::vector<PlanarMesh>& meshes)
 
 /// Number of triangles for an edge length, predicted from the vertices of rim and lattice alone: 2·inner + rim − 2 per
 /// droplet, plus 2 per hole (Euler), without refinement.
-double predictTriangles(const std::vector<RimSampler>& samplers, double edge, Growth growth)
+double predictTriangles(const std::vector<RimSampler>& samplers, double edge, Pattern pattern)
 {
     std::vector<double> counts(samplers.size());
     tbb::parallel_for(std::size_t{0}, samplers.size(), [&](std::size_t k) {
@@ -121,7 +136,7 @@ double predictTriangles(const std::vector<RimSampler>& samplers, double edge, Gr
             rim += polygon.size();
         }
         const std::size_t inner =
-            growth.longest > 1 ? innerPoints(polygons, edge, growth).size() : countClearPoints(polygons, edge);
+            !isLattice(pattern) ? innerPoints(polygons, edge, pattern).size() : countClearPoints(polygons, edge);
         counts[k] = 2.0 * static_cast<double>(inner) + static_cast<double>(rim) +
                     2.0 * static_cast<double>(polygons.size()) - 4.0;
     });
@@ -159,14 +174,14 @@ void checkLongest(double count, const TriangulateOptions& options)
 
 /// Meshes with these edges, if they have more triangles than requested.
 std::optional<std::vector<PlanarMesh>> meshWithLongest(const std::vector<RimSampler>& samplers,
-                                                       const TriangulateOptions& options, Growth growth)
+                                                       const TriangulateOptions& options, Pattern pattern)
 {
-    const double count = predictTriangles(samplers, *options.max_edge, growth);
+    const double count = predictTriangles(samplers, *options.max_edge, pattern);
     if (count <= kSlack * static_cast<double>(options.triangles)) {
         return std::nullopt;
     }
     checkLongest(count, options);
-    return meshAll(samplers, *options.max_edge, growth);
+    return meshAll(samplers, *options.max_edge, pattern);
 }
 
 /// Next edge length to try, from two that were tried: the count is assumed to go like edge^(−p), with p from both.
@@ -180,20 +195,20 @@ double nextEdge(double edge, double count, double other_edge, double other_count
 }
 
 std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, double area, std::size_t triangles,
-                                    Growth growth)
+                                    Pattern pattern)
 {
     const auto target = static_cast<double>(triangles);
-    double edge = evenEdge(area, triangles);
+    double edge = std::sqrt(area / (target * areaPerSquaredEdge(pattern.squares)));
     double last_edge = edge;
     double last_count = 0.0;
     // If narrow parts alone need more triangles, longer edges change nothing.
     const auto is_stuck = [](double count, double last_count) { return std::abs(count / last_count - 1.0) < 0.005; };
     // Cheap predictions come first; they do most of the search without triangulation.
     for (int k = 0; k < 4 || last_count > 1.1 * std::max(kMaxDetailTriangles, target); ++k) {
-        const double count = predictTriangles(samplers, edge, growth);
+        const double count = predictTriangles(samplers, edge, pattern);
         if (k > 0 && count > 1.1 * target && is_stuck(count, last_count)) {
             checkDetail(count, target);
-            return meshAll(samplers, edge, growth);
+            return meshAll(samplers, edge, pattern);
         }
         const double next = nextEdge(edge, count, k == 0 ? edge : last_edge, k == 0 ? count : last_count, target);
         const bool near = std::abs(count / target - 1.0) < 0.02;
@@ -208,7 +223,7 @@ std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, dou
     std::vector<PlanarMesh> best;
     double best_error = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 5 && best_error > kMaxError; ++k) {
-        std::vector<PlanarMesh> meshes = meshAll(samplers, edge, growth);
+        std::vector<PlanarMesh> meshes = meshAll(samplers, edge, pattern);
         const auto count = static_cast<double>(countTriangles(meshes));
         const double error = std::abs(std::log(count / target));
         const double next = nextEdge(edge, count, k == 0 ? edge : last_edge, k == 0 ? count : last_count, target);
@@ -241,6 +256,10 @@ void TriangulateOptions::validate() const
         throw Error(ErrorCode::InvalidArgument,
                     "grading " + std::to_string(*grading) + " must be a power of two from 1 to 64");
     }
+    if (quads && grading.value_or(1) != 1) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "grading " + std::to_string(*grading) + " must be 1 for quads, which have even edges");
+    }
     if (layer && !(*layer > 0.0 && std::isfinite(*layer))) {
         throw Error(ErrorCode::InvalidArgument, "layer " + numberText(*layer) + " m must be positive");
     }
@@ -257,7 +276,7 @@ void TriangulateOptions::validate() const
 int gradingOf(const Domain& domain, const TriangulateOptions& options)
 {
     options.validate();
-    if (options.grading || options.edge || !options.layer) {
+    if (options.grading || options.edge || !options.layer || options.quads) {
         return options.grading.value_or(1);
     }
     const double total_area = areaOf(domain);
@@ -269,8 +288,10 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
 {
     options.validate();
     const double total_area = areaOf(domain);
-    const Growth growth{gradingOf(domain, options), options.grading ? 0.0 : options.layer.value_or(0.0)};
-    if (options.edge && total_area / (kRoot3 / 4.0 * *options.edge * *options.edge) > kMaxTriangles) {
+    const Pattern pattern{gradingOf(domain, options), options.grading ? 0.0 : options.layer.value_or(0.0),
+                          options.quads};
+    const double per_square = areaPerSquaredEdge(options.quads);
+    if (options.edge && total_area / (per_square * *options.edge * *options.edge) > kMaxTriangles) {
         throw Error(ErrorCode::InvalidArgument,
                     "edge " + numberText(*options.edge) + " m must be longer: it would take more than 4e9 triangles");
     }
@@ -292,12 +313,12 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
     }
     // Even triangles that are short enough need no prediction.
     if (!options.edge && options.max_edge && kEdgesPerLayer * even > *options.max_edge) {
-        if (auto meshes = meshWithLongest(samplers, options, growth)) {
+        if (auto meshes = meshWithLongest(samplers, options, pattern)) {
             return *std::move(meshes);
         }
     }
     if (!options.edge) {
-        return meshToCount(samplers, total_area, options.triangles, growth);
+        return meshToCount(samplers, total_area, options.triangles, pattern);
     }
     std::size_t points = 0;
     for (const Footprint& footprint : domain.droplets) {
@@ -308,10 +329,10 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
     }
     if (4.0 * static_cast<double>(points) > kMaxDetailTriangles) {
         // Triangles at a rim may be half as high as others.
-        checkDetail(predictTriangles(samplers, *options.edge, growth),
-                    2.0 * total_area / (kRoot3 / 4.0 * *options.edge * *options.edge));
+        checkDetail(predictTriangles(samplers, *options.edge, pattern),
+                    2.0 * total_area / (per_square * *options.edge * *options.edge));
     }
-    return meshAll(samplers, *options.edge, growth);
+    return meshAll(samplers, *options.edge, pattern);
 }
 
 PlanarMesh cover(const PlanarMesh& mesh, std::optional<double> edge)

@@ -42,4 +42,9 @@ bool isAnimated(Format format)
     return format == Format::Glb || format == Format::Gltf || format == Format::Usda || format == Format::Usdz;
 }
 
+bool hasQuads(Format format)
+{
+    return format == Format::Obj || format == Format::Ply || format == Format::Usda || format == Format::Usdz;
+}
+
 }  // namespace droplet

@@ -48,6 +48,8 @@ SceneMaterial liquidMaterial(const Look& look, double thickness);
 struct ScenePart {
     std::size_t material = 0;  ///< index
     std::vector<Triangle> triangles;
+    /// Indices, ascending, of triangles (a, b, c) that are followed by (a, c, d): USD shows both as abcd.
+    std::vector<std::uint32_t> quads = {};
 };
 
 /// Change of all vertices, by a weight.

@@ -160,9 +160,10 @@ SceneGeometry joined(const SceneMesh& mesh)
         for (std::uint32_t v = 0; v < one.vertices.size(); ++v) {
             all.weld.push_back(first + (one.weld.empty() ? v : one.weld[v]));
         }
-        for (const auto& [material, triangles] : one.parts) {
+        for (const auto& [material, triangles, quads] : one.parts) {
             ScenePart& part = all.parts.emplace_back();
             part.material = material;
+            part.quads = quads;
             for (const auto& [a, b, c] : triangles) {
                 part.triangles.push_back({first + a, first + b, first + c});
             }
@@ -254,7 +255,7 @@ public:
           welded_(weldVertices(geometry_.weld))
     {
         for (const ScenePart& part : geometry_.parts) {
-            triangles_.insert(triangles_.end(), part.triangles.begin(), part.triangles.end());
+            addFaces(part);
         }
     }
 
@@ -272,8 +273,9 @@ public:
         bytes_.text(indent_ + "float3[] extent");
         overTime(&SceneGeometry::vertices, &SceneTarget::vertices,
                  [&](const Vectors& vertices) { writeExtent(vertices); });
-        attribute("int[] faceVertexCounts", triangles_.size(), [](std::size_t) { return std::uint32_t{3}; });
-        attribute("int[] faceVertexIndices", corners(), [&](std::size_t i) { return welded_.number[vertexAt(i)]; });
+        attribute("int[] faceVertexCounts", counts_.size(), [&](std::size_t i) { return counts_[i]; });
+        attribute("int[] faceVertexIndices", corners_.size(),
+                  [&](std::size_t i) { return welded_.number[corners_[i]]; });
         // Subsets go before it; readers that do not know them show it.
         bytes_.text("\n" + indent_ + "rel material:binding = <" +
                     place.material_paths[geometry_.parts.front().material] + ">\n" + indent_ +
@@ -298,7 +300,7 @@ public:
             overTime(&SceneGeometry::normals, &SceneTarget::normals, write_normals);
             interpolate("faceVarying");
         }
-        attribute("int[] primvars:normals:indices", corners(), [&](std::size_t i) { return vertexAt(i); });
+        attribute("int[] primvars:normals:indices", corners_.size(), [&](std::size_t i) { return corners_[i]; });
         if (!geometry_.uvs.empty()) {
             writeTexture();
         }
@@ -324,8 +326,19 @@ public:
     }
 
 private:
-    [[nodiscard]] std::size_t corners() const { return 3 * triangles_.size(); }
-    [[nodiscard]] std::uint32_t vertexAt(std::size_t corner) const { return triangles_[corner / 3][corner % 3]; }
+    void addFaces(const ScenePart& part)
+    {
+        auto quad = part.quads.begin();
+        for (std::size_t t = 0; t < part.triangles.size(); ++t) {
+            corners_.insert(corners_.end(), part.triangles[t].begin(), part.triangles[t].end());
+            counts_.push_back(3);
+            if (quad != part.quads.end() && *quad == t) {
+                corners_.push_back(part.triangles[++t][2]);
+                counts_.back() = 4;
+                ++quad;
+            }
+        }
+    }
 
     template <typename ValueOf>
     void attribute(std::string_view declaration, std::size_t count, const ValueOf& value_of)
@@ -396,7 +409,7 @@ private:
         std::vector<std::uint32_t> faces;
         std::uint32_t face = 0;
         for (const ScenePart& part : geometry_.parts) {
-            for (std::size_t t = 0; t < part.triangles.size(); ++t, ++face) {
+            for (std::size_t n = part.quads.size(); n < part.triangles.size(); ++n, ++face) {
                 if (part.material == material) {
                     faces.push_back(face);
                 }
@@ -424,7 +437,7 @@ private:
         } else {
             attribute(kDeclaration, geometry_.uvs.size(), texture);
             interpolate("faceVarying");
-            attribute("int[] primvars:st:indices", corners(), [&](std::size_t i) { return vertexAt(i); });
+            attribute("int[] primvars:st:indices", corners_.size(), [&](std::size_t i) { return corners_[i]; });
         }
     }
 
@@ -434,7 +447,8 @@ private:
     ByteStream& bytes_;
     std::string indent_;
     WeldedVertices welded_;
-    std::vector<Triangle> triangles_;
+    std::vector<std::uint32_t> corners_;  ///< of all faces: vertices
+    std::vector<std::uint32_t> counts_;   ///< of corners, for every face
 };
 
 /// @param has_picture  whether the colours of the picture multiply that of the look

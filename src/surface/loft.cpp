@@ -211,7 +211,7 @@ std::vector<Piece> piecesOf(const std::vector<CapillarySurface>& surfaces,
         const std::size_t k = pieces[i].droplet;
         // The rim of a height field's part may touch itself, so that nothing can cover it.
         const bool may_touch = wet[k] && surfaces[k].isHeightField();
-        pieces[i].base = baseUnder(*pieces[i].liquid, options.ground.flat() && !may_touch,
+        pieces[i].base = baseUnder(*pieces[i].liquid, options.ground.flat() && !options.even_base && !may_touch,
                                    wet[k] || options.bases.empty() ? nullptr : &options.bases[k]);
     });
     return pieces;

@@ -314,6 +314,14 @@ void checkParts(const Surface& surface)
         if (t < part.triangles || v < part.vertices) {
             refuse("parts", k, "must not share vertices with another part");
         }
+        const std::size_t q = part.quads > part.triangles / 2 ? 0 : firstOf(part.quads, [&](std::size_t i) {
+            const Triangle& one = surface.triangles[part.first_triangle + 2 * i];
+            const Triangle& other = surface.triangles[part.first_triangle + 2 * i + 1];
+            return one[0] != other[0] || one[2] != other[1];
+        });
+        if (q < part.quads) {
+            refuse("parts", k, "must begin with the halves (a, b, c) and (a, c, d) of its quadrilaterals");
+        }
     }
     if (!surface.parts.empty() && (vertex != surface.vertices.size() || triangle != surface.triangles.size())) {
         refuse("parts", surface.parts.size() - 1, "must end at the last vertex and triangle");
@@ -431,6 +439,17 @@ Surface extract(const Surface& surface, const std::vector<std::size_t>& which)
     }
     result.mean_height = volume / area;
     return result;
+}
+
+std::vector<std::uint32_t> quadrilaterals(const Surface& surface)
+{
+    std::vector<std::uint32_t> first;
+    for (const SurfacePart& part : surface.parts) {
+        for (std::size_t q = 0; q < part.quads; ++q) {
+            first.push_back(static_cast<std::uint32_t>(part.first_triangle + 2 * q));
+        }
+    }
+    return first;
 }
 
 std::vector<double> stateWeights(const Refill& refill, double fill)

@@ -69,6 +69,7 @@ struct OutputReport {
     std::uint64_t bytes = 0;      ///< size of the file
     std::size_t vertices = 0;     ///< as the format counts them; glTF has copies where normals differ
     std::size_t triangles = 0;    ///< of the surface
+    std::size_t quads = 0;        ///< quadrilaterals of the file, each of two of these triangles
     Topology topology;            ///< of the surface
     TextureMap texture_map = TextureMap::Projection;         ///< of the surface
     Compression compression = Compression::None;             ///< of the file

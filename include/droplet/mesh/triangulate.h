@@ -18,6 +18,8 @@ struct TriangulateOptions {
                                        ///< gradingOf() decides
     std::optional<double> layer = {};  ///< width of the layer along the rim in which the surface bends, as the
                                        ///< capillary length of a puddle [m], > 0; used if grading is empty
+    bool quads =
+        false;  ///< right-angled triangles in pairs, along the rim, for joinTriangles(); not with a grading over 1
     std::optional<double> max_edge = {};  ///< longest edge along the rim [m], > 0; where the number of triangles does
                                           ///< not suffice for it, there are more
 
@@ -27,7 +29,7 @@ struct TriangulateOptions {
 
 /// Grading that a footprint is triangulated with: options.grading if set. Otherwise 64 if a layer is given, its area
 /// over the length of its rim is more than twice the layer, and six of the edges that the number of triangles allows
-/// without grading are longer than the layer; 1 if not.
+/// without grading are longer than the layer; 1 if not, or for quads.
 int gradingOf(const Domain& domain, const TriangulateOptions& options);
 
 /// Triangulates every droplet's footprint: equilateral triangles inside, a Delaunay band along the rim.
@@ -35,6 +37,9 @@ int gradingOf(const Domain& domain, const TriangulateOptions& options);
 /// Without grading, PlanarMesh::lattice describes the equilateral part, which makes solving fast. With grading, fewer
 /// triangles are used inside. This pays where a droplet is wider than a few capillary lengths, and where only the rim
 /// matters (bench/RESULTS.md compares errors). With a layer, edges become twice as long over its width.
+///
+/// With quads, nearly all triangles are halves of squares whose sides follow the rim, as smoothly as its directions
+/// continue inward; lengths of edges are those of the squares' sides. Solving takes the general way.
 ///
 /// Guarantees for every mesh: the invariants of PlanarMesh; angles of at least 20°, except near rim corners sharper
 /// than 40°: there, within two of the loop's own points, angles are at least half the corner. Corners stay in place.

@@ -20,6 +20,9 @@ const char* name(Format format);
 /// Whether files of a format hold animations: glTF and USD.
 bool isAnimated(Format format);
 
+/// Whether files of a format hold quadrilaterals: OBJ, PLY and USD.
+bool hasQuads(Format format);
+
 /// Form of a file with an animation.
 struct AnimatedFile {
     Format format = Format::Glb;                  ///< one that holds animations

@@ -27,6 +27,7 @@ struct LoftOptions {
     std::optional<LoftRefill> refill = {};  ///< for a surface that can be filled and drained
     bool flatten = true;                    ///< spread sheets that lean out over their footprint in texture
                                             ///< coordinates; otherwise these are the place above or below
+    bool even_base = false;                 ///< the base has the triangles of the footprint on flat ground, too
     bool keeps_dry = false;                 ///< cover ground that sheets left dry, so that their triangles stay
 
     /// Checks all options.
@@ -36,8 +37,9 @@ struct LoftOptions {
 
 /// Closes the surfaces of droplets with bases on the ground, and gives them normals and texture coordinates.
 ///
-/// A base meets the liquid at the rim. On flat ground it has few triangles; on other ground it has those of the
-/// footprint, at the height of the ground. Neither covers ground that the liquid left dry, unless `keeps_dry` says so.
+/// A base meets the liquid at the rim. On flat ground it has few triangles; on other ground, and with `even_base`, it
+/// has those of the footprint, at the height of the ground. Neither covers ground that the liquid left dry, unless
+/// `keeps_dry` says so.
 ///
 /// Normals inside are area-weighted means. On the rim they come from the contact angle, so a cap's rim shades like the
 /// cap. A base has the normals of the ground.

@@ -44,8 +44,10 @@ struct SurfacePart {
     std::size_t vertices = 0;        ///< number; triangles of the part have no others
     std::size_t first_triangle = 0;  ///< index
     std::size_t triangles = 0;       ///< number, at least 1
-    double volume = 0.0;             ///< of the liquid [m³], ≥ 0
-    double area = 0.0;               ///< wet area of the footprint [m²], > 0
+    std::size_t quads = 0;  ///< number of quadrilaterals abcd, whose halves (a, b, c) and (a, c, d) are the first
+                            ///< 2 quads of these triangles; files that hold quadrilaterals have them so
+    double volume = 0.0;    ///< of the liquid [m³], ≥ 0
+    double area = 0.0;      ///< wet area of the footprint [m²], > 0
 };
 
 /// Surface of all droplets in space, ready to be written.
@@ -67,7 +69,7 @@ struct Surface {
 
     /// Checks all invariants that need no topology: there is a triangle, lengths of arrays match, indices are in range,
     /// numbers are finite, normals have unit length to 1e-6, welded copies have one position and one change of it, and
-    /// parts, if there are any, cover all vertices and triangles.
+    /// parts, if there are any, cover all vertices and triangles, and their quadrilaterals have halves as stated.
     /// @throws Error InvalidArgument
     void validate() const;
 };
@@ -78,6 +80,18 @@ struct Surface {
 /// @return         surface with the parts in that order
 /// @throws Error   InvalidArgument
 Surface extract(const Surface& surface, const std::vector<std::size_t>& which);
+
+/// Lists the quadrilaterals of a surface.
+/// @param surface  valid
+/// @return         index of the first half of each, ascending; the other half follows it
+std::vector<std::uint32_t> quadrilaterals(const Surface& surface);
+
+/// Joins the triangles of every part to quadrilaterals, two and two, as many as have all corners between 30° and 150°
+/// on the footprint. Triangles change their order, not their winding.
+/// @param surface  valid; without parts it stays as it is
+/// @param extent   size of the picture, by which texture coordinates are places on the footprint [m]; both > 0
+/// @throws Error   InvalidArgument for an extent that is not positive
+void joinTriangles(Surface& surface, Vec2 extent);
 
 /// Makes the surface at another fill, as a viewer shows it with the weights of its states.
 /// @param surface  valid, with a refill
