@@ -70,6 +70,8 @@ export interface Options {
     edge?: string | number;
     /** Largest edge length far from the rim, as a multiple of the length at the rim; auto: 1, or 64 in puddles where gravity flattens all but the rim [auto] */
     grading?: 'auto' | 1 | 2 | 4 | 8 | 16 | 32 | 64;
+    /** Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; triangles counts their halves */
+    quads?: boolean;
     /** Leave out the base */
     open?: boolean;
     /** Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own] */

@@ -151,6 +151,41 @@ TEST(Droplet, DiscUnderGravityIsTheBesselShape)
                    4.212881, 2e-3, "pressure");
 }
 
+TEST(Droplet, QuadrilateralsHaveTheShapeOfTriangles)
+{
+    constexpr double kRadius = 40.0;  // [px]
+    DropletOptions options = plain();
+    options.solve.model = Model::Exact;
+    options.mesh.triangles = 20000;
+    options.mesh.quads = true;
+    const Droplet droplet = makeDroplet(smoothMask(96, 90, disc({46.3, 44.9}, kRadius)), options);
+    expectSound(droplet);
+    const double faces = static_cast<double>(droplet.surface.triangles.size());
+    const auto quads = static_cast<double>(quadrilaterals(droplet.surface).size());
+    EXPECT_GT(quads, 0.9 * (faces - quads));
+    // Without gravity the liquid is a cap of the ball with its angle. 0.1 % of the height is a few times the error of
+    // linear elements, h²/R².
+    const double angle = 40.0 * kDegree;
+    const double rim = std::sqrt(droplet.total.footprint_area / kPi);
+    const double ball = rim / std::sin(angle);
+    const double height = ball * (1.0 - std::cos(angle));
+    Vec3 middle;
+    const CapillarySurface& surface = droplet.solution.droplets[0];
+    for (std::uint32_t v = 0; v < surface.rimVertexCount(); ++v) {
+        middle = middle + (1.0 / surface.rimVertexCount()) * surface.vertices[v];
+    }
+    middle.z = -ball * std::cos(angle);
+    for (const Vec3& vertex : surface.vertices) {
+        EXPECT_NEAR(length(vertex - middle), ball, 1e-3 * height);
+    }
+    // The same liquid in triangles.
+    options.mesh.quads = false;
+    const Droplet triangles = makeDroplet(smoothMask(96, 90, disc({46.3, 44.9}, kRadius)), options);
+    EXPECT_TRUE(quadrilaterals(triangles.surface).empty());
+    expectRelative(droplet.total.height_max, triangles.total.height_max, 1e-3, "height");
+    expectRelative(droplet.total.volume, triangles.total.volume, 1e-3, "volume");
+}
+
 TEST(Droplet, OutlineGivesTheSameDropletAsItsMask)
 {
     const Mask mask = sceneMask();

@@ -112,6 +112,7 @@ _MAKE_DROPLET = {
     "triangles": "number",
     "edge": "m",
     "grading": "number",
+    "quads": "flag",
     "open": "flag",
     "fill_range": "range",
     "solver": "text",
@@ -155,6 +156,7 @@ def make_droplet(
     triangles: str | int | None = None,
     edge: str | float | None = None,
     grading: Literal["auto", 1, 2, 4, 8, 16, 32, 64] | None = None,
+    quads: bool = False,
     open: bool = False,
     fill_range: str | tuple[float, float] | None = None,
     solver: Literal["auto", "llt", "multigrid"] | None = None,
@@ -230,6 +232,8 @@ def make_droplet(
       edge [m]: Edge length of the triangles, instead of triangles
       grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
         rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
+      quads: Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; triangles counts
+        their halves
       open: Leave out the base
       fill_range: Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid;
         takes the linear model unless model exact is given
@@ -273,6 +277,7 @@ _GLYPHS = {
     "triangles": "number",
     "edge": "m",
     "grading": "number",
+    "quads": "flag",
     "open": "flag",
     "fill_range": "range",
     "solver": "text",
@@ -311,6 +316,7 @@ def glyphs(
     triangles: str | int | None = None,
     edge: str | float | None = None,
     grading: Literal["auto", 1, 2, 4, 8, 16, 32, 64] | None = None,
+    quads: bool = False,
     open: bool = False,
     fill_range: str | tuple[float, float] | None = None,
     solver: Literal["auto", "llt", "multigrid"] | None = None,
@@ -369,6 +375,8 @@ def glyphs(
       edge [m]: Edge length of the triangles, instead of triangles
       grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
         rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
+      quads: Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; triangles counts
+        their halves
       open: Leave out the base
       fill_range: Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid;
         takes the linear model unless model exact is given
@@ -413,6 +421,7 @@ _ANIMATE = {
     "triangles": "number",
     "edge": "m",
     "grading": "number",
+    "quads": "flag",
     "open": "flag",
     "compress": "text",
     "solver": "text",
@@ -451,6 +460,7 @@ def animate(
     triangles: str | int | None = None,
     edge: str | float | None = None,
     grading: Literal["auto", 1, 2, 4, 8, 16, 32, 64] | None = None,
+    quads: bool = False,
     open: bool = False,
     compress: Literal["none", "quantize", "meshopt"] | None = None,
     solver: Literal["auto", "llt", "multigrid"] | None = None,
@@ -514,6 +524,8 @@ def animate(
       edge [m]: Edge length of the triangles, instead of triangles
       grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
         rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
+      quads: Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; triangles counts
+        their halves
       open: Leave out the base
       compress: none, quantize, meshopt: Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three
         quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size (default: none)

@@ -102,6 +102,7 @@ class ReportOutput(_Report):
     bytes: int  # Size of the file
     vertices: int  # Number of vertices
     triangles: int  # Number of triangles
+    quads: int  # Number of quadrilaterals in the file, each of two of these triangles
     closed: bool  # Whether the surface is closed
     manifold: bool  # Whether the surface is a manifold
     euler: int  # Euler number V - E + F

@@ -56,6 +56,24 @@ auto view(std::vector<Item> droplet::Surface::*member)
     };
 }
 
+/// Corners of the quadrilaterals.
+py::array_t<std::uint32_t> quadsOf(const Surface& self)
+{
+    const droplet::Surface& surface = self.surface();
+    const std::vector<std::uint32_t> first = droplet::quadrilaterals(surface);
+    py::array_t<std::uint32_t> quads({static_cast<py::ssize_t>(first.size()), py::ssize_t{4}});
+    auto corners = quads.mutable_unchecked<2>();
+    for (py::ssize_t q = 0; q < corners.shape(0); ++q) {
+        const std::uint32_t t = first[static_cast<std::size_t>(q)];
+        const auto& [a, b, c] = surface.triangles[t];
+        corners(q, 0) = a;
+        corners(q, 1) = b;
+        corners(q, 2) = c;
+        corners(q, 3) = surface.triangles[t + 1][2];
+    }
+    return quads;
+}
+
 /// Options of the library for those of Python.
 droplet::WriteOptions writeOptions(const Surface& surface, const SaveOptions& options)
 {
@@ -240,6 +258,9 @@ after the surface is deleted.)")
                                "normals, as on the rim, is there twice; see weld.")
         .def_property_readonly("triangles", view<std::uint32_t>(&droplet::Surface::triangles),
                                "Vertices of the triangles, counter-clockwise from outside: an (m, 3) array of uint32.")
+        .def_property_readonly("quads", &quadsOf,
+                               "Vertices of the quadrilaterals that pairs of triangles make with the option quads, "
+                               "counter-clockwise from outside: a (q, 4) array of uint32, a copy.")
         .def_property_readonly("normals", view<double>(&droplet::Surface::normals),
                                "Outward normals of the vertices, of length 1: an (n, 3) array of float64.")
         .def_property_readonly("uv", view<double>(&droplet::Surface::uvs),

@@ -251,7 +251,6 @@ FlowObject readObject(const std::filesystem::path& path, const FlowObjectOptions
         require(!options.scale, "size", *options.size, "left out if there is a scale");
     }
     FileMesh mesh = readFileMesh(path, {.uvs = true,
-                                        .polygons = true,
                                         .weights = options.weights,
                                         .creases = true,
                                         .looks = true,
@@ -348,8 +347,7 @@ DeformingObject readDeformingObject(const std::vector<std::string>& paths, const
     const FlowObject& object = all.object;
     all.vertices.push_back(object.vertices);
     for (std::size_t k = 1; k < paths.size(); ++k) {
-        const FileMesh mesh =
-            readFileMesh(paths[k], {.polygons = true, .fans = reading.fans, .y_up = isYUp(paths[k], options)});
+        const FileMesh mesh = readFileMesh(paths[k], {.fans = reading.fans, .y_up = isYUp(paths[k], options)});
         if (mesh.triangles.size() != object.triangles.size()) {
             throw Error(
                 ErrorCode::InvalidInput,
@@ -399,7 +397,7 @@ std::optional<std::size_t> deformingFrames(const std::filesystem::path& path, co
         return std::nullopt;
     }
     const FileSampling none{sampling.frames_per_second, 0, sampling.animation};
-    const FileMesh mesh = readFileMesh(path, {.polygons = true, .sampling = none});
+    const FileMesh mesh = readFileMesh(path, {.sampling = none});
     return mesh.deformation_end ? std::optional(none.framesUntil(*mesh.deformation_end)) : std::nullopt;
 }
 

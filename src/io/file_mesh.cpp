@@ -232,9 +232,6 @@ private:
     {
         std::vector<std::uint64_t> corners;
         for (std::string_view word = nextWord(line); !word.empty() && !word.starts_with('#'); word = nextWord(line)) {
-            if (corners.size() == 3 && !options_.polygons) {
-                throw Damage(where + " has a face with more than three corners; only triangles are supported");
-            }
             corners.push_back(cornerOf(word, where));
         }
         if (corners.size() < 3) {
@@ -483,9 +480,9 @@ void readPlyFaces(const PlyElement& element, PlyNumbers& numbers, const FileMesh
             }
             const std::uint64_t corners = numbers.nextWhole(*property.count);
             if (property.name == "vertex_indices" || property.name == "vertex_index") {
-                if (corners != 3 && !(options.polygons && corners > 3)) {
-                    throw Damage("face " + std::to_string(i) + " has " + std::to_string(corners) + " corners; " +
-                                 (options.polygons ? "it must have at least three" : "only triangles are supported"));
+                if (corners < 3) {
+                    throw Damage("face " + std::to_string(i) + " has " + std::to_string(corners) +
+                                 " corners; it must have at least three");
                 }
                 std::vector<std::uint64_t> polygon;
                 for (std::uint64_t k = 0; k < corners; ++k) {

@@ -70,7 +70,6 @@ struct FileSampling {
 
 struct FileMeshOptions {
     bool uvs = false;       ///< read the texture coordinates of OBJ and PLY
-    bool polygons = false;  ///< divide faces with more than three corners; otherwise they are damage
     bool weights = false;   ///< read the vertices' weights: attribute _WEIGHT of glTF, or red of COLOR_0;
                             ///< property weight of PLY, or red
     bool creases = false;   ///< divide vertices without a normal, and all of STL, at creases; see

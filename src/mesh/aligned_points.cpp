@@ -41,9 +41,10 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// rows would fit between others.
 constexpr double kNearest = 0.7;
 
-/// A square beside a corner of the rim is a little shorter than its sides, so that the triangulation joins the corner
-/// with the opposite one, not the two beside it: an edge between two vertices of the rim would be split.
-constexpr double kShorter = 1.0 - 1e-3;
+/// A square beside the rim is a little shorter than its sides, so that in a corner of the rim, where sides may differ,
+/// the triangulation joins the corner with the opposite one, not the two beside it: an edge between two vertices of the
+/// rim would be split.
+constexpr double kShorter = 0.95;
 
 /// Growth of the sides per distance from the rim. With a quarter, a square next to one of side 1 has 1.25 at most.
 constexpr double kGrowth = 0.25;
@@ -85,6 +86,7 @@ public:
 
     [[nodiscard]] std::uint32_t rimCount() const { return rim_; }
     [[nodiscard]] Vec2 vertex(std::uint32_t v) const { return vertices_[v]; }
+    [[nodiscard]] double side(std::uint32_t v) const { return sides_[v]; }
     /// A triangle of a vertex.
     [[nodiscard]] std::uint32_t triangleOf(std::uint32_t v) const { return triangle_of_[v]; }
 
@@ -332,9 +334,20 @@ std::vector<Vec2> alignedPoints(const std::vector<RimPolygon>& polygons, double 
         bool is_rim;
     };
     std::queue<Asking> front;
-    for (std::uint32_t v = 0; v < field.rimCount(); ++v) {
-        front.push({field.vertex(v), field.triangleOf(v), true});
-        cells.add(field.vertex(v));
+    std::uint32_t first = 0;
+    for (const RimPolygon& polygon : polygons) {
+        const auto count = static_cast<std::uint32_t>(polygon.size());
+        for (std::uint32_t v = first; v < first + count; ++v) {
+            front.push({field.vertex(v), field.triangleOf(v), true});
+            // Beside short edges, squares are smaller than a long edge is; they are to be clear of all of it.
+            const std::uint32_t next = v + 1 < first + count ? v + 1 : first;
+            const Vec2 way = field.vertex(next) - field.vertex(v);
+            const double pieces = std::ceil(length(way) / std::min(field.side(v), field.side(next)));
+            for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(pieces); ++k) {
+                cells.add(field.vertex(v) + (k / pieces) * way);
+            }
+        }
+        first += count;
     }
     std::vector<Vec2> points;
     while (!front.empty()) {

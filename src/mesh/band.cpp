@@ -550,9 +550,7 @@ PlanarMesh triangulatePoints(const Polygons& polygons, const std::vector<Vec2>& 
 {
     Band band(polygons, points, finest);
     band.refine();
-    PlanarMesh mesh = band.extract({});
-    smooth(mesh, {mesh.rimVertexCount(), mesh.vertices.size(), mesh.triangles.size()});
-    return mesh;
+    return band.extract({});
 }
 
 Filling fill(const Cavity& cavity, const std::vector<Vec2>& points, double finest)

@@ -23,6 +23,7 @@
 #include "mesh/lattice_core.h"
 #include "mesh/mean_edge.h"
 #include "mesh/rim_sampling.h"
+#include "mesh/smoothing.h"
 #include "number_text.h"
 
 namespace droplet {
@@ -103,8 +104,14 @@ PlanarMesh meshFootprint(const RimSampler& sampler, double edge, Pattern pattern
 {
     const std::vector<RimPolygon> polygons = sampler.sample(edge);
     const double finest = kFinest * sampler.finest();
-    return !isLattice(pattern) ? triangulatePoints(polygons, innerPoints(polygons, edge, pattern), finest)
-                               : triangulateBand(polygons, LatticeCore(polygons, edge), finest);
+    if (isLattice(pattern)) {
+        return triangulateBand(polygons, LatticeCore(polygons, edge), finest);
+    }
+    PlanarMesh mesh = triangulatePoints(polygons, innerPoints(polygons, edge, pattern), finest);
+    if (!pattern.squares) {  // smoothed, their halves would become equilateral
+        smooth(mesh, {mesh.rimVertexCount(), mesh.vertices.size(), mesh.triangles.size()});
+    }
+    return mesh;
 }
 
 std::vector<PlanarMesh> meshAll(const std::vector<RimSampler>& samplers, double edge, Pattern pattern)

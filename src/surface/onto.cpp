@@ -142,13 +142,17 @@ std::vector<SurfacePart> partsOf(const Surface& droplets, const std::vector<Plac
         next.droplet = part.droplet;
         next.vertices = 0;
         next.triangles = 0;
+        std::size_t halves = 0;
         for (std::size_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
             next.vertices += kept[v] ? 1 : 0;
         }
         const std::size_t end = part.first_triangle + part.triangles;
         for (std::size_t t = part.first_triangle; t < end; ++t) {
-            next.triangles += kept[droplets.triangles[t][0]] ? 1 : 0;
+            const std::size_t count = kept[droplets.triangles[t][0]] ? 1 : 0;
+            next.triangles += count;
+            halves += t < part.first_triangle + 2 * part.quads ? count : 0;
         }
+        next.quads = halves / 2;
         if (next.triangles > 0) {
             const Extent extent = extentOf(droplets, placed, kept, part.first_triangle, end);
             next.volume = std::max(0.0, extent.volume);
@@ -243,6 +247,11 @@ OntoResult placeOnto(const Surface& droplets, const TexturedMesh& object, const 
     surface.texture_map = droplets.texture_map;
     surface.mean_height = extentOf(droplets, placed, kept, 0, droplets.triangles.size()).meanHeight();
     surface.parts = partsOf(droplets, placed, kept);
+    for (const std::uint32_t t : quadrilaterals(surface)) {
+        if (surface.triangles[t][2] != surface.triangles[t + 1][1]) {
+            std::swap(surface.triangles[t], surface.triangles[t + 1]);  // mirrored, they go round the other way
+        }
+    }
     addWarnings(report);
     return result;
 }

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -631,6 +633,44 @@ TEST_F(ShapeCommandTest, TriangleOptionsSetTheMesh)
     EXPECT_EQ(open["output"]["closed"], false);
     EXPECT_EQ(open["output"]["triangles"], open["mesh"]["triangles"]);
     EXPECT_EQ(open["output"]["vertices"], open["mesh"]["vertices"]);
+}
+
+TEST_F(ShapeCommandTest, QuadsAreWrittenWhereFilesHoldThem)
+{
+    const auto faces_of = [&](const std::string& obj) {
+        std::istringstream lines(bytesOf(obj));
+        std::pair<std::size_t, std::size_t> faces;  // of three and four corners
+        for (std::string line; std::getline(lines, line);) {
+            if (line.starts_with("f ")) {
+                ++(std::count(line.begin(), line.end(), ' ') == 4 ? faces.second : faces.first);
+            }
+        }
+        return faces;
+    };
+    // On curved ground, upright, and where liquid hangs over its rim, too.
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{}, {"--surface", "sphere:R=40mm"}, {"--contact-angle", "110deg"}, {"--open"}}) {
+        std::vector<std::string> options{"two.pgm", "quads.obj", "--quads", "--triangles", "4k"};
+        options.insert(options.end(), more.begin(), more.end());
+        const json output = report(options)["output"];
+        const auto [triangles, quads] = faces_of("quads.obj");
+        EXPECT_EQ(output["quads"], quads);
+        EXPECT_EQ(output["triangles"], triangles + 2 * quads);
+        EXPECT_GT(static_cast<double>(quads), 0.9 * static_cast<double>(triangles + quads));
+    }
+    EXPECT_THAT(run({"two.pgm", "quads.ply", "--quads"}).error, HasSubstr(" quadrilaterals and "));
+    const json glb = report({"two.pgm", "quads.glb", "--quads"});
+    EXPECT_EQ(glb["output"]["quads"], 0);
+    EXPECT_THAT(glb["warnings"].dump(), HasSubstr("glb files hold triangles alone"));
+    EXPECT_EQ(report({"two.pgm", "plain.obj"})["output"]["quads"], 0);
+    EXPECT_EQ(run({"two.pgm", "a.obj", "--quads", "--grading", "4"}).exit_code, 2);
+    make({"two.pgm", "one.obj", "--quads", "-j", "1"});
+    make({"two.pgm", "other.obj", "--quads", "-j", "2"});
+    EXPECT_EQ(bytesOf("one.obj"), bytesOf("other.obj"));
+    // Laid on an object, also mirrored.
+    make({"disc.pgm", "cap.glb", "--open", "--width", "6cm"});
+    const json laid = report({"two.pgm", "laid.obj", "--onto", "cap.glb", "--quads", "--triangles", "4k"});
+    EXPECT_GT(laid["output"]["quads"].get<double>(), 0.4 * laid["output"]["triangles"].get<double>());
 }
 
 TEST_F(ShapeCommandTest, ReportedVerticesAreThoseOfTheFile)

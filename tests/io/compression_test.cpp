@@ -251,9 +251,9 @@ TEST_P(CompressedGltf, KeepsSharedVerticesTogether)
     Surface surface = testing::together(roundDroplet(), roundDroplet({.inner = 4e-3, .outer = 7e-3}));
     const auto vertices = static_cast<std::size_t>(roundDroplet().vertices.size());
     const std::size_t triangles = roundDroplet().triangles.size();
-    surface.parts = {
-        {0, 0, vertices, 0, triangles, 1e-9, 1e-6},
-        {1, vertices, surface.vertices.size() - vertices, triangles, surface.triangles.size() - triangles, 1e-9, 1e-6}};
+    surface.parts = {{0, 0, vertices, 0, triangles, 0, 1e-9, 1e-6},
+                     {1, vertices, surface.vertices.size() - vertices, triangles, surface.triangles.size() - triangles,
+                      0, 1e-9, 1e-6}};
     const auto shared = [](const Surface& of) {
         std::set<std::array<double, 3>> places;
         std::set<std::array<double, 3>> rims;

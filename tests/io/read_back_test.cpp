@@ -111,6 +111,28 @@ TEST_P(ReadBack, EveryTriangleStandsWhereItStood)
     }
 }
 
+TEST_P(ReadBack, QuadrilateralsAreFacesOfFourCornersWhereTheyCanBe)
+{
+    Surface surface = testing::asOnePart(roundDroplet({.inner = 1e-3, .centre = {2e-3, -4e-3}}));
+    joinTriangles(surface, {testing::kExtent, testing::kExtent});
+    surface.parts[0].quads -= 3;  // some triangles are left
+    ASSERT_NO_FATAL_FAILURE(read(surface));
+    const std::size_t quads = hasQuads(GetParam().format) ? surface.parts[0].quads : 0;
+    ASSERT_EQ(mesh->mNumFaces, surface.triangles.size() - quads);
+    std::size_t t = 0;
+    for (unsigned f = 0; f < mesh->mNumFaces; ++f) {
+        ASSERT_EQ(mesh->mFaces[f].mNumIndices, f < quads ? 4U : 3U);
+        for (unsigned k = 0; k < 3; ++k) {
+            EXPECT_LT(length(corner(f, k) - surface.vertices[surface.triangles[t][k]]), 1e-9);
+        }
+        if (f < quads) {
+            EXPECT_LT(length(corner(f, 3) - surface.vertices[surface.triangles[++t][2]]), 1e-9);
+        }
+        ++t;
+    }
+    EXPECT_EQ(t, surface.triangles.size());
+}
+
 TEST_P(ReadBack, ARefillIsAMorphTargetInGltfOnly)
 {
     const Surface surface = testing::withRefill(roundDroplet({.centre = {2e-3, -4e-3}}));

@@ -136,6 +136,24 @@ TEST_F(ReadSurfaceTest, ObjInEveryNotation)
     EXPECT_EQ((std::count(with.normals.begin(), with.normals.end(), Vec3{0.0, -1.0, 0.0})), 4) << "z of y up is −y";
 }
 
+TEST_F(ReadSurfaceTest, QuadrilateralsAreReadAsTheHalvesThatWereJoined)
+{
+    Surface surface = testing::asOnePart(roundDroplet({.inner = 1e-3}));
+    joinTriangles(surface, {testing::kExtent, testing::kExtent});
+    ASSERT_GT(surface.parts[0].quads, 0U);
+    for (const Format format : {Format::Obj, Format::Ply}) {
+        const Surface found = read(std::string("quads.") + name(format), written(surface, format));
+        ASSERT_EQ(found.triangles.size(), surface.triangles.size());
+        for (std::size_t t = 0; t < found.triangles.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                EXPECT_LT(length(found.vertices[found.triangles[t][k]] - surface.vertices[surface.triangles[t][k]]),
+                          1e-9);
+            }
+        }
+        EXPECT_TRUE(topology(found).closed);
+    }
+}
+
 TEST_F(ReadSurfaceTest, PlyAndStlAsText)
 {
     const std::string ply =
@@ -184,7 +202,6 @@ TEST_F(ReadSurfaceTest, FilesCutAnywhereAreRefused)
 
 TEST_F(ReadSurfaceTest, DamageIsNamed)
 {
-    expectRefused("quad.obj", kTetrahedron + "f 1 2 3 4\n", "more than three corners; only triangles are supported");
     expectRefused("two.obj", kTetrahedron + "f 1 2\n", "line 5 has a face with fewer than three corners");
     expectRefused("index.obj", kTetrahedron + "f 1 2 5\n", "names \"5\" of 4");
     expectRefused("zero.obj", kTetrahedron + "f 0 1 2\n", "names \"0\" of 4");
@@ -198,7 +215,8 @@ TEST_F(ReadSurfaceTest, DamageIsNamed)
     const std::string header =
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
         "float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
-    expectRefused("quad.ply", header + "0 0 0\n1 0 0\n0 1 0\n4 0 1 2 0\n", "4 corners; only triangles");
+    expectRefused("line.ply", header + "0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "2 corners; it must have at least three");
+    expectRefused("quad.ply", header + "0 0 0\n1 0 0\n0 1 0\n4 0 1 2 3\n", "3");
     expectRefused("index.ply", header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "names vertex 3 of 3");
     expectRefused("minus.ply", header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "count or index");
     expectRefused("big.ply", "ply\nformat binary_big_endian 1.0\nend_header\n", "binary_big_endian");

@@ -28,7 +28,7 @@ Report sampleReport()
     Report report;
     report.input = {"in.png", {},   640,   480,   true, true, 3.125e-5, Channel::Alpha,
                     true,     0.25, 0.125, 0.875, true, 7,    2.5};
-    report.output = {"out.glb", Format::Glb, 123456, 900, 1700, {true, true, 4, 2, 0}};
+    report.output = {"out.glb", Format::Glb, 123456, 900, 1700, 0, {true, true, 4, 2, 0}};
     report.physics.liquid = {"honey", 0.055, 1417.0};
     report.physics.gravity = 1.62;
     report.physics.fill = {FillBy::ContactAngle, 30.0 * kDegree, FillSharing::Each};

@@ -147,6 +147,36 @@ TEST(Usda, WeldsPointsAndKeepsNormalsApart)
     }
 }
 
+TEST(Usda, QuadrilateralsAreFacesOfFourCorners)
+{
+    Surface surface = testing::asOnePart(roundDroplet({.inner = 1e-3, .centre = {1e-3, 2e-3}}));
+    joinTriangles(surface, {testing::kExtent, testing::kExtent});
+    const std::size_t quads = surface.parts[0].quads -= 3;  // some triangles are left
+    const std::string usda = written(writeUsda, surface);
+    const auto counts = listOf(usda, "int[] faceVertexCounts");
+    const auto corners = listOf(usda, "int[] faceVertexIndices");
+    const auto points = listOf(usda, "point3f[] points");
+    const auto normal_indices = listOf(usda, "int[] primvars:normals:indices");
+    std::vector<float> expected(quads, 4.0F);
+    expected.resize(surface.triangles.size() - quads, 3.0F);
+    EXPECT_EQ(counts, expected);
+    std::vector<std::uint32_t> vertices;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        vertices.insert(vertices.end(), surface.triangles[t].begin(), surface.triangles[t].end());
+        if (t < 2 * quads) {
+            vertices.push_back(surface.triangles[++t][2]);
+        }
+    }
+    ASSERT_EQ(corners.size(), vertices.size());
+    ASSERT_EQ(normal_indices.size(), vertices.size());
+    for (std::size_t c = 0; c < vertices.size(); ++c) {
+        const auto point = static_cast<std::size_t>(corners[c]);
+        ASSERT_LT(3 * point, points.size());
+        EXPECT_EQ(points[3 * point], nearestFloat(surface.vertices[vertices[c]].x));
+        EXPECT_EQ(points[3 * point + 1], nearestFloat(surface.vertices[vertices[c]].z));
+    }
+}
+
 // A surface that leans out is spread over its footprint, so copies on the rim may differ.
 TEST(Usda, GivesCornersTheirOwnTextureWhereCopiesDiffer)
 {

@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -99,6 +100,75 @@ TEST(Triangulate, NumberOfTrianglesIsMetWithinTenPercent)
             EXPECT_NEAR(count / static_cast<double>(wanted), 1.0, 0.1) << animals[k].name << " " << wanted;
         }
     }
+}
+
+TEST(TriangulateQuads, MeshesKeepWhatTrianglesPromise)
+{
+    for (const auto& [name, domain] : zoo()) {
+        SCOPED_TRACE(name);
+        for (const std::size_t wanted : {400U, 6000U, 30000U}) {
+            const std::vector<PlanarMesh> meshes =
+                triangulate(domain, {.triangles = wanted, .edge = {}, .quads = true});
+            ASSERT_EQ(meshes.size(), domain.droplets.size());
+            for (std::size_t k = 0; k < meshes.size(); ++k) {
+                EXPECT_NO_THROW(meshes[k].validate());
+                EXPECT_EQ(meshes[k].loopCount(), 1 + domain.droplets[k].holes.size());
+                EXPECT_NEAR(area(meshes[k]) / area(domain.droplets[k]), 1.0, wanted > 1000 ? 1e-3 : 5e-3);
+                EXPECT_THAT(testing::brokenPromises(meshes[k], domain.droplets[k]), ::testing::IsEmpty());
+            }
+        }
+    }
+}
+
+TEST(TriangulateQuads, NumberOfTrianglesIsMetWithinTenPercent)
+{
+    const std::vector<Animal> animals = zoo();
+    for (const std::size_t k : {0U, 1U, 2U, 7U, 8U, 9U}) {
+        for (const std::size_t wanted : {1000U, 5000U, 20000U, 100000U}) {
+            const auto count = static_cast<double>(
+                triangleCount(triangulate(animals[k].domain, {.triangles = wanted, .edge = {}, .quads = true})));
+            EXPECT_NEAR(count / static_cast<double>(wanted), 1.0, 0.1) << animals[k].name << " " << wanted;
+        }
+    }
+}
+
+// A disc's rings go round it, so that sides are along radii or across them wherever the field is unique.
+TEST(TriangulateQuads, SidesFollowTheRim)
+{
+    for (const double radius : {1.0, 3.0}) {
+        const std::vector<PlanarMesh> meshes =
+            triangulate(domainOf(ellipseLoop(radius, radius)), {.edge = 0.05, .quads = true});
+        std::size_t count = 0;
+        std::size_t aligned = 0;
+        for (const Triangle& t : meshes[0].triangles) {
+            // Both shorter edges are sides; the longest one is a diagonal.
+            std::array<std::pair<double, Vec2>, 3> edges;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec2 step = meshes[0].vertices[t[(k + 1) % 3]] - meshes[0].vertices[t[k]];
+                edges[k] = {length(step), step};
+            }
+            std::sort(edges.begin(), edges.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+            const Vec2 middle =
+                (1.0 / 3.0) * (meshes[0].vertices[t[0]] + meshes[0].vertices[t[1]] + meshes[0].vertices[t[2]]);
+            if (length(middle) < 0.8 * radius) {
+                continue;
+            }
+            for (const auto& [side, step] : {edges[0], edges[1]}) {
+                const double turn = std::atan2(std::abs(cross(step, middle)), std::abs(dot(step, middle)));
+                ++count;
+                aligned += std::min(turn, 0.5 * std::numbers::pi - turn) < 15.0 / kDegrees ? 1U : 0U;
+            }
+        }
+        EXPECT_GT(static_cast<double>(aligned), 0.95 * static_cast<double>(count)) << radius;
+    }
+}
+
+TEST(TriangulateQuads, HaveNoGrading)
+{
+    const Domain disc = domainOf(ellipseLoop(1, 1));
+    EXPECT_EQ(gradingOf(disc, {.edge = {}, .layer = 1e-3, .quads = true}), 1);
+    EXPECT_NO_THROW(triangulate(disc, {.triangles = 500, .edge = {}, .grading = 1, .quads = true}));
+    EXPECT_THROW(triangulate(disc, {.edge = {}, .grading = 8, .quads = true}), Error);
 }
 
 TEST(Triangulate, EdgeLengthIsMetAwayFromTheRim)

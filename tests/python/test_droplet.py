@@ -178,6 +178,15 @@ class Arrays(unittest.TestCase):
         np.testing.assert_array_equal(triangles, copies[1])
         self.assertEqual(len(others), 3)
 
+    def test_quads_are_pairs_of_triangles(self):
+        self.assertEqual(self.drop.quads.shape, (0, 4))
+        drop = ds.make_droplet(disc(), quads=True, **SMALL)
+        quads = drop.quads
+        self.assertEqual(quads.dtype, np.uint32)
+        self.assertGreater(2 * len(quads), 0.9 * len(drop.triangles))
+        halves = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+        self.assertLessEqual(set(map(tuple, halves)), set(map(tuple, drop.triangles)))
+
     def test_the_mesh_is_closed_and_has_the_volume_of_the_report(self):
         corners = self.drop.vertices[self.drop.triangles]
         volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6

@@ -152,6 +152,18 @@ inline Surface soup(std::vector<Triangle> triangles, std::size_t vertices)
     return surface;
 }
 
+/// A surface as the only droplet of it.
+inline Surface asOnePart(Surface surface)
+{
+    SurfacePart part;
+    part.vertices = surface.vertices.size();
+    part.triangles = surface.triangles.size();
+    part.volume = 1e-9;
+    part.area = 1e-6;
+    surface.parts = {part};
+    return surface;
+}
+
 /// Two droplets and their parts: the first in the arrays, on the left, is droplet 1, the other one is droplet 0.
 inline Surface pairOfDroplets()
 {

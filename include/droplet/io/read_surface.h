@@ -22,8 +22,8 @@ Format readableFormat(const std::filesystem::path& path);
 
 /// Reads a surface in one of the formats that this library writes, but USD: glTF 2.0 (.glb, .gltf), Wavefront OBJ, PLY
 /// (text or binary little-endian), STL (text or binary). The file extension decides. OBJ and STL are read in
-/// millimetres, unless a comment by this library states another unit; glTF and OBJ are y up. All triangles are read;
-/// faces with more corners are refused, lines and points ignored.
+/// millimetres, unless a comment by this library states another unit; glTF and OBJ are y up. Faces with more than three
+/// corners are read as triangles about one of them; lines and points are ignored.
 ///
 /// Vertices at exactly the same place are welded. A missing normal is the mean over the triangles around the vertex,
 /// weighted by their angles there; STL has facet normals, by the winding. A PLY from this library has one normal per
