@@ -29,6 +29,7 @@
 #include "bounds.h"
 #include "grid_pressure.h"
 #include "grid_shape.h"
+#include "grid_sides.h"
 #include "grid_viscosity.h"
 #include "kernel.h"
 #include "reorder.h"
@@ -46,9 +47,6 @@ constexpr double kCourant = 4.0;
 /// Longest step at that way, in times in which liquid falls freely through half a cell.
 constexpr double kFall = 0.5;
 
-/// Cells around the particles that matter: those of a step's way, and one for the surface.
-constexpr std::size_t kPad = 5;
-
 /// Cells by which the grid grows beyond them: it need not grow in every step.
 constexpr std::int64_t kGrowth = 16;
 
@@ -57,9 +55,6 @@ constexpr std::uint32_t kFlying = 4;
 
 /// Least part of the way between two cells' middles at which the surface may lie: less makes the equations stiff.
 constexpr double kLeastPart = 0.1;
-
-/// Open part of a side below which it counts as closed.
-constexpr double kClosed = 0.02;
 
 /// Errors of density that one step mends, at most.
 constexpr double kMostGap = 0.1;
@@ -89,155 +84,12 @@ constexpr double kTolerance = 1e-3;
 /// energies after it, in all scenes.
 constexpr double kSpreadTolerance = 1e-2;
 
-/// Range of indices: [begin, end).
-struct Span {
-    std::size_t begin = 0;
-    std::size_t end = 0;
-};
-
-/// Calls work(index) for all indices of spans.
-template <typename Work>
-void forSpans(const std::vector<Span>& spans, const Work& work)
-{
-    for (const Span& span : spans) {
-        for (std::size_t k = span.begin; k < span.end; ++k) {
-            work(k);
-        }
-    }
-}
-
-/// Gives values within spans a value.
-template <typename Value>
-void fillSpans(const std::vector<Span>& spans, std::vector<Value>& values, Value value)
-{
-    for (const Span& span : spans) {
-        std::fill(values.begin() + static_cast<std::ptrdiff_t>(span.begin),
-                  values.begin() + static_cast<std::ptrdiff_t>(span.end), value);
-    }
-}
-
-/// What is known of a value that is continued.
-enum class Reached : std::uint8_t {
-    No,
-    Yes,
-    Next,     ///< in the present layer
-    Outside,  ///< of the spans
-};
-
-/// Values on the sides of cells that face one axis.
-struct Sides {
-    std::size_t columns = 0;
-    Vec2 first{};                      ///< middle of the first one, in cells from the grid's corner
-    std::vector<Span> spans;           ///< near particles: what all others have is of no account
-    std::vector<double> open;          ///< part outside of walls
-    std::vector<double> wall;          ///< velocity of the wall along the axis
-    std::vector<double> value;         ///< velocity along the axis
-    std::vector<double> weight;        ///< of the particles near
-    std::vector<double> before;        ///< value before the pressure changed it
-    std::vector<double> change;        ///< of the value by the pressure
-    std::vector<double> shift;         ///< displacement along the axis that mends the density [m]
-    std::vector<std::uint8_t> solved;  ///< whether the pressure acts on it
-    std::vector<std::uint8_t> known;
-    std::vector<Reached> reached;
-    std::vector<std::size_t> layer;
-    std::vector<std::size_t> next_layer;
-
-    Sides() = default;
-    Sides(Vec2 middle, std::size_t across, std::size_t up) : columns(across), first(middle)
-    {
-        const std::size_t count = across * up;
-        for (std::vector<double>* values : {&open, &wall, &value, &weight, &before, &change, &shift}) {
-            values->assign(count, 0.0);
-        }
-        solved.assign(count, 0);
-        known.assign(count, 0);
-        reached.assign(count, Reached::Outside);
-    }
-
-    /// Forgets what particles brought.
-    void clear()
-    {
-        for (std::vector<double>* values : {&value, &weight, &shift}) {
-            fillSpans(spans, *values, 0.0);
-        }
-        fillSpans(spans, solved, std::uint8_t{0});
-        fillSpans(spans, known, std::uint8_t{0});
-        fillSpans(spans, reached, Reached::Outside);
-        spans.clear();
-    }
-
-    [[nodiscard]] Vec2 placeOf(std::size_t k, const GridShape& grid) const
-    {
-        const std::size_t row = k / columns;
-        return grid.placeOf(first.x + static_cast<double>(k % columns), first.y + static_cast<double>(row));
-    }
-
-    /// Gives values that are not given the mean of those beside them, layer by layer.
-    void extend(std::vector<double>& values, const std::vector<std::uint8_t>& given)
-    {
-        forSpans(spans, [&](std::size_t k) { reached[k] = given[k] != 0 ? Reached::Yes : Reached::No; });
-        layer.clear();
-        forSpans(spans, [&](std::size_t k) {
-            if (reached[k] == Reached::No && isBesideReached(k)) {
-                reached[k] = Reached::Next;
-                layer.push_back(k);
-            }
-        });
-        for (std::size_t pass = 0; pass + 1 < kPad; ++pass) {
-            for (const std::size_t k : layer) {
-                double sum = 0.0;
-                double count = 0.0;
-                for (const std::size_t other : {k - 1, k + 1, k - columns, k + columns}) {
-                    if (reached[other] == Reached::Yes) {
-                        sum += values[other];
-                        count += 1.0;
-                    }
-                }
-                values[k] = sum / count;
-            }
-            for (const std::size_t k : layer) {
-                reached[k] = Reached::Yes;
-            }
-            next_layer.clear();
-            for (const std::size_t k : layer) {
-                for (const std::size_t other : {k - 1, k + 1, k - columns, k + columns}) {
-                    if (reached[other] == Reached::No) {
-                        reached[other] = Reached::Next;
-                        next_layer.push_back(other);
-                    }
-                }
-            }
-            layer.swap(next_layer);
-        }
-    }
-
-private:
-    [[nodiscard]] bool isBesideReached(std::size_t k) const
-    {
-        return reached[k - 1] == Reached::Yes || reached[k + 1] == Reached::Yes ||
-               reached[k - columns] == Reached::Yes || reached[k + columns] == Reached::Yes;
-    }
-};
-
 enum class Cell : std::uint8_t {
     Empty,
     Flying,  ///< liquid thinner than a cell
     Fringe,  ///< beside liquid, with the surface below its middle
     Liquid,
 };
-
-/// Part of a side outside of walls, from the distances of its ends in cells.
-double openPart(double a, double b)
-{
-    constexpr double kOnWall = 1e-6;  // rounding puts ends on either side of a wall
-    const double most = std::max(a, b);
-    const double least = std::min(a, b);
-    if (most <= kOnWall) {
-        return 0.0;
-    }
-    const double part = least < 0.0 ? most / (most - least) : 1.0;
-    return part < kClosed ? 0.0 : part;
-}
 
 class GridLiquid final : public FluidSolver {
 public:

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "grid_sides.h"
+
+namespace droplet {
+
+Sides::Sides(Vec2 middle, std::size_t across, std::size_t up) : columns(across), first(middle)
+{
+    const std::size_t count = across * up;
+    for (std::vector<double>* values : {&open, &wall, &value, &weight, &before, &change, &shift}) {
+        values->assign(count, 0.0);
+    }
+    solved.assign(count, 0);
+    known.assign(count, 0);
+    reached.assign(count, Reached::Outside);
+}
+
+void Sides::clear()
+{
+    for (std::vector<double>* values : {&value, &weight, &shift}) {
+        fillSpans(spans, *values, 0.0);
+    }
+    fillSpans(spans, solved, std::uint8_t{0});
+    fillSpans(spans, known, std::uint8_t{0});
+    fillSpans(spans, reached, Reached::Outside);
+    spans.clear();
+}
+
+void Sides::extend(std::vector<double>& values, const std::vector<std::uint8_t>& given)
+{
+    forSpans(spans, [&](std::size_t k) { reached[k] = given[k] != 0 ? Reached::Yes : Reached::No; });
+    layer.clear();
+    forSpans(spans, [&](std::size_t k) {
+        if (reached[k] == Reached::No && isBesideReached(k)) {
+            reached[k] = Reached::Next;
+            layer.push_back(k);
+        }
+    });
+    for (std::size_t pass = 0; pass + 1 < kPad; ++pass) {
+        for (const std::size_t k : layer) {
+            double sum = 0.0;
+            double count = 0.0;
+            for (const std::size_t other : {k - 1, k + 1, k - columns, k + columns}) {
+                if (reached[other] == Reached::Yes) {
+                    sum += values[other];
+                    count += 1.0;
+                }
+            }
+            values[k] = sum / count;
+        }
+        for (const std::size_t k : layer) {
+            reached[k] = Reached::Yes;
+        }
+        next_layer.clear();
+        for (const std::size_t k : layer) {
+            for (const std::size_t other : {k - 1, k + 1, k - columns, k + columns}) {
+                if (reached[other] == Reached::No) {
+                    reached[other] = Reached::Next;
+                    next_layer.push_back(other);
+                }
+            }
+        }
+        layer.swap(next_layer);
+    }
+}
+
+bool Sides::isBesideReached(std::size_t k) const
+{
+    return reached[k - 1] == Reached::Yes || reached[k + 1] == Reached::Yes || reached[k - columns] == Reached::Yes ||
+           reached[k + columns] == Reached::Yes;
+}
+
+double openPart(double a, double b)
+{
+    constexpr double kClosed = 0.02;  // less counts as closed
+    constexpr double kOnWall = 1e-6;  // rounding puts ends on either side of a wall
+    const double most = std::max(a, b);
+    const double least = std::min(a, b);
+    if (most <= kOnWall) {
+        return 0.0;
+    }
+    const double part = least < 0.0 ? most / (most - least) : 1.0;
+    return part < kClosed ? 0.0 : part;
+}
+
+}  // namespace droplet
