@@ -153,7 +153,7 @@ FluidState startFluid(const FluidScene& scene)
     for (const LiquidBody& body : scene.liquid) {
         const Vec2 centre = momentsOf(body.region).centroid;
         // Particles of two bodies that share a side are at least half a spacing apart.
-        places.visit(body.region, 0.5, [&](Vec2 place) {
+        places.visit(body, 0.5, [&](Vec2 place) {
             if (state.position.size() >= scene.max_particles) {
                 refuseValue("max_particles", scene.max_particles, "at least the number that the liquid needs");
             }

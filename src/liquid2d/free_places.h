@@ -42,16 +42,16 @@ public:
     /// Calls visit(place) for the places of a body that neither walls nor earlier bodies take.
     /// @param clearance  from particles, in spacings, at most 1
     template <typename Visit>
-    void visit(const Region& body, double clearance, const Visit& visit)
+    void visit(const LiquidBody& body, double clearance, const Visit& visit)
     {
         std::vector<Vec2> own;
-        visitLattice(body, {scene_.spacing, lower_, upper_}, [&](Vec2 place) {
+        (body.rings ? visitRings : visitLattice)(body.region, {scene_.spacing, lower_, upper_}, [&](Vec2 place) {
             if (isFree(place, clearance)) {
                 visit(place);
                 own.push_back(place);
             }
         });
-        taken_regions_.emplace_back(body);
+        taken_regions_.emplace_back(body.region);
         take(own);
     }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "kernel.h"
 
@@ -26,6 +27,33 @@ void forSides(const Region& region, const Work& work)
 bool meetsRay(Vec2 a, Vec2 b, Vec2 point)
 {
     return (a.y <= point.y) != (b.y <= point.y) && point.x < a.x + (b.x - a.x) * (point.y - a.y) / (b.y - a.y);
+}
+
+/// Circle around the corners of a polygon.
+struct Disc {
+    Vec2 middle{};
+    double radius = 0.0;
+};
+
+std::optional<Disc> discOf(const Region& region)
+{
+    constexpr std::size_t kLeastCorners = 24;
+    constexpr double kRounding = 1e-6;
+    if (region.loops.size() != 1 || region.loops[0].size() < kLeastCorners) {
+        return std::nullopt;
+    }
+    const std::vector<Vec2>& corners = region.loops[0];
+    const RegionMoments moments = momentsOf(region);
+    const double radius = length(corners[0] - moments.centroid);
+    const double side = length(corners[1] - corners[0]);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Vec2 next = corners[k + 1 == corners.size() ? 0 : k + 1];
+        if (std::abs(length(corners[k] - moments.centroid) - radius) > kRounding * radius ||
+            std::abs(length(next - corners[k]) - side) > kRounding * radius) {
+            return std::nullopt;
+        }
+    }
+    return Disc{moments.centroid, std::sqrt(moments.area / std::numbers::pi)};
 }
 
 }  // namespace
@@ -167,6 +195,32 @@ void visitLattice(const Region& region, const LatticePart& part, const std::func
             for (; begin + column * step < end; column += 1.0) {
                 visit({begin + column * step, y});
             }
+        }
+    }
+}
+
+void visitRings(const Region& region, const LatticePart& part, const std::function<void(Vec2)>& visit)
+{
+    const std::optional<Disc> disc = discOf(region);
+    const auto holds = [&](double middle, double lower, double upper) {
+        return middle - disc->radius > lower && middle + disc->radius < upper;
+    };
+    if (!disc || !holds(disc->middle.x, part.lower.x, part.upper.x) ||
+        !holds(disc->middle.y, part.lower.y, part.upper.y)) {
+        visitLattice(region, part, visit);
+        return;
+    }
+    // As far apart as the rows of the lattice.
+    const double row_height = 0.5 * std::sqrt(3.0) * latticeStep(part.spacing);
+    const double rings = std::max(std::round(disc->radius / row_height), 1.0);
+    const double step = disc->radius / rings;
+    for (double ring = 0.0; ring < rings; ring += 1.0) {
+        const double area = std::numbers::pi * step * step * (2.0 * ring + 1.0);
+        const int count = std::max(static_cast<int>(std::lround(area / (part.spacing * part.spacing))), 1);
+        const double radius = count > 1 ? (ring + 0.5) * step : 0.0;
+        for (int k = 0; k < count; ++k) {
+            const double angle = 2.0 * std::numbers::pi * k / count;
+            visit(disc->middle + radius * Vec2{std::cos(angle), std::sin(angle)});
         }
     }
 }

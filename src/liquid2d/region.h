@@ -56,6 +56,10 @@ struct LatticePart {
 /// Calls visit(point) for the points of latticeIn() in a box; the rest of the region costs nothing.
 void visitLattice(const Region& region, const LatticePart& part, const std::function<void(Vec2)>& visit);
 
+/// Likewise for points in rings about the middle of a disc within the box, one per spacing²: a regular polygon of many
+/// corners. Other regions have those of the lattice.
+void visitRings(const Region& region, const LatticePart& part, const std::function<void(Vec2)>& visit);
+
 /// Points of the hexagonal lattice with one point per spacing² that lie in a region. The lowest row is half a row above
 /// the region's lowest point.
 std::vector<Vec2> latticeIn(const Region& region, double spacing);

@@ -33,7 +33,7 @@ FluidState poured(FluidState state, const FluidScene& scene, const Pour& pour)
     places.take(state.position);
     // Nearer ones would be pressed apart, and the jet would burst.
     constexpr double kClearance = 0.9;
-    places.visit(circle(pour.middle, pour.radius), kClearance, [&](Vec2 place) {
+    places.visit({.region = circle(pour.middle, pour.radius)}, kClearance, [&](Vec2 place) {
         if (state.position.size() < scene.max_particles) {
             addParticle(state, place, pour.velocity);
             ++state.counts.emitted;

@@ -32,7 +32,7 @@ FluidPreset splash()
                        .style = "cartoon"};
     preset.scene.walls = {tank(preset.scene.size)};
     preset.scene.liquid = {{.region = rectangle({0.0, 0.0}, {4.0, 0.7})},
-                           {.region = circle({2.0, 1.4}, 0.22), .velocity = {0.0, -3.0}}};
+                           {.region = circle({2.0, 1.4}, 0.22), .velocity = {0.0, -3.0}, .rings = true}};
     return preset;
 }
 

@@ -226,6 +226,7 @@ private:
         requireKeys(table, {"box", "circle", "polygon", "mask", "at", "width", "velocity", "spin"});
         LiquidBody body;
         body.region = region(table, "liquid");
+        body.rings = table.contains("circle");
         take(table, "velocity", Dimension::Speed, body.velocity);
         if (const toml::node* node = table.get("spin")) {
             std::string value = text(*node, "spin", "90deg/s");

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/liquid2d/fluid.h"
 #include "expression/drops.h"
 #include "expression/field.h"
 #include "expression/isoline.h"
@@ -77,6 +78,29 @@ TEST(Expression, ClustersHaveTheAreaOfTheirParticles)
         EXPECT_EQ(shape.liquid.size() + shape.droplets.size(), 1U) << count;
     }
     EXPECT_NEAR(shapeOf(frameOf(0.0, cluster(5000)), {}).area(), areaOf(5000), 0.01 * areaOf(5000));
+}
+
+TEST(Expression, DiscsInRingsAreRound)
+{
+    for (const double radius : {0.35, 0.6, 1.3, 2.2}) {
+        droplet::FluidScene scene;
+        scene.spacing = kSpacing;
+        scene.size = {6.0, 6.0};
+        const Vec2 middle{3.0, 3.0};
+        scene.liquid = {{.region = droplet::circle(middle, radius), .rings = true}};
+        const droplet::FluidState state = droplet::startFluid(scene);
+        EXPECT_NEAR(areaOf(state.position.size()), std::numbers::pi * radius * radius, 2.0 * areaOf(1)) << radius;
+        const LiquidShape shape = shapeOf(droplet::frameOf(state, scene), {});
+        ASSERT_EQ(shape.liquid.size() + shape.droplets.size(), 1U) << radius;
+        const double round = std::sqrt(shape.area() / std::numbers::pi);
+        for (const auto* loops : {&shape.liquid, &shape.droplets}) {
+            for (const auto& loop : *loops) {
+                for (const Vec2 p : loop.points) {
+                    EXPECT_NEAR(length(p - middle), round, 0.03 * kSpacing) << radius;
+                }
+            }
+        }
+    }
 }
 
 TEST(Expression, DropletsAtRestAreRoundAndHaveTheirArea)

@@ -63,8 +63,8 @@ struct FluidOptions {
     FluidControl control = {};       ///< further accelerations; may be empty
 };
 
-/// Fills the scene's bodies with particles on a hexagonal lattice, one per spacing². Where bodies overlap, the first
-/// one has the place; beyond the margin there are none.
+/// Fills the scene's bodies with particles on a hexagonal lattice or in rings, one per spacing². Where bodies overlap,
+/// the first one has the place; beyond the margin there are none.
 /// @throws Error InvalidArgument: the scene is invalid, has neither liquid nor emitters, more than max_particles, or
 /// too
 ///               long walls

@@ -22,9 +22,10 @@ Region circle(Vec2 centre, double radius);
 
 /// Liquid at the start.
 struct LiquidBody {
-    Region region;      ///< filled with particles, but for walls, earlier bodies and what is beyond the margin
-    Vec2 velocity{};    ///< [m/s]
-    double spin = 0.0;  ///< angular velocity about the region's centroid, positive counter-clockwise [rad/s]
+    Region region;       ///< filled with particles, but for walls, earlier bodies and what is beyond the margin
+    Vec2 velocity{};     ///< [m/s]
+    double spin = 0.0;   ///< angular velocity about the region's centroid, positive counter-clockwise [rad/s]
+    bool rings = false;  ///< whether a disc's particles lie in rings: a lattice makes steps at its rim
 };
 
 /// Oscillation of a wall about its place: displacement amplitude·sin(2πt/period + phase).
