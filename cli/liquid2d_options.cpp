@@ -96,6 +96,13 @@ void declare(CommandLine& line, Liquid2dOptions& options)
     line.exclude({"--scene", "--particles"});
     constexpr const char* kTimes = "Time";
     line.add(kTimes, "--time", "DURATION", "Time to show [the scene's]", into(options.duration, kTime));
+    line.add(kTimes, "--begin", "DURATION", "Time of the simulation at which the film begins [0s, or --loop]",
+             into(options.begin, kTail));
+    line.add(
+        kTimes, "--loop", "DURATION",
+        "Makes the film a loop: in its last part, of this length, drawings turn into those before --begin, so that "
+        "the first frame goes on from the last",
+        into(options.loop, kTail));
     line.add(kTimes, "--fps", "RATE", "Frames per second", into(options.frames_per_second, kFrameRate));
     line.add(kTimes, "--hold", "N", "Frames that a drawing stays, up to 24: 2 draws on twos",
              into(options.hold, {1, 24, "24"}));
@@ -138,8 +145,10 @@ void declare(CommandLine& line, Liquid2dOptions& options)
              within(0.0, 50.0));
     line.add(kOut, "--masks", "PATH",
              "Masks of all frames, such as masks/%04d.png; - writes them to standard output, for animate");
-    line.add(kOut, "--particle-cache", "PATH",
-             "Particles of all frames, such as cache/%04d.bgeo: .bgeo, .vtp, .ply or .csv");
+    line.add(
+        kOut, "--particle-cache", "PATH",
+        "Particles of all frames, such as cache/%04d.bgeo: .bgeo, .vtp, .ply or .csv; or a .usda with all of them, "
+        "as points over time");
     declareVideoEncoding(line, kOut);
     declareVideoAlpha(line, kOut);
     line.add(kOut, "--json", "FILE", "Write a report; - is standard output", into(options.json));
@@ -186,6 +195,20 @@ void readStyle(const CommandLine& line, Liquid2dOptions& options)
         droplet::expressionOf(forOption("--style", [&] { return droplet::liquidStyleNamed(style.text); }));
 }
 
+void readTimes(const CommandLine& line, Liquid2dOptions& options)
+{
+    const auto loop = line.value("--loop");
+    if (!loop) {
+        return;
+    }
+    if (options.begin.value_or(options.loop) < options.loop) {
+        refuse(*loop, "no longer than --begin: what it fades to is before the film");
+    }
+    if (options.loop > 0.0 && line.value("--particle-cache")) {
+        refuse("--loop fades drawings, not particles: --particle-cache cannot be a loop");
+    }
+}
+
 void readLook(const CommandLine& line, Liquid2dOptions& options)
 {
     options.controls.crest_gate = !line.flag("--no-crest-gate");
@@ -211,11 +234,13 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
     }
     if (const auto cache = line.value("--particle-cache")) {
         options.cache_files = NumberedPath::of(cache->text, "--particle-cache");
-        if (!options.cache_files || !droplet::particleFormatOf(cache->text)) {
-            refuse(*cache, "a path such as cache/%04d.bgeo, .vtp, .ply or .csv");
+        if (!options.cache_files && std::filesystem::path(cache->text).extension() == ".usda") {
+            options.cache_file = cache->text;
+        } else if (!options.cache_files || !droplet::particleFormatOf(cache->text)) {
+            refuse(*cache, "a path such as cache/%04d.bgeo, .vtp, .ply or .csv, or a .usda");
         }
     }
-    if (!line.values("OUTPUT").empty() || !(options.masks || options.cache_files)) {
+    if (!line.values("OUTPUT").empty() || !(options.masks || options.cache_files || options.cache_file)) {
         options.output = line.argument("OUTPUT");
         options.files = NumberedPath::of(*options.output, "OUTPUT");
         const std::string extension = std::filesystem::path(*options.output).extension().string();
@@ -241,7 +266,7 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
     }
     const bool has_files = options.kind == LiquidOutput::Drawings ||
                            (options.kind == LiquidOutput::None && (options.mask_files || options.cache_files));
-    if (options.resume && (!has_files || (options.masks && !options.mask_files))) {
+    if (options.resume && (!has_files || (options.masks && !options.mask_files) || options.cache_file)) {
         refuse("--resume needs a file for every frame, such as out/%04d.svg, and no masks on standard output");
     }
 }
@@ -263,6 +288,7 @@ std::variant<Liquid2dOptions, std::string> parseLiquid2d(int argc, const char* c
     readLiquid(line, options);
     readLook(line, options);
     readOutputs(line, options);
+    readTimes(line, options);
     options.run = readRun(line);
     options.fingerprint = optionsOfFrames(line, options.output.value_or(""));
     return options;

@@ -33,6 +33,7 @@ struct Liquid2dOptions {
     std::optional<std::string> masks;         ///< path or kStandardStream
     std::optional<NumberedPath> mask_files;   ///< set unless masks go to standard output
     std::optional<NumberedPath> cache_files;  ///< particles of every frame
+    std::optional<std::string> cache_file;    ///< path of particles over time
     std::string scene = "splash";             ///< name of a preset, or path of a file
     std::optional<std::size_t> particle_count;
     std::optional<std::string> walls;       ///< path of a mask
@@ -48,6 +49,8 @@ struct Liquid2dOptions {
     int width = 1280;  ///< of drawings and masks [px]
     VideoEncoding encoding;
     std::optional<double> duration;  ///< [s]; empty: the preset's, or 4 s
+    std::optional<double> begin;     ///< time of the simulation that the first frame shows [s]; empty: 0, or `loop`
+    double loop = 0.0;               ///< time in which the end fades to what was before the beginning [s]
     double frames_per_second = 24.0;
     int hold = 1;  ///< frames that a drawing stays
     std::optional<std::string> json;

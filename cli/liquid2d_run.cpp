@@ -17,10 +17,12 @@
 
 #include "content_hash.h"
 #include "droplet/error.h"
+#include "droplet/expression/blend.h"
 #include "droplet/liquid2d/fluid.h"
 #include "droplet/liquid2d_io/fluid_presets.h"
 #include "droplet/liquid2d_io/liquid_drawing.h"
 #include "droplet/liquid2d_io/liquid_lottie.h"
+#include "droplet/liquid2d_io/particle_usda.h"
 #include "droplet/liquid2d_io/read_scene.h"
 #include "droplet/liquid2d_io/write_particles.h"
 #include "droplet/mask/mask.h"
@@ -52,18 +54,49 @@ droplet::FluidPreset presetOf(const Liquid2dOptions& options)
     return forOption("--scene", [&] { return droplet::fluidPresetNamed(options.scene); });
 }
 
-/// Number of frames, at least one.
-std::size_t frameCount(const Liquid2dOptions& options)
+/// Frames of the simulation that the film is made of.
+struct FilmSpan {
+    std::size_t begin = 0;   ///< before the film
+    std::size_t frames = 1;  ///< of the film
+    std::size_t fade = 0;    ///< last ones of the film, which turn into those before it
+};
+
+FilmSpan spanOf(const Liquid2dOptions& options)
 {
+    const auto frames_in = [&](double seconds) {
+        return static_cast<std::size_t>(std::llround(seconds * options.frames_per_second));
+    };
+    FilmSpan span{frames_in(options.begin.value_or(options.loop)), 1, frames_in(options.loop)};
     if (options.particles) {
         const std::size_t files = options.particle_files ? options.particle_files->numbers().size() : 1;
-        return std::max<std::size_t>(files, 1);
+        if (files > 0 && files <= span.begin) {
+            refuse(fmt::format("--begin: the film begins after {} frames, and there are {} of --particles", span.begin,
+                               files));
+        }
+        span.frames = std::max<std::size_t>(files, span.begin + 1) - span.begin;
+    } else {
+        constexpr double kDuration = 4.0;  // of a scene from a file [s]
+        span.frames = std::max<std::size_t>(frames_in(options.duration       ? *options.duration
+                                                      : isSceneFile(options) ? kDuration
+                                                                             : presetOf(options).duration),
+                                            1);
     }
-    constexpr double kDuration = 4.0;  // of a scene from a file [s]
-    const double duration = options.duration       ? *options.duration
-                            : isSceneFile(options) ? kDuration
-                                                   : presetOf(options).duration;
-    return std::max<std::size_t>(static_cast<std::size_t>(std::llround(duration * options.frames_per_second)), 1);
+    if (span.fade > span.frames) {
+        refuse(fmt::format("--loop: a fade of {} frames is longer than the film of {}", span.fade, span.frames));
+    }
+    return span;
+}
+
+/// Place of a wall between two others.
+droplet::Region between(droplet::Region from, const droplet::Region& to, double weight)
+{
+    for (std::size_t loop = 0; loop < from.loops.size(); ++loop) {
+        for (std::size_t k = 0; k < from.loops[loop].size(); ++k) {
+            Vec2& p = from.loops[loop][k];
+            p = p + weight * (to.loops[loop][k] - p);
+        }
+    }
+    return from;
 }
 
 /// Files of every frame, the drawings first; none if the run cannot be resumed.
@@ -71,7 +104,7 @@ std::vector<NumberedPath> resumableFrames(const Liquid2dOptions& options)
 {
     std::vector<NumberedPath> frames;
     for (const std::optional<NumberedPath>* files : {&options.files, &options.mask_files, &options.cache_files}) {
-        if (*files && !(options.masks && !options.mask_files)) {
+        if (*files && !(options.masks && !options.mask_files) && !options.cache_file) {
             frames.push_back(**files);
         }
     }
@@ -88,7 +121,6 @@ public:
     [[nodiscard]] virtual bool isLost() const { return false; }
     /// Steps that the first frame of a simulation takes, about.
     [[nodiscard]] virtual double stepsPerFrame() const { return 0.0; }
-    [[nodiscard]] virtual std::size_t frames() const = 0;
     [[nodiscard]] virtual Vec2 size() const = 0;
     /// Visible walls at the time of the last frame.
     [[nodiscard]] virtual std::vector<droplet::Region> walls() const { return {}; }
@@ -106,7 +138,6 @@ public:
     {
         fluid_options_.solver = options.solver;
         scene_ = isSceneFile(options) ? droplet::readFluidScene(options.scene) : presetOf(options).scene;
-        frames_ = frameCount(options);
         if (options.gravity) {
             scene_.gravity = {0.0, -*options.gravity};
         }
@@ -148,7 +179,6 @@ public:
     {
         return 1.0 / (fps_ * droplet::longestStep(state_, scene_, fluid_options_));
     }
-    [[nodiscard]] std::size_t frames() const override { return frames_; }
     [[nodiscard]] Vec2 size() const override { return scene_.size; }
     [[nodiscard]] std::vector<droplet::Region> walls() const override
     {
@@ -178,7 +208,6 @@ private:
     droplet::FluidState state_;
     droplet::FluidOptions fluid_options_;
     double fps_;
-    std::size_t frames_ = 1;
     std::size_t done_ = 0;
 };
 
@@ -235,7 +264,6 @@ public:
         ++done_;
         return frame;
     }
-    [[nodiscard]] std::size_t frames() const override { return paths_.size(); }
     [[nodiscard]] Vec2 size() const override { return size_; }
     void restore(std::string_view /*bytes*/, const std::string& /*name*/, std::size_t frames) override
     {
@@ -288,8 +316,9 @@ public:
     LiquidRun(const Liquid2dOptions& options, ProgressDisplay& progress)
         : options_(options),
           progress_(progress),
+          span_(spanOf(options)),
           source_(sourceOf(options)),
-          film_(source_->frames(), options.run.files, progress, resumableRun(options, source_->frames()))
+          film_(span_.frames, options.run.files, progress, resumableRun(options, span_.frames))
     {
         view_.size = source_->size();
         view_.width = options.width;
@@ -323,6 +352,9 @@ public:
         if (options_.kind == LiquidOutput::Lottie) {
             lottie_.emplace(view_, options_.look, options_.frames_per_second);
         }
+        if (options_.cache_file) {
+            particles_.emplace(options_.frames_per_second);
+        }
         warnOfShortSteps();
         std::vector<OutputFile> files;
         if (video_) {
@@ -331,6 +363,9 @@ public:
             files.push_back({*options_.output, [&](std::ostream& out) { lottie_->write(out); }});
         } else if (options_.kind == LiquidOutput::Drawing) {
             files.push_back({*options_.output, [&](std::ostream& out) { write(*shown_, *options_.output, out); }});
+        }
+        if (particles_) {
+            files.push_back({*options_.cache_file, [&](std::ostream& out) { particles_->write(out); }});
         }
         if (options_.json) {
             files.push_back({*options_.json, [&](std::ostream& out) {
@@ -354,12 +389,12 @@ private:
     void resume()
     {
         const auto checkpoint = film_.begin(options_.resume);
-        // A drawing that is held is not in the checkpoint.
-        if (!checkpoint || !film_.hasFrames(checkpoint->frames) || isHeld(checkpoint->frames + 1)) {
+        // Drawings that are held, or that the end turns into, are not in the checkpoint.
+        if (!checkpoint || !film_.hasFrames(checkpoint->frames) || isHeld(checkpoint->frames + 1) || span_.fade > 0) {
             return;
         }
         const std::string& path = film_.checkpointPath();
-        source_->restore((*checkpoint)["particles"], path, checkpoint->frames);
+        source_->restore((*checkpoint)["particles"], path, span_.begin + checkpoint->frames);
         surface_ = droplet::expressionFromBytes((*checkpoint)["surface"], path);
         report_.frames = rowsFromBytes<droplet::LiquidFrameRow>((*checkpoint)["rows"]);
     }
@@ -404,9 +439,56 @@ private:
 
     void run()
     {
+        if (report_.frames.empty()) {
+            begin();
+        }
         film_.make(report_.frames.size(),
                    {[this](std::size_t number) { return frame(number); }, [this] { return state(); }});
         report_.removed = source_->removed();
+    }
+
+    /// Makes what is before the film.
+    void begin()
+    {
+        for (std::size_t left = span_.begin; left > 0; --left) {
+            const ParticleFrame particles = source_->next();
+            if (!shown_ || left % static_cast<std::size_t>(options_.hold) == 0) {
+                shown_ = drawingOf(particles, source_->walls());
+            }
+            if (left <= span_.fade) {
+                before_.push_back(shown_);
+            }
+        }
+    }
+
+    /// Drawing of the next particles.
+    std::shared_ptr<const Drawing> drawingOf(const ParticleFrame& particles, std::vector<droplet::Region> walls)
+    {
+        surface_ = advanceExpression(std::move(surface_), particles, options_.controls);
+        Drawing drawing{liquidShape(surface_, particles, options_.controls), std::move(walls)};
+        surface_ = remember(std::move(surface_), drawing.shape);
+        return std::make_shared<const Drawing>(std::move(drawing));
+    }
+
+    /// Drawing of a frame of the film; the last ones turn into those before it.
+    [[nodiscard]] std::shared_ptr<const Drawing> faded(std::size_t number, std::shared_ptr<const Drawing> drawing) const
+    {
+        const std::size_t first = span_.frames - span_.fade + 1;
+        if (number < first) {
+            return drawing;
+        }
+        const double t = static_cast<double>(number - first + 1) / static_cast<double>(span_.fade + 1);
+        droplet::BlendOptions blend;
+        blend.weight = t * t * (3.0 - 2.0 * t);
+        blend.spacing = report_.spacing;
+        blend.resolution = options_.controls.resolution;
+        blend.min_area = options_.controls.min_area;
+        const Drawing& before = *before_[number - first];
+        Drawing fading{blended(drawing->shape, before.shape, blend), {}};
+        for (std::size_t k = 0; k < drawing->walls.size(); ++k) {
+            fading.walls.push_back(between(drawing->walls[k], before.walls[k], blend.weight));
+        }
+        return std::make_shared<const Drawing>(std::move(fading));
     }
 
     std::function<void()> frame(std::size_t number)
@@ -431,11 +513,8 @@ private:
             }
             return;
         }
-        surface_ = advanceExpression(std::move(surface_), particles, options_.controls);
-        shown_ = std::make_shared<const Drawing>(
-            Drawing{liquidShape(surface_, particles, options_.controls), std::move(walls)});
+        shown_ = faded(number, drawingOf(particles, std::move(walls)));
         const droplet::LiquidShape& shape = shown_->shape;
-        surface_ = remember(std::move(surface_), shape);
         report_.frames.push_back(
             {particles.time, particles.position.size(), steps,
              static_cast<double>(particles.position.size()) * particles.spacing * particles.spacing, shape.area(),
@@ -457,6 +536,9 @@ private:
             video_->add(liquidLayer({shown_->shape, shown_->walls}, view_, options_.look));
         } else if (lottie_) {
             lottie_->add({shown_->shape, shown_->walls});
+        }
+        if (particles_) {
+            particles_->add(particles);
         }
         std::vector<OutputFile> files;
         if (options_.files) {
@@ -504,14 +586,17 @@ private:
     const Liquid2dOptions& options_;
     ProgressDisplay& progress_;
     StageClock clock_;
+    FilmSpan span_;
     std::unique_ptr<ParticleSource> source_;
     Film film_;
     droplet::LiquidView view_;
     bool is_lost_ = false;  ///< whether the loss of all liquid was told
     droplet::ExpressionState surface_;
-    std::shared_ptr<const Drawing> shown_;  ///< the last frame
+    std::shared_ptr<const Drawing> shown_;                ///< the last frame
+    std::vector<std::shared_ptr<const Drawing>> before_;  ///< those before the film that its end turns into
     std::unique_ptr<VideoWriter> video_;
     std::optional<droplet::LiquidLottie> lottie_;
+    std::optional<droplet::ParticleUsda> particles_;  ///< over time
     droplet::LiquidReport report_;
 };
 
@@ -534,7 +619,7 @@ RunFiles filesOf(const Liquid2dOptions& options)
             files.reads("a mask of --scene", mask.string());
         }
     }
-    const FrameNumbers numbers{1, frameCount(options)};
+    const FrameNumbers numbers{1, spanOf(options).frames};
     if (options.files) {
         files.writesFrames("OUTPUT", *options.files, numbers);
     } else {
@@ -548,6 +633,7 @@ RunFiles filesOf(const Liquid2dOptions& options)
     if (options.cache_files) {
         files.writesFrames("--particle-cache", *options.cache_files, numbers);
     }
+    files.writes("--particle-cache", options.cache_file);
     if (const std::vector<NumberedPath> frames = resumableFrames(options); !frames.empty()) {
         files.writes("the checkpoint", checkpointPath(frames.front()));
     }

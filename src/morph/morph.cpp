@@ -13,10 +13,10 @@
 #include "droplet/error.h"
 #include "droplet/liquid2d/fluid.h"
 #include "droplet/morph/morph_targets.h"
+#include "expression/grid_field.h"
 #include "expression/surface_kernel.h"
 #include "liquid2d/bounds.h"
 #include "liquid2d/region.h"
-#include "morph_field.h"
 #include "require.h"
 
 namespace droplet {
@@ -202,13 +202,16 @@ public:
             }
         }
         const Vec2 margin{2.0 * greatest, 2.0 * greatest};
-        MorphField field(box.lower - margin, box.upper + margin, 0.5 * d);
+        GridField field(box.lower - margin, box.upper + margin, 0.5 * d);
         field.add({state_.position, d * d, radius}, 1.0 - of_from - of_to);
+        const auto add_ramp = [&](const Region& region, double weight) {
+            field.add(region, [&](double distance) { return weight * std::clamp(0.5 + 0.5 * distance / d, 0.0, 1.0); });
+        };
         if (of_from > 0.0) {
-            field.add(from_, 2.0 * d, of_from);
+            add_ramp(from_, of_from);
         }
         if (of_to > 0.0) {
-            field.add(to_, 2.0 * d, of_to);
+            add_ramp(to_, of_to);
         }
         field.fill(kSlit * smoothRamp(t / kFusing, 0.0, 1.0) * smoothRamp((1.0 - t) / kParting, 0.0, 1.0));
         return field.loopsOfArea(1.0, kSpeck * d * d);

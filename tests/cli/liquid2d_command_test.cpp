@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `droplet-shape liquid2d`: outputs, errors, resuming an interrupted run; and `animate` on what it writes.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,6 +17,7 @@
 #include "droplet/mask/mask.h"
 #include "support/command.h"
 #include "support/paths.h"
+#include "support/usda.h"
 
 namespace droplet {
 namespace {
@@ -144,6 +149,91 @@ TEST_F(Liquid2dCommand, HoldsDrawingsAndNotTheLiquid)
     EXPECT_EQ(file("threes/08.svg"), last);
 }
 
+TEST_F(Liquid2dCommand, BeginsLater)
+{
+    ASSERT_EQ(liquid({path("whole/%02d.svg"), "--hold", "2"}).exit_code, 0);
+    ASSERT_EQ(liquid({path("end/%02d.svg"), "--hold", "2", "--begin", "0.5s", "--time", "0.5s"}).exit_code, 0);
+    for (int frame = 1; frame <= 4; ++frame) {
+        EXPECT_EQ(readFile(path(fmt::format("end/{:02}.svg", frame))),
+                  readFile(path(fmt::format("whole/{:02}.svg", frame + 4))));
+    }
+    EXPECT_FALSE(fs::exists(path("end/05.svg")));
+}
+
+TEST_F(Liquid2dCommand, TheFirstFrameOfALoopGoesOnFromTheLast)
+{
+    const auto masks = [&](const std::string& folder, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"--masks", path(folder + "/%02d.png"), "--time", "2s"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const CommandResult run = liquid(arguments);
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        std::vector<std::vector<std::uint16_t>> all;
+        for (int frame = 1; frame <= 16; ++frame) {
+            all.push_back(readMask(path(fmt::format("{}/{:02}.png", folder, frame))).coverage);
+        }
+        return all;
+    };
+    const auto difference = [](const std::vector<std::uint16_t>& a, const std::vector<std::uint16_t>& b) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            sum += std::abs(a[k] - b[k]) / 65535.0;
+        }
+        return sum;
+    };
+    const auto plain = masks("plain", {"--begin", "1s"});
+    const auto loop = masks("loop", {"--begin", "1s", "--loop", "1s"});
+    for (std::size_t k = 0; k < 8; ++k) {
+        EXPECT_EQ(loop[k], plain[k]) << k;
+    }
+    double most = 0.0;  // from a frame to the next
+    for (std::size_t k = 0; k + 1 < loop.size(); ++k) {
+        most = std::max(most, difference(loop[k], loop[k + 1]));
+    }
+    EXPECT_GT(difference(plain.back(), plain.front()), 1.2 * most);
+    EXPECT_LT(difference(loop.back(), loop.front()), most);
+    EXPECT_LT(difference(loop.back(), loop.front()), 0.3 * difference(plain.back(), plain.front()));
+}
+
+TEST_F(Liquid2dCommand, AnInterruptedLoopIsMadeAgain)
+{
+    const auto run = [&](const std::string& folder, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"liquid2d",
+                                           path(folder + "/%02d.svg"),
+                                           "--scene",
+                                           "dam",
+                                           "--fps",
+                                           "4",
+                                           "--particle-count",
+                                           "300",
+                                           "--time",
+                                           "2s",
+                                           "--loop",
+                                           "0.5s",
+                                           "--quiet"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runDroplet(arguments).exit_code;
+    };
+    ASSERT_EQ(run("whole", {}), 0);
+    fs::create_directories(path("cut/07.svg"));
+    ASSERT_EQ(run("cut", {}), 4);
+    ASSERT_TRUE(fs::exists(path("cut/checkpoint.state")));
+    fs::remove(path("cut/07.svg"));
+    ASSERT_EQ(run("cut", {"--resume"}), 0);
+    for (const char* name : {"/01.svg", "/07.svg", "/08.svg"}) {
+        EXPECT_EQ(readFile(path("cut") + name), readFile(path("whole") + name)) << name;
+    }
+}
+
+TEST_F(Liquid2dCommand, RefusesLoopsThatDoNotFit)
+{
+    const std::string out = path("x%d.svg");
+    expectRefused({"liquid2d", out, "--loop", "2s", "--begin", "1s"}, 2, "--loop: '2s' must be no longer than --begin");
+    expectRefused({"liquid2d", out, "--loop", "2s", "--time", "1s"}, 2, "--loop: a fade of 48 frames is longer");
+    expectRefused({"liquid2d", out, "--loop", "1s", "--particle-cache", path("x%d.ply")}, 2, "--particle-cache");
+    expectRefused({"liquid2d", out, "--begin", "1s", "--particles", path("none.vtk")}, 2,
+                  "--begin: the film begins after 24 frames, and there are 1 of --particles");
+}
+
 TEST_F(Liquid2dCommand, WritesParticlesThatAreReadAgain)
 {
     const CommandResult run = liquid({"--particle-cache", path("cache/%02d.vtp"), "--json", path("r.json")});
@@ -164,6 +254,19 @@ TEST_F(Liquid2dCommand, WritesParticlesThatAreReadAgain)
     for (const char* refused : {"cache/%02d.vtk", "cache.vtp", "-"}) {
         expectRefused({"liquid2d", "--particle-cache", refused}, 2, "cache/%04d.bgeo");
     }
+}
+
+TEST_F(Liquid2dCommand, WritesParticlesOverTime)
+{
+    ASSERT_EQ(liquid({"--particle-cache", path("liquid.usda"), "--json", path("r.json")}).exit_code, 0);
+    const auto frames = nlohmann::json::parse(readFile(path("r.json"))).at("frames");
+    const std::string file = readFile(path("liquid.usda"));
+    const testing::UsdPrim points = testing::UsdaReader(file).read().child("liquid");
+    const auto& samples = points.properties.at("ids").samples;
+    ASSERT_EQ(samples.size(), frames.size());
+    EXPECT_EQ(testing::numbersIn(samples.at(7.0)).size(), frames.at(7).at("particles").get<std::size_t>());
+    expectRefused({"liquid2d", path("%d.svg"), "--particle-cache", path("liquid.usda"), "--resume"}, 2,
+                  "--resume needs a file for every frame");
 }
 
 TEST_F(Liquid2dCommand, AnimateTakesMasksFromStandardInput)

@@ -214,6 +214,7 @@ const std::vector<CommandFiles>& all()
           frames("OUTPUT", "out/%04d.svg", "out/checkpoint.state"),
           frames("--masks", "masks/%04d.png", "masks/0001.png"),
           frames("--particle-cache", "cache/%04d.csv", "cache/0001.csv"),
+          {"--particle-cache", "cache.usda"},
           {"--json", "report.json"}}},
         {"morph",
          "morph",

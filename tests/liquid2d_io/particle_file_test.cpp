@@ -8,10 +8,14 @@
 #include <iterator>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "droplet/error.h"
+#include "droplet/liquid2d_io/particle_usda.h"
 #include "droplet/liquid2d_io/write_particles.h"
 #include "support/paths.h"
+#include "support/usda.h"
 
 namespace {
 
@@ -20,6 +24,9 @@ using droplet::parseParticles;
 using droplet::ParticleFile;
 using droplet::ParticleFormat;
 using droplet::ParticleFrame;
+using droplet::testing::numbersIn;
+using droplet::testing::UsdaReader;
+using droplet::testing::UsdPrim;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -93,6 +100,54 @@ TEST(WriteParticles, PlyHasAHeadAndARecordForEach)
     float x = 0.0F;
     std::memcpy(&x, file.data() + head + 36, sizeof x);
     EXPECT_EQ(x, -0.75F);
+}
+
+TEST(ParticleUsda, HasPointsWithSamplesOfEveryFrame)
+{
+    droplet::ParticleUsda usda(12.5);
+    const ParticleFrame first = smallFrame();
+    ParticleFrame second = first;
+    second.position.pop_back();
+    second.velocity.pop_back();
+    second.id.pop_back();
+    second.density.pop_back();
+    usda.add(first);
+    usda.add(second);
+    std::ostringstream out;
+    usda.write(out);
+    const UsdPrim root = UsdaReader(out.str()).read();
+    EXPECT_EQ(root.metadata.at("timeCodesPerSecond"), "12.5");
+    EXPECT_EQ(root.metadata.at("endTimeCode"), "1");
+    EXPECT_EQ(root.metadata.at("upAxis"), "Y");
+    const UsdPrim& points = root.child("liquid");
+    EXPECT_EQ(points.type, "Points");
+    EXPECT_EQ(points.value("widths"), "[0.125]");
+    EXPECT_EQ(points.properties.at("widths").metadata.at("interpolation"), "constant");
+    const auto at = [&](const char* name, double code) {
+        return numbersIn(points.properties.at(name).samples.at(code));
+    };
+    EXPECT_EQ(at("points", 0.0), (std::vector<double>{0.5, 1.25, 0.0, -0.75, 2.0, 0.0, 3.0, -4.5, 0.0}));
+    EXPECT_EQ(at("velocities", 0.0), (std::vector<double>{1.0, -2.0, 0.0, 0.0, 0.5, 0.0, -0.25, 8.0, 0.0}));
+    EXPECT_EQ(at("ids", 0.0), (std::vector<double>{7.0, 4e6, 0.0}));
+    EXPECT_EQ(at("primvars:density", 0.0), (std::vector<double>{1.0, 0.5, 1.5}));
+    EXPECT_EQ(at("ids", 1.0), (std::vector<double>{7.0, 4e6}));
+    EXPECT_EQ(at("points", 1.0).size(), 6U);
+    // The extent holds the points with their width.
+    EXPECT_EQ(at("extent", 0.0), (std::vector<double>{-0.8125, -4.5625, -0.0625, 3.0625, 2.0625, 0.0625}));
+}
+
+TEST(ParticleUsda, HoldsFramesWithoutParticlesOrDensity)
+{
+    droplet::ParticleUsda usda(24.0);
+    ParticleFrame frame = smallFrame();
+    frame.density.clear();
+    usda.add(frame);
+    usda.add({1.0, 0.125, {}, {}, {}, {}});
+    std::ostringstream out;
+    usda.write(out);
+    const UsdPrim points = UsdaReader(out.str()).read().child("liquid");
+    EXPECT_EQ(points.properties.at("points").samples.at(1.0), "[]");
+    EXPECT_EQ(points.properties.count("primvars:density"), 0U);
 }
 
 TEST(WriteParticles, FormatsFollowTheExtension)

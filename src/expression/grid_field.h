@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -10,12 +11,15 @@
 
 namespace droplet {
 
-/// Values on the nodes of a grid that covers liquid on its way: above one half in it, below outside.
-class MorphField {
+/// Sum of the signed areas of loops.
+double areaOf(const std::vector<Loop>& loops);
+
+/// Values on the nodes of a grid that covers liquid between two shapes: above one half in it, below outside.
+class GridField {
 public:
     /// @param lower, upper  box that the grid covers
     /// @param cell          side of its cells
-    MorphField(Vec2 lower, Vec2 upper, double cell);
+    GridField(Vec2 lower, Vec2 upper, double cell);
 
     /// Adds `weight` times the share of the area around each node that particles cover.
     /// @param area    of a particle
@@ -27,9 +31,10 @@ public:
     };
     void add(const Particles& particles, double weight);
 
-    /// Adds `weight` times a ramp over the signed distance from a region's rim, from 0 outside to 1 inside.
-    /// @param width  of the ramp
-    void add(const Region& region, double width, double weight);
+    /// Adds a function of the signed distance from a region's rim, which is positive inside. Without loops all is
+    /// outside, as far as the grid is long. Beyond two cells the distance is that of a sweep: within a cell of the
+    /// exact one, and without jumps.
+    void add(const Region& region, const std::function<double(double)>& value_at);
 
     /// Lets liquid fill slits narrower than a width, and holes of less than that radius, gradually: what is filled
     /// changes with the width without jumps.
@@ -41,9 +46,13 @@ public:
     /// Loops that enclose an area, at the level that gives it.
     [[nodiscard]] std::vector<Loop> loopsOfArea(double area, double min_area) const;
 
+    /// Value at a place within the grid.
+    [[nodiscard]] double at(Vec2 place) const;
+
 private:
     [[nodiscard]] Vec2 place(int column, int row) const;
-    [[nodiscard]] double& at(int column, int row);
+    [[nodiscard]] std::size_t node(int column, int row) const;
+    [[nodiscard]] std::vector<double> signedDistance(const Region& region) const;
 
     Vec2 lower_;
     double cell_;

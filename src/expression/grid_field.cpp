@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "morph_field.h"
+//
+// Shapes between two others, as lines of equal value of a field. Distances from a rim are exact near it; farther away a
+// node takes the nearest side of its neighbours', in two sweeps (P.-E. Danielsson, "Euclidean distance mapping",
+// Computer Graphics and Image Processing 14, 1980).
+#include "grid_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +11,8 @@
 #include <numbers>
 #include <utility>
 
-#include "expression/field.h"
-#include "expression/isoline.h"
+#include "field.h"
+#include "isoline.h"
 
 namespace droplet {
 namespace {
@@ -21,15 +25,6 @@ constexpr double kFilled = 0.6;
 /// Difference from the field within which the average rounds it.
 constexpr double kRounded = 0.1;
 
-double areaOf(const std::vector<Loop>& loops)
-{
-    double area = 0.0;
-    for (const Loop& loop : loops) {
-        area += signedArea(loop);
-    }
-    return area;
-}
-
 double squareFromSide(Vec2 p, Vec2 a, Vec2 b)
 {
     const Vec2 side = b - a;
@@ -38,6 +33,20 @@ double squareFromSide(Vec2 p, Vec2 a, Vec2 b)
     const Vec2 way = p - (a + t * side);
     return dot(way, way);
 }
+
+/// Side of a region that is nearest to a node.
+struct Nearest {
+    double square;  ///< of the distance
+    Vec2 a;
+    Vec2 b;
+
+    void take(Vec2 place, Vec2 from, Vec2 to)
+    {
+        if (const double other = squareFromSide(place, from, to); other < square) {
+            *this = {other, from, to};
+        }
+    }
+};
 
 /// Lines of a grid: their number and length, and the steps from one to the next and along them.
 struct Lines {
@@ -66,7 +75,16 @@ void averageLines(std::vector<double>& values, const Lines& lines, int half)
 
 }  // namespace
 
-MorphField::MorphField(Vec2 lower, Vec2 upper, double cell) : lower_(lower), cell_(cell)
+double areaOf(const std::vector<Loop>& loops)
+{
+    double area = 0.0;
+    for (const Loop& loop : loops) {
+        area += signedArea(loop);
+    }
+    return area;
+}
+
+GridField::GridField(Vec2 lower, Vec2 upper, double cell) : lower_(lower), cell_(cell)
 {
     // Whole tiles; their last nodes stay dry, so that all loops are closed.
     const int side = 2 * kTileSide;
@@ -76,18 +94,27 @@ MorphField::MorphField(Vec2 lower, Vec2 upper, double cell) : lower_(lower), cel
     values_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
 }
 
-Vec2 MorphField::place(int column, int row) const
+Vec2 GridField::place(int column, int row) const
 {
     return lower_ + Vec2{cell_ * column, cell_ * row};
 }
 
-double& MorphField::at(int column, int row)
+std::size_t GridField::node(int column, int row) const
 {
-    return values_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                   static_cast<std::size_t>(column)];
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
 }
 
-void MorphField::add(const Particles& particles, double weight)
+double GridField::at(Vec2 place) const
+{
+    const double x = (place.x - lower_.x) / cell_;
+    const double y = (place.y - lower_.y) / cell_;
+    const int i = std::clamp(static_cast<int>(x), 0, columns_ - 2);
+    const int j = std::clamp(static_cast<int>(y), 0, rows_ - 2);
+    const auto row = [&](int k) { return std::lerp(values_[node(i, k)], values_[node(i + 1, k)], x - i); };
+    return std::lerp(row(j), row(j + 1), y - j);
+}
+
+void GridField::add(const Particles& particles, double weight)
 {
     const double radius = particles.radius;
     // Integral 1 over the disc.
@@ -105,18 +132,26 @@ void MorphField::add(const Particles& particles, double weight)
                 const Vec2 arm = place(i, j) - x;
                 const double q = 1.0 - dot(arm, arm) / (radius * radius);
                 if (q > 0.0) {
-                    at(i, j) += peak * q * q * q;
+                    values_[node(i, j)] += peak * q * q * q;
                 }
             }
         }
     }
 }
 
-void MorphField::add(const Region& region, double width, double weight)
+void GridField::add(const Region& region, const std::function<double(double)>& value_at)
 {
-    const double reach = 0.5 * width;
-    std::vector<double> distance(values_.size(), reach * reach);  // squared
-    std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rows_));
+    const std::vector<double> distance = signedDistance(region);
+    std::transform(values_.begin(), values_.end(), distance.begin(), values_.begin(),
+                   [&](double value, double d) { return value + value_at(d); });
+}
+
+std::vector<double> GridField::signedDistance(const Region& region) const
+{
+    const double reach = 2.0 * cell_;
+    const double farthest = cell_ * std::hypot(columns_, rows_);
+    std::vector<Nearest> nearest(values_.size(), {farthest * farthest, {}, {}});
+    std::vector<std::vector<double>> crossings(indexOf(rows_));
     for (const std::vector<Vec2>& loop : region.loops) {
         for (std::size_t k = 0; k < loop.size(); ++k) {
             const Vec2 a = loop[k];
@@ -127,9 +162,7 @@ void MorphField::add(const Region& region, double width, double weight)
             const int j1 = std::min(row(std::max(a.y, b.y) + reach), rows_ - 1);
             for (int j = std::max(row(std::min(a.y, b.y) - reach) + 1, 0); j <= j1; ++j) {
                 for (int i = std::max(column(std::min(a.x, b.x) - reach) + 1, 0); i <= i1; ++i) {
-                    double& nearest = distance[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
-                                               static_cast<std::size_t>(i)];
-                    nearest = std::min(nearest, squareFromSide(place(i, j), a, b));
+                    nearest[node(i, j)].take(place(i, j), a, b);
                 }
             }
             // Rows at a.y or above, below b.y, or the reverse: a corner counts once.
@@ -138,26 +171,53 @@ void MorphField::add(const Region& region, double width, double weight)
             };
             for (int j = above(std::min(a.y, b.y)); j < std::min(above(std::max(a.y, b.y)), rows_); ++j) {
                 const double t = (place(0, j).y - a.y) / (b.y - a.y);
-                crossings[static_cast<std::size_t>(j)].push_back(a.x + t * (b.x - a.x));
+                crossings[indexOf(j)].push_back(a.x + t * (b.x - a.x));
             }
         }
     }
+    // Nodes farther away take the side that is nearest to one of their neighbours: up, then down.
+    const auto pass = [&](int row, int next) {
+        const auto from = [&](int i, int column, int other) {
+            if (column < 0 || column >= columns_ || other < 0 || other >= rows_) {
+                return;
+            }
+            if (const Nearest& of = nearest[node(column, other)]; of.square < farthest * farthest) {
+                nearest[node(i, row)].take(place(i, row), of.a, of.b);
+            }
+        };
+        for (int i = 0; i < columns_; ++i) {
+            for (int k = -1; k <= 1; ++k) {
+                from(i, i + k, row - next);
+            }
+            from(i, i - 1, row);
+        }
+        for (int i = columns_ - 1; i >= 0; --i) {
+            from(i, i + 1, row);
+        }
+    };
     for (int j = 0; j < rows_; ++j) {
-        std::vector<double>& row = crossings[static_cast<std::size_t>(j)];
+        pass(j, 1);
+    }
+    for (int j = rows_ - 1; j >= 0; --j) {
+        pass(j, -1);
+    }
+    std::vector<double> distance(values_.size());
+    for (int j = 0; j < rows_; ++j) {
+        std::vector<double>& row = crossings[indexOf(j)];
         std::sort(row.begin(), row.end());
         std::size_t passed = 0;
         for (int i = 0; i < columns_; ++i) {
             while (passed < row.size() && row[passed] <= place(i, j).x) {
                 ++passed;
             }
-            const double d = std::sqrt(distance[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
-                                                static_cast<std::size_t>(i)]);
-            at(i, j) += weight * (0.5 + (passed % 2 == 1 ? d : -d) / width);
+            const double d = std::sqrt(nearest[node(i, j)].square);
+            distance[node(i, j)] = passed % 2 == 1 ? d : -d;
         }
     }
+    return distance;
 }
 
-void MorphField::fill(double width)
+void GridField::fill(double width)
 {
     // Three boxes make almost a Gaussian, of the width as its standard deviation.
     const double side = std::sqrt(4.0 * width * width / (cell_ * cell_) + 1.0);
@@ -178,7 +238,7 @@ void MorphField::fill(double width)
     }
 }
 
-std::vector<Loop> MorphField::loops(double level, double min_area) const
+std::vector<Loop> GridField::loops(double level, double min_area) const
 {
     Field field;
     field.nodes_per_cell = 2;
@@ -215,18 +275,19 @@ std::vector<Loop> MorphField::loops(double level, double min_area) const
     return all;
 }
 
-std::vector<Loop> MorphField::loopsOfArea(double area, double min_area) const
+std::vector<Loop> GridField::loopsOfArea(double area, double min_area) const
 {
     // The area falls with the level. Loops that appear or vanish make it jump, by less than min_area each.
     constexpr double kClose = 1e-6;
     constexpr int kTrials = 40;
+    constexpr double kHighest = 10.0;
     struct Bound {
         double level;
         double error;
         bool is_tried;
     };
-    Bound low{0.0, 0.0, false};
-    Bound high{1.5, 0.0, false};
+    Bound low{-kHighest, 0.0, false};
+    Bound high{kHighest, 0.0, false};
     double step = 0.05;
     std::vector<Loop> best;
     double best_error = std::numeric_limits<double>::max();
