@@ -182,7 +182,10 @@ ExpressionState advanceExpression(ExpressionState state, const ParticleFrame& fr
         return state;
     }
 
-    const Surroundings around = surroundingsOf(frame);
+    // Air has thresholds of all particles, claws are at the surface.
+    const Surroundings around = surroundingsOf(frame, options.air > 0.0     ? std::numeric_limits<double>::infinity()
+                                                      : options.claws > 0.0 ? kSurface
+                                                                            : 0.0);
     updateDroplets(state, frame, around, options, dt);
     if (options.claws > 0.0 || options.air > 0.0) {
         // The fastest time so far, forgotten within seconds; not slower than a motion that one sees.

@@ -32,7 +32,7 @@ double Surroundings::alone()
     return kernel.area() * kernel(0.0);
 }
 
-Surroundings surroundingsOf(const ParticleFrame& frame)
+Surroundings surroundingsOf(const ParticleFrame& frame, double below)
 {
     const std::size_t count = frame.position.size();
     Surroundings result;
@@ -67,17 +67,32 @@ Surroundings surroundingsOf(const ParticleFrame& frame)
         std::uint32_t a;
         std::uint32_t b;
     };
+    const double connected_within = kConnected * kConnected * frame.spacing * frame.spacing;
     const auto pairs = mapBlocks<std::vector<Pair>>(
         count,
         [&](std::size_t begin, std::size_t end) {
             std::vector<Pair> connected;
             for (std::size_t k = begin; k < end; ++k) {
                 const Vec2 x = position[k];
+                const int column = cells.column(x.x);
+                const int row = cells.row(x.y);
+                // Of two neighbours, the one that comes first in the order tells of the pair.
+                for (int r = row; r <= row + 1; ++r) {
+                    const auto [first, last] = cells.range(r, column - 1, column + 1);
+                    for (std::uint32_t m = std::max(first, static_cast<std::uint32_t>(k) + 1); m < last; ++m) {
+                        const Vec2 between = x - position[m];
+                        if (dot(between, between) < connected_within) {
+                            connected.push_back({static_cast<std::uint32_t>(k), m});
+                        }
+                    }
+                }
+                const std::uint32_t i = order[k];
+                if (!(frame.density.empty() ? below > 0.0 : frame.density[i] < below)) {
+                    continue;
+                }
                 double coverage = kernel.area() * kernel(0.0);
                 Vec2 gradient;
                 double churn = 0.0;
-                const int column = cells.column(x.x);
-                const int row = cells.row(x.y);
                 for (int r = row - 1; r <= row + 1; ++r) {
                     const auto [first, last] = cells.range(r, column - 1, column + 1);
                     for (std::uint32_t m = first; m < last; ++m) {
@@ -95,12 +110,8 @@ Surroundings surroundingsOf(const ParticleFrame& frame)
                             const double speed = std::sqrt(dot(relative, relative));
                             churn += kernel.area() * near.value * (speed - dot(relative, between) / distance);
                         }
-                        if (m > k && distance < kConnected * frame.spacing) {
-                            connected.push_back({static_cast<std::uint32_t>(k), m});
-                        }
                     }
                 }
-                const std::uint32_t i = order[k];
                 result.coverage[i] = coverage;
                 result.outward[i] = (-frame.spacing) * gradient;
                 result.churn[i] = churn / frame.spacing;

@@ -21,7 +21,9 @@ struct Surroundings {
     static double alone();
 };
 
+/// @param below  coverage, outward and churn are those of particles whose density is below this, or is unknown; 0: of
+///               none, the others have zeros
 /// @throws Error InvalidInput if the particles are spread over more than 10⁸ cells
-Surroundings surroundingsOf(const ParticleFrame& frame);
+Surroundings surroundingsOf(const ParticleFrame& frame, double below);
 
 }  // namespace droplet

@@ -785,11 +785,18 @@ private:
         forBlocks(
             state.position.size(),
             [&](std::size_t begin, std::size_t end) {
+                std::size_t cell = grid_.cells();
+                bool is_inner = false;  // of most cells: particles are sorted by them
                 for (std::size_t i = begin; i < end; ++i) {
                     if (flies_[i] != 0) {
                         continue;
                     }
-                    const Vec2 sum = beside(state.position[i], reach * overlap(i), reach);
+                    if (cell_[i] != cell) {
+                        cell = cell_[i];
+                        is_inner = isInner(cell, reach);
+                    }
+                    const Vec2 apart = reach * overlap(i);
+                    const Vec2 sum = is_inner ? apart : beside(state.position[i], apart, reach);
                     const double square = dot(sum, sum);
                     const double most = kMostShift / kShift * scene_.spacing;
                     shift_[i] = (square > most * most ? kShift * most / std::sqrt(square) : kShift) * sum;
@@ -837,6 +844,21 @@ private:
             }
         }
         return {static_cast<double>(right.sum()), static_cast<double>(up.sum())};
+    }
+
+    /// Whether neither walls nor the surface are near a cell, so that beside() changes nothing in it.
+    [[nodiscard]] bool isInner(std::size_t cell, double reach) const
+    {
+        constexpr double kRounding = 1e-6;
+        const std::size_t corner = cell + cell / grid_.columns;  // one more in each row
+        const std::size_t above = corner + grid_.cornerColumns();
+        const bool is_far = std::min({field_.distance[corner], field_.distance[corner + 1], field_.distance[above],
+                                      field_.distance[above + 1]}) > (0.5 + kRounding) * reach;
+        bool is_full = true;
+        for (const std::size_t row : {cell - grid_.columns, cell, cell + grid_.columns}) {
+            is_full = is_full && std::min({filled_[row - 1], filled_[row], filled_[row + 1]}) > kFirstRow + kRounding;
+        }
+        return is_far && is_full;
     }
 
     /// Changes a displacement near walls, which count as mirrors, and at the surface, along which it must go.

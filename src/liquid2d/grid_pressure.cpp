@@ -121,14 +121,12 @@ GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::
         }
         const double alpha = rho / curvature;
         double next = 0.0;
+        solved.residual = 0.0;
         for (const std::size_t k : cells_) {
             y[k] += alpha * s[k];
             r[k] -= alpha * t[k];
             next += r[k] * r[k];
-        }
-        solved.residual = 0.0;
-        for (const std::size_t k : cells_) {
-            solved.residual = std::max(solved.residual, residual_at(k));
+            solved.residual = std::max(solved.residual, residual_at(k));  // of cells before and this one alone
         }
         if (solved.residual <= tolerance) {
             break;
