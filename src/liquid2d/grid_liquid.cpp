@@ -195,6 +195,10 @@ private:
              {&density_, &solid_, &room_, &total_, &filled_, &curvature_, &pressure_, &potential_, &rhs_}) {
             values->assign(grid_.cells(), 0.0);
         }
+        left_side_.resize(grid_.cells());
+        for (std::size_t k = 0; k < grid_.cells(); ++k) {
+            left_side_[k] = static_cast<std::uint32_t>(k + k / grid_.columns);  // u_ has one more in each row
+        }
         kind_.assign(grid_.cells(), Cell::Empty);
         free_.assign(grid_.cells(), 0);
         whole_ = GridEquations(grid_);
@@ -401,7 +405,7 @@ private:
     template <typename Work>
     void forSides(std::size_t k, const Work& work)
     {
-        const std::size_t right = k + k / grid_.columns;  // u_ has one more in each row
+        const std::size_t right = left_side_[k];
         work(u_, k - 1, right, -1.0);
         work(u_, k + 1, right + 1, 1.0);
         work(v_, k - grid_.columns, k, -1.0);
@@ -455,10 +459,12 @@ private:
             }
         });
         // Velocities are known at liquid, and where liquid falls freely.
-        forSpans(u_.spans, [&](std::size_t s) {
-            const std::size_t k = s - s / u_.columns;
-            mark(u_, s, k - 1, k);
-        });
+        for (std::size_t n = 0; n < spans_.size(); ++n) {
+            const std::size_t row = u_.spans[n].begin - spans_[n].begin;
+            for (std::size_t s = u_.spans[n].begin; s < u_.spans[n].end; ++s) {
+                mark(u_, s, s - row - 1, s - row);
+            }
+        }
         forSpans(v_.spans, [&](std::size_t s) { mark(v_, s, s - grid_.columns, s); });
     }
 
@@ -601,7 +607,7 @@ private:
                         flow = std::max(flow, std::abs(sides.value[s]));
                     }
                 });
-                const std::size_t right = k + k / grid_.columns;
+                const std::size_t right = left_side_[k];
                 rhs_[k] += swept(u_, right, right + 1) + swept(v_, k, k + grid_.columns);
             }
             const auto solved = equations.solve(rhs_, pressure, kTolerance * flow);
@@ -850,7 +856,7 @@ private:
     [[nodiscard]] bool isInner(std::size_t cell, double reach) const
     {
         constexpr double kRounding = 1e-6;
-        const std::size_t corner = cell + cell / grid_.columns;  // one more in each row
+        const std::size_t corner = left_side_[cell];  // as many in a row as sides
         const std::size_t above = corner + grid_.cornerColumns();
         const bool is_far = std::min({field_.distance[corner], field_.distance[corner + 1], field_.distance[above],
                                       field_.distance[above + 1]}) > (0.5 + kRounding) * reach;
@@ -957,7 +963,10 @@ private:
         const Vec2 third = velocityAt(x + (0.75 * dt_) * second);
         const Vec2 apart{across.in(u_.shift), up.in(v_.shift)};
         state.position[i] = x + (dt_ / 9.0) * (2.0 * v + 3.0 * second + 4.0 * third) + apart + shift_[i];
-        return keepOutOfWalls(state, i);
+        // Most particles are too far from walls to meet one.
+        const Vec2 way = state.position[i] - x;
+        const double room = place.amongCorners().in(field_.distance) - grid_.cell;
+        return !(room > 0.0 && dot(way, way) < room * room) && keepOutOfWalls(state, i);
     }
 
     /// Puts a particle back that came into a wall.
@@ -1003,16 +1012,17 @@ private:
     GridEquations rest_;       ///< without those in which the pressure is 0
     WallField field_;          ///< at the start of a step, and at its end when particles move
     // Of cells:
-    std::vector<std::uint32_t> begin_;  ///< their first particles
-    std::vector<std::uint32_t> next_;   ///< where the next particle goes
-    std::vector<double> density_;       ///< of liquid, relative to that at rest
-    std::vector<double> solid_;         ///< part that walls take, smoothed likewise
-    std::vector<double> total_;         ///< both of them
-    std::vector<double> room_;          ///< part outside of walls
-    std::vector<double> filled_;        ///< density over what walls leave free
-    std::vector<double> curvature_;     ///< of the surface [1/m]
-    std::vector<double> pressure_;      ///< over the density [m²/s²]
-    std::vector<double> potential_;     ///< of displacements
+    std::vector<std::uint32_t> begin_;      ///< their first particles
+    std::vector<std::uint32_t> next_;       ///< where the next particle goes
+    std::vector<std::uint32_t> left_side_;  ///< in u_
+    std::vector<double> density_;           ///< of liquid, relative to that at rest
+    std::vector<double> solid_;             ///< part that walls take, smoothed likewise
+    std::vector<double> total_;             ///< both of them
+    std::vector<double> room_;              ///< part outside of walls
+    std::vector<double> filled_;            ///< density over what walls leave free
+    std::vector<double> curvature_;         ///< of the surface [1/m]
+    std::vector<double> pressure_;          ///< over the density [m²/s²]
+    std::vector<double> potential_;         ///< of displacements
     std::vector<double> rhs_;
     std::vector<Cell> kind_;
     std::vector<std::uint8_t> free_;   ///< whether the pressure is 0, as walls do not hold liquid back
