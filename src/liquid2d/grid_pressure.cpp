@@ -97,9 +97,10 @@ GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::
     double rho = 0.0;
     for (const std::size_t k : cells_) {
         y[k] += right_[k] * y[k + 1] + up_[k] * y[k + columns_];
-        s[k] = r[k];
+        s[k] = 0.0;
         rho += r[k] * r[k];
     }
+    double beta = 0.0;
     while (solved.iterations < kMaxIterations && rho > 0.0) {
         ++solved.iterations;
         // The product by one solution with each factor (Eisenstat: Efficient implementation of a class of
@@ -107,6 +108,7 @@ GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::
         // (1 + L)⁻¹ A t = t + (1 + L)⁻¹ (s + (D - 2) t) with t = (1 + L')⁻¹ s.
         for (std::size_t n = cells_.size(); n-- > 0;) {
             const std::size_t k = cells_[n];
+            s[k] = r[k] + beta * s[k];
             t[k] = s[k] - up_[k] * t[k + columns_] - right_[k] * t[k + 1];
         }
         double curvature = 0.0;
@@ -131,10 +133,7 @@ GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::
         if (solved.residual <= tolerance) {
             break;
         }
-        const double beta = next / rho;
-        for (const std::size_t k : cells_) {
-            s[k] = r[k] + beta * s[k];
-        }
+        beta = next / rho;
         rho = next;
     }
     for (std::size_t n = cells_.size(); n-- > 0;) {

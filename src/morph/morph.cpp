@@ -13,6 +13,7 @@
 #include "droplet/error.h"
 #include "droplet/liquid2d/fluid.h"
 #include "droplet/morph/morph_targets.h"
+#include "droplet/outline/outline.h"
 #include "expression/grid_field.h"
 #include "expression/surface_kernel.h"
 #include "liquid2d/bounds.h"
