@@ -126,6 +126,7 @@ public:
     [[nodiscard]] virtual std::vector<droplet::Region> walls() const { return {}; }
     [[nodiscard]] virtual std::uint64_t steps() const { return 0; }
     [[nodiscard]] virtual std::uint64_t removed() const { return 0; }
+    [[nodiscard]] virtual std::uint64_t blocked() const { return 0; }
     /// State after the last frame, for a checkpoint.
     [[nodiscard]] virtual std::string bytes() const { return {}; }
     virtual void restore(std::string_view bytes, const std::string& name, std::size_t frames) = 0;
@@ -186,6 +187,7 @@ public:
     }
     [[nodiscard]] std::uint64_t steps() const override { return state_.counts.steps; }
     [[nodiscard]] std::uint64_t removed() const override { return state_.counts.removed; }
+    [[nodiscard]] std::uint64_t blocked() const override { return state_.counts.blocked; }
     [[nodiscard]] std::string bytes() const override { return bytesOf(state_); }
     void restore(std::string_view bytes, const std::string& name, std::size_t frames) override
     {
@@ -445,6 +447,12 @@ private:
         film_.make(report_.frames.size(),
                    {[this](std::size_t number) { return frame(number); }, [this] { return state(); }});
         report_.removed = source_->removed();
+        if (source_->blocked() > 0) {
+            warn(
+                fmt::format("emitters kept {} particles, because a closed vessel was full; give it an opening or more "
+                            "room",
+                            source_->blocked()));
+        }
     }
 
     /// Makes what is before the film.

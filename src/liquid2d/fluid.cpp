@@ -87,12 +87,17 @@ private:
             const double before = state.emitted[k];
             state.emitted[k] += speed * active;
             const auto columns = static_cast<int>(std::max(std::floor(emitter.width / step), 1.0));
+            const bool is_blocked = solver_->isFull(emitter.position + step * ahead);
             for (double row = std::floor(before / row_height) + 1.0; row * row_height <= state.emitted[k]; row += 1.0) {
                 const double gone = state.emitted[k] - row * row_height;
                 const bool is_odd = std::fmod(row, 2.0) != 0.0;
                 const int count = std::max(columns - (is_odd ? 0 : 1), 1);
                 // Every row reaches to the edges, which stay straight where the jet stretches.
                 const double wide = count > 1 ? step * (columns - 1) / (count - 1) : 0.0;
+                if (is_blocked) {
+                    state.counts.blocked += static_cast<std::uint64_t>(count);
+                    continue;
+                }
                 for (int c = 0; c < count && state.position.size() < scene_.max_particles; ++c) {
                     const double offset = (c - 0.5 * (count - 1)) * wide;
                     addParticle(state, emitter.position + gone * ahead + offset * across, emitter.velocity);

@@ -17,7 +17,7 @@ std::string bytesOf(const FluidState& state)
     ExactWriter out(kHead);
     out.all(state.time, std::uint64_t{state.next_id}, state.approach_speed, state.density_error, state.step,
             state.counts.steps, state.counts.density_iterations, state.counts.divergence_iterations,
-            state.counts.emitted, state.counts.removed, state.counts.rescued);
+            state.counts.emitted, state.counts.removed, state.counts.rescued, state.counts.blocked);
     out.put(std::uint64_t{state.emitted.size()});
     for (const double length : state.emitted) {
         out.put(length);
@@ -46,7 +46,8 @@ FluidState fluidStateFromBytes(std::string_view bytes, const std::string& name)
     in.get(state.time);
     id(state.next_id);
     in.all(state.approach_speed, state.density_error, state.step, state.counts.steps, state.counts.density_iterations,
-           state.counts.divergence_iterations, state.counts.emitted, state.counts.removed, state.counts.rescued);
+           state.counts.divergence_iterations, state.counts.emitted, state.counts.removed, state.counts.rescued,
+           state.counts.blocked);
     in.require(state.time >= 0.0 && state.approach_speed >= 0.0);
     state.emitted.resize(in.count(sizeof(double)));
     for (double& length : state.emitted) {

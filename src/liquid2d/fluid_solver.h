@@ -17,6 +17,8 @@ public:
     [[nodiscard]] virtual double longestStep(const FluidState& state) const = 0;
     /// Greatest part of a spacing that an emitter's liquid moves in a step.
     [[nodiscard]] virtual double emitterCourant() const = 0;
+    /// Whether a place lies in liquid without a surface that has no room for more, at the last step. DFSPH never tells.
+    [[nodiscard]] virtual bool isFull(Vec2 /*place*/) const { return false; }
     /// Moves the particles of a state on by dt, and counts iterations and rescues; the state's time stays.
     virtual void step(FluidState& state, double dt) = 0;
 };

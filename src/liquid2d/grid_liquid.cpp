@@ -116,6 +116,37 @@ public:
         return std::min(dt, walls_.longestStep(state.time));
     }
 
+    [[nodiscard]] bool isFull(Vec2 place) const override
+    {
+        const std::size_t start = GridPlace(grid_, place).cell();
+        if (kind_[start] != Cell::Liquid) {
+            return false;
+        }
+        std::vector<std::uint8_t> is_reached(grid_.cells());
+        std::vector<std::size_t> cells{start};
+        is_reached[start] = 1;
+        double filled = 0.0;
+        for (std::size_t n = 0; n < cells.size(); ++n) {
+            const std::size_t k = cells[n];
+            filled += density_[k] + solid_[k];
+            const std::array<std::pair<double, std::size_t>, 4> ways{{{u_.open[left_side_[k]], k - 1},
+                                                                      {u_.open[left_side_[k] + 1], k + 1},
+                                                                      {v_.open[k], k - grid_.columns},
+                                                                      {v_.open[k + grid_.columns], k + grid_.columns}}};
+            for (const auto& [open, other] : ways) {
+                if (!(open > 0.0) || is_reached[other] != 0) {
+                    continue;
+                }
+                if (kind_[other] != Cell::Liquid) {
+                    return false;  // a surface
+                }
+                is_reached[other] = 1;
+                cells.push_back(other);
+            }
+        }
+        return filled > static_cast<double>(cells.size());
+    }
+
     void step(FluidState& state, double dt) override
     {
         dt_ = dt;

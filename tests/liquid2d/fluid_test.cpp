@@ -399,6 +399,38 @@ TEST_P(FluidOf, EmitterReleasesItsRate)
     EXPECT_EQ(state.counts.emitted, state.position.size());
 }
 
+TEST(Fluid, AnEmitterInAFullVesselStops)
+{
+    // A vessel of 0.6 m by 0.6 m, full to its lid, or without a lid.
+    std::vector<std::uint64_t> asked;
+    for (const bool is_closed : {true, false}) {
+        FluidScene scene;
+        scene.spacing = 0.02;
+        scene.size = {1.0, 1.2};
+        droplet::Region vessel{
+            {{{0.1, 0.1}, {0.9, 0.1}, {0.9, 1.0}, {0.8, 1.0}, {0.8, 0.2}, {0.2, 0.2}, {0.2, 1.0}, {0.1, 1.0}}}};
+        if (is_closed) {
+            vessel = droplet::rectangle({0.1, 0.1}, {0.9, 0.9});
+            vessel.loops.push_back(droplet::rectangle({0.2, 0.2}, {0.8, 0.8}).loops[0]);
+        }
+        scene.walls = {{.region = vessel, .motion = {}}};
+        scene.liquid = {{.region = droplet::rectangle({0.2, 0.2}, {0.8, 0.8})}};
+        scene.emitters = {{{0.4, 0.4}, {0.5, 0.0}, 0.1}};
+        const std::size_t before = startFluid(scene).position.size();
+        const FluidState state = advanceFluid(startFluid(scene), scene, 2.0);
+        const auto come = static_cast<double>(state.position.size() - before);
+        asked.push_back(state.counts.emitted + state.counts.blocked);
+        if (is_closed) {
+            EXPECT_GT(state.counts.blocked, 0U);
+            EXPECT_LT(come, 0.05 * static_cast<double>(before));
+        } else {
+            EXPECT_EQ(state.counts.blocked, 0U);
+            EXPECT_EQ(state.position.size() - before, state.counts.emitted);
+        }
+    }
+    EXPECT_EQ(asked[0], asked[1]);
+}
+
 TEST_P(FluidOf, MovingWallPushesLiquidAndNoneLeaksThroughIt)
 {
     FluidScene scene = tank(2.0, 0.5, 0.02);

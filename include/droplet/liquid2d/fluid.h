@@ -23,6 +23,7 @@ struct FluidCounts {
     std::uint64_t emitted = 0;                ///< particles released by emitters
     std::uint64_t removed = 0;                ///< particles that left the window and its margin
     std::uint64_t rescued = 0;                ///< times that a particle was put back out of a wall
+    std::uint64_t blocked = 0;                ///< particles that emitters kept, for a closed vessel was full
 };
 
 /// State of a 2D liquid.
