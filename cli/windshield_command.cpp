@@ -44,8 +44,7 @@ int runWindshield(int argc, const char* const* argv)
     }
     const auto& options = std::get<WindshieldOptions>(parsed);
     if (options.live) {
-        writeLive(options);
-        return 0;
+        return runFilm(options.run, filesOfLive(options), [&](ProgressDisplay&) { return writeLive(options); });
     }
     return runFilm(options.run, filesOf(options), [&](ProgressDisplay& progress) {
         const droplet::WindshieldReport report = simulateWindshield(options, progress);

@@ -5,16 +5,23 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <initializer_list>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "droplet/io/base64.h"
+#include "droplet/io/object.h"
 #include "files.h"
 #include "option_values.h"
-#include "run_files.h"
 #include "this_process.h"
+#include "windshield_plan.h"
 
 namespace cli {
 namespace {
@@ -22,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Options that the page begins with, and those of every run.
-constexpr std::array<std::string_view, 30> kKnown{"--live",
+constexpr std::array<std::string_view, 31> kKnown{"--live",
                                                   "--preset",
                                                   "--rain",
                                                   "--mist",
@@ -34,6 +41,7 @@ constexpr std::array<std::string_view, 30> kKnown{"--live",
                                                   "--glass-height",
                                                   "--glass-radius",
                                                   "--slope",
+                                                  "--surface",
                                                   "--hysteresis",
                                                   "--still-diameter",
                                                   "--splashes",
@@ -69,6 +77,52 @@ std::string urlOf(const std::string& path)
     return fmt::format("data:image/{};base64,{}", type, droplet::base64(bytes));
 }
 
+/// Numbers of 32 bits, the lowest byte first, as a JSON text in base64.
+template <typename Number>
+std::string packed(const std::vector<Number>& numbers)
+{
+    static_assert(sizeof(Number) == sizeof(std::uint32_t));
+    std::string bytes;
+    for (const Number number : numbers) {
+        const auto word = std::bit_cast<std::uint32_t>(number);
+        for (int shift = 0; shift < 32; shift += 8) {
+            bytes += static_cast<char>(word >> shift);
+        }
+    }
+    return '"' + droplet::base64(bytes) + '"';
+}
+
+/// Mesh of the glass, for the page.
+std::string valuesOf(const droplet::TexturedMesh& glass)
+{
+    std::vector<float> positions;
+    std::vector<float> normals;
+    std::vector<float> uvs;
+    const auto add = [](std::vector<float>& list, std::initializer_list<double> numbers) {
+        std::transform(numbers.begin(), numbers.end(), std::back_inserter(list),
+                       [](double number) { return static_cast<float>(number); });
+    };
+    for (std::size_t k = 0; k < glass.vertices.size(); ++k) {
+        const auto& [x, y, z] = glass.vertices[k];
+        const auto& [nx, ny, nz] = glass.normals[k];
+        add(positions, {x, y, z});
+        add(normals, {nx, ny, nz});
+        add(uvs, {glass.uvs[k].x, glass.uvs[k].y});
+    }
+    std::vector<std::uint32_t> indices;
+    for (const droplet::Triangle& triangle : glass.triangles) {
+        indices.insert(indices.end(), triangle.begin(), triangle.end());
+    }
+    return fmt::format(R"({{"positions":{},"normals":{},"uvs":{},"indices":{}}})", packed(positions), packed(normals),
+                       packed(uvs), packed(indices));
+}
+
+/// Where the page was installed or built, relative to this program.
+fs::path pageOfRain()
+{
+    return (programFile().parent_path() / DROPLET_RAIN_PAGE).lexically_normal();
+}
+
 /// The page with a gap for its values.
 std::string templateFrom(const fs::path& page)
 {
@@ -86,12 +140,18 @@ std::string valuesOf(const WindshieldOptions& options)
     const droplet::Wetting& wetting = p.forces.wetting;
     std::string text = fmt::format(
         R"({{"preset":"{}","parameters":{{"speed":{},"rain":{},"mist":{},"noise":{},"wiperPeriod":{},"seed":{},)"
-        R"("glassWidth":{},"glassHeight":{},"glassRadius":{},"slope":{},"hysteresis":{},"stillDiameter":{},"film":{},)"
-        R"("splashes":{},"contactAngle":{},"viscosityFactor":{},"kineticFraction":{},"gravity":{}}})",
+        R"("hysteresis":{},"stillDiameter":{},"film":{},"splashes":{},"contactAngle":{},"viscosityFactor":{},)"
+        R"("kineticFraction":{},"gravity":{})",
         options.preset, p.vehicle.speedAt(0.0), p.rainfall, p.mist, p.fluctuation.acceleration,
-        options.wiper.value_or(0.0), p.seed, options.cylinder.width, options.cylinder.height, options.cylinder.radius,
-        options.cylinder.slope, wetting.hysteresis, p.still_diameter, p.streaks.film, p.splashes ? 1 : 0,
+        options.wiper.value_or(0.0), p.seed, wetting.hysteresis, p.still_diameter, p.streaks.film, p.splashes ? 1 : 0,
         wetting.contact_angle, wetting.viscosity_factor, wetting.kinetic_fraction, p.forces.gravity);
+    if (options.surface) {
+        text += R"(},"surface":)" + valuesOf(droplet::readObject(*options.surface));
+    } else {
+        const droplet::Glass::Cylinder& glass = options.cylinder;
+        text += fmt::format(R"(,"glassWidth":{},"glassHeight":{},"glassRadius":{},"slope":{}}})", glass.width,
+                            glass.height, glass.radius, glass.slope);
+    }
     const auto add = [&](const char* option, const char* name, double value) {
         if (options.live->given.contains(option)) {
             text += fmt::format(R"(,"{}":{})", name, value);
@@ -116,28 +176,30 @@ void checkLive(const CommandLine& line)
     }
     for (const auto& [name, value] : line.given()) {
         if (std::find(kKnown.begin(), kKnown.end(), name) == kKnown.end()) {
-            refuse("--live and " + name + " exclude each other: " +
-                   (name == "--surface" ? "the glass of the page is always bent as a cylinder"
-                                        : "the page has no use for it"));
+            refuse("--live and " + name + " exclude each other: the page has no use for it");
         }
     }
 }
 
-void writeLive(const WindshieldOptions& options)
+RunFiles filesOfLive(const WindshieldOptions& options)
 {
-    // Where it was installed or built, relative to this program.
-    const fs::path page = (programFile().parent_path() / DROPLET_RAIN_PAGE).lexically_normal();
-    const std::string& path = options.live->path;
     RunFiles files;
-    files.reads("the page of the rain", page.string());
+    files.reads("the page of the rain", pageOfRain().string());
     files.reads("--background", options.background);
+    files.reads("--surface", options.surface);
     files.reads("--config", options.run.config);
-    files.writes("--live", path);
-    checkFiles(files, options.run.files);
+    files.writes("--live", options.live->path);
+    return files;
+}
+
+RunEnd writeLive(const WindshieldOptions& options)
+{
+    const WindshieldPlan plan = planOf(options);
     constexpr std::string_view kGap = "{{values}}";
-    std::string text = templateFrom(page);
+    std::string text = templateFrom(pageOfRain());
     text.replace(text.find(kGap), kGap.size(), valuesOf(options));
-    writeTogether({{path, [&](std::ostream& out) { out << text; }}}, options.run.files);
+    writeTogether({{options.live->path, [&](std::ostream& out) { out << text; }}}, options.run.files);
+    return {{}, plan.warnings};
 }
 
 }  // namespace cli

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "command_line.h"
+#include "run_command.h"
+#include "run_files.h"
 #include "windshield_options.h"
 
 namespace cli {
@@ -10,8 +12,11 @@ namespace cli {
 /// @throws droplet::Error InvalidArgument, naming the option
 void checkLive(const CommandLine& line);
 
+/// Files that the page of --live is made of, and the page.
+RunFiles filesOfLive(const WindshieldOptions& options);
+
 /// Writes the page of --live: the template of the build, with the values of the options.
 /// @throws droplet::Error InvalidArgument: built without the page; InvalidInput, OutputFailed
-void writeLive(const WindshieldOptions& options);
+RunEnd writeLive(const WindshieldOptions& options);
 
 }  // namespace cli

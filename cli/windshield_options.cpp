@@ -104,7 +104,7 @@ void declare(CommandLine& line, WindshieldOptions& options)
     line.add(kGlass, "--slope", "ANGLE", "Slope of the glass, from horizontal", into(options.cylinder.slope, kSlope));
     line.add(kGlass, "--surface", "FILE",
              "Mesh instead of that glass: .glb or .gltf, its front +Z, normals outward, with texture coordinates that "
-             "roll it out flat; not with --live, whose glass is a cylinder's",
+             "roll it out flat",
              into(options.surface));
     constexpr const char* kDroplets = "Droplets";
     line.add(kDroplets, "--hysteresis", "NUMBER",

@@ -8,10 +8,13 @@ const kParameters = ['glass-width', 'glass-height', 'glass-radius', 'slope', 'se
     'contact-angle', 'hysteresis', 'kinetic-fraction', 'viscosity-factor', 'film', 'still-diameter', 'mist', 'splashes'];
 const camelCase = (name) => name.replace(/-(\w)/g, (_, letter) => letter.toUpperCase());
 const kNames = new Map(kParameters.map((name) => [camelCase(name), name]));
+/** Names of those that a mesh has itself. */
+export const kGlassParameters = ['glassWidth', 'glassHeight', 'glassRadius', 'slope'];
 /** Bytes of the largest structure of the interface, DropletPlace. */
 const kRoom = 96;
 const kMaxBlades = 8;
 const kBladeRoom = 64;
+const kCornerNumbers = 14;
 
 /** Decodes IEEE 754 binary16, for programs that read pixels; textures take them as they are. */
 export function halfFloat(bits) {
@@ -35,17 +38,45 @@ export async function loadRain(wasm) {
         #it;
         #map;
 
-        constructor({ preset, mapWidth = 1024, ...values } = {}) {
+        constructor({ preset, mapWidth = 1024, surface, ...values } = {}) {
             this.#it = withText(preset, (name) => {
                 check(rain.droplet_windshield_new(name, room));
                 return view().getUint32(room, true);
             });
             try {
+                if (surface) {
+                    this.#setSurface(surface);
+                }
                 this.set(values);
                 this.mapWidth = mapWidth;
             } catch (error) {
                 this.free();
                 throw error;
+            }
+        }
+
+        /** Gives the glass the shape of a mesh. */
+        #setSurface({ positions, normals, uvs, indices }) {
+            const vertices = positions.length / 3;
+            for (const [name, list, length] of [['positions', positions, 3 * vertices], ['normals', normals, 3 * vertices], ['uvs', uvs, 2 * vertices]]) {
+                if (!Number.isInteger(vertices) || list.length !== length) {
+                    throw new DropletError('InvalidArgument', `surface.${name}: ${list.length} numbers; positions and normals must have three for each vertex, uvs two`);
+                }
+            }
+            if (indices.length % 3 !== 0) {
+                throw new DropletError('InvalidArgument', `surface.indices: ${indices.length} numbers; there must be three for each triangle`);
+            }
+            const places = [[Float32Array, positions], [Float32Array, normals], [Float32Array, uvs], [Uint32Array, indices]].map(([Numbers, list]) => {
+                const place = allocated(Math.max(4 * list.length, 1));
+                new Numbers(rain.memory.buffer, place, list.length).set(list);
+                return place;
+            });
+            const [place, normal, uv, index] = places;
+            [vertices, place, normal, uv, 0, indices.length / 3, index].forEach((value, k) => view().setUint32(room + 4 * k, value, true));
+            try {
+                check(rain.droplet_windshield_surface(this.#kept(), room));
+            } finally {
+                places.forEach(rain.free);
             }
         }
 
@@ -118,6 +149,17 @@ export async function loadRain(wasm) {
             check(rain.droplet_windshield_place(this.#kept(), x, y, room));
             const all = numbers(12);
             return { point: all.slice(0, 3), normal: all.slice(3, 6), across: all.slice(6, 9), up: all.slice(9) };
+        }
+
+        triangles() {
+            check(rain.droplet_windshield_triangles(this.#kept(), room));
+            const [list, count] = [0, 4].map((at) => view().getUint32(room + at, true));
+            const all = new Float64Array(rain.memory.buffer, list, 3 * kCornerNumbers * count);
+            const corner = (k) => {
+                const [x, y, ...place] = all.subarray(kCornerNumbers * k, kCornerNumbers * (k + 1));
+                return { x, y, point: place.slice(0, 3), normal: place.slice(3, 6), across: place.slice(6, 9), up: place.slice(9) };
+            };
+            return Array.from({ length: count }, (_, k) => [corner(3 * k), corner(3 * k + 1), corner(3 * k + 2)]);
         }
 
         blades() {

@@ -42,9 +42,25 @@ export interface WindshieldValues {
     slope?: number;
 }
 
+/** Mesh of a glass: z points up, the front is −y, lengths are in metres. */
+export interface GlassMesh {
+    /** Three for each vertex [m] */
+    positions: ArrayLike<number>;
+    /** Three for each vertex: outward, of length 1 */
+    normals: ArrayLike<number>;
+    /**
+     * Two for each vertex: v runs down the glass, u to the driver's right or left. Times one scale they roll the glass out flat.
+     */
+    uvs: ArrayLike<number>;
+    /** Three vertices for each triangle */
+    indices: ArrayLike<number>;
+}
+
 export interface WindshieldOptions extends WindshieldValues {
     /** Figure of the thesis whose values hold unless others are given [figure-3.12] */
     preset?: 'figure-3.10' | 'figure-3.11' | 'figure-3.12';
+    /** Shape of the glass; without it, it is bent as a cylinder, and a mesh has no glassWidth, glassHeight, glassRadius or slope */
+    surface?: GlassMesh;
     /** Width of the maps, 16 to 8192 px [1024] */
     mapWidth?: number;
 }
@@ -92,6 +108,9 @@ export interface GlassPlace {
     up: number[];
 }
 
+/** Corner of a triangle of the glass: where it is on the unrolled glass, and in space. */
+export interface GlassCorner extends Position, GlassPlace {}
+
 export interface WaterMap {
     width: number;
     height: number;
@@ -132,7 +151,10 @@ export interface Windshield {
     water(): { volume: number; balanceError: number };
     /** Droplets that are large enough to run, in the order of their ids. */
     running(): RunningDroplet[];
+    /** Place of a position; throws where there is no glass. */
     place(x: number, y: number): GlassPlace;
+    /** Triangles of the glass, for drawing, counter-clockwise on the unrolled glass. */
+    triangles(): [GlassCorner, GlassCorner, GlassCorner][];
     /** Blades where they are now [m], and their angles about the pivot at rest and at the turn [rad]. */
     blades(): { inner: Position; outer: Position; pivot: Position; first: number; last: number }[];
     /** Brings the map of the water up to the state. */

@@ -18,7 +18,9 @@
 #include <vector>
 
 #include "droplet/error.h"
+#include "droplet/surface/textured_mesh.h"
 #include "droplet/windshield/balance.h"
+#include "droplet/windshield/glass.h"
 #include "droplet/windshield/presets.h"
 #include "droplet/windshield/touch.h"
 #include "droplet/windshield_view/windshield_maps.h"
@@ -41,6 +43,7 @@ struct DropletWindshield {
     bool is_blank = true;      ///< whether nothing has been drawn on the maps
     std::vector<DropletTile> tiles;
     std::vector<std::uint8_t> mist;
+    std::vector<DropletCorner> corners;  ///< of the glass's triangles
 };
 
 namespace {
@@ -54,6 +57,13 @@ constexpr double kOneStroke = 1e9;  // period [s]
 bool hasBegun(const DropletWindshield& windshield)
 {
     return windshield.state.time > 0.0;
+}
+
+void requireNotBegun(const DropletWindshield& windshield, std::string_view name)
+{
+    if (hasBegun(windshield)) {
+        throw Error(ErrorCode::InvalidArgument, fmt::format("{} must be set before the first step", name));
+    }
 }
 
 /// Time at which wipers of a new period start, and whether they are between strokes now.
@@ -115,28 +125,45 @@ Parameter number(std::string_view name, double low, double high, const Place& pl
             [place](DropletWindshield& windshield, double value) { place(windshield.parameters) = value; }};
 }
 
-/// Number of the glass.
+/// Gives a windshield another glass, before the first step.
+/// @throws droplet::Error  InvalidArgument: it is too large; nothing has changed
+void setGlass(DropletWindshield& windshield, droplet::Glass glass)
+{
+    droplet::WindshieldParameters parameters = windshield.parameters;
+    parameters.glass = std::move(glass);
+    droplet::WindshieldState state = droplet::startWindshield(parameters);
+    // The places of all water belong to the size of the glass.
+    state.arriving = std::move(windshield.state.arriving);
+    state.sprayed = windshield.state.sprayed;
+    windshield.state = std::move(state);
+    windshield.parameters = std::move(parameters);
+    windshield.maps.reset();
+    setWipers(windshield, windshield.wiper_period);
+}
+
+/// The cylinder of the glass.
+/// @throws droplet::Error  InvalidArgument: the glass is a mesh
+droplet::Glass::Cylinder cylinderOf(const DropletWindshield& windshield, std::string_view name)
+{
+    const auto cylinder = windshield.parameters.glass.cylinder();
+    if (!cylinder) {
+        throw Error(ErrorCode::InvalidArgument, fmt::format("{}: the glass is a mesh, which has its own", name));
+    }
+    return *cylinder;
+}
+
+/// Number of a glass that is a cylinder's.
 Parameter ofGlass(std::string_view name, double low, double high, double droplet::Glass::Cylinder::*member)
 {
     return {name,
             low,
             high,
             true,
-            [member](const DropletWindshield& windshield) {
-                return windshield.parameters.glass.cylinder().value_or(droplet::Glass::Cylinder{}).*member;
-            },
-            [member](DropletWindshield& windshield, double value) {
-                auto cylinder = windshield.parameters.glass.cylinder().value_or(droplet::Glass::Cylinder{});
+            [name, member](const DropletWindshield& windshield) { return cylinderOf(windshield, name).*member; },
+            [name, member](DropletWindshield& windshield, double value) {
+                droplet::Glass::Cylinder cylinder = cylinderOf(windshield, name);
                 cylinder.*member = value;
-                windshield.parameters.glass = droplet::Glass(cylinder);
-                setWipers(windshield, windshield.wiper_period);
-                // The places of all water belong to the size of the glass.
-                std::vector<droplet::StillDroplet> arriving = std::move(windshield.state.arriving);
-                droplet::CompensatedSum sprayed = windshield.state.sprayed;
-                windshield.state = droplet::startWindshield(windshield.parameters);
-                windshield.state.arriving = std::move(arriving);
-                windshield.state.sprayed = sprayed;
-                windshield.maps.reset();
+                setGlass(windshield, droplet::Glass(cylinder));
             }};
 }
 
@@ -247,6 +274,37 @@ void put(const Vec3& vector, double (&place)[3])  // NOLINT(modernize-avoid-c-ar
     place[2] = vector.z;
 }
 
+void put(const droplet::GlassPlace& from, DropletPlace& place)
+{
+    put(from.point, place.point);
+    put(from.normal, place.normal);
+    put(from.across, place.across);
+    put(from.up, place.up);
+}
+
+droplet::TexturedMesh objectOf(const DropletMesh& mesh)
+{
+    droplet::TexturedMesh object;
+    const auto vectors = [&](const float* numbers) {
+        std::vector<Vec3> list(mesh.vertices);
+        for (std::size_t k = 0; k < list.size(); ++k) {
+            list[k] = {numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]};
+        }
+        return list;
+    };
+    object.vertices = vectors(required("mesh.positions", mesh.positions));
+    object.normals = vectors(required("mesh.normals", mesh.normals));
+    const float* const uvs = required("mesh.uvs", mesh.uvs);
+    for (std::size_t k = 0; k < mesh.vertices; ++k) {
+        object.uvs.push_back({uvs[2 * k], uvs[2 * k + 1]});
+    }
+    const std::uint32_t* const indices = required("mesh.indices", mesh.indices);
+    for (std::size_t k = 0; k < mesh.triangles; ++k) {
+        object.triangles.push_back({indices[3 * k], indices[3 * k + 1], indices[3 * k + 2]});
+    }
+    return object;
+}
+
 }  // namespace
 
 DropletCode droplet_windshield_new(const char* preset, DropletWindshield** made)
@@ -275,9 +333,8 @@ DropletCode droplet_windshield_set(DropletWindshield* windshield, const char* na
             throw Error(ErrorCode::InvalidArgument, fmt::format("{} is {}; it must be from {} to {}", parameter.name,
                                                                 value, parameter.low, parameter.high));
         }
-        if (parameter.before_the_first_step && hasBegun(*windshield)) {
-            throw Error(ErrorCode::InvalidArgument,
-                        fmt::format("{} must be set before the first step", parameter.name));
+        if (parameter.before_the_first_step) {
+            requireNotBegun(*windshield, parameter.name);
         }
         parameter.set(*windshield, value);
     });
@@ -287,6 +344,16 @@ DropletCode droplet_windshield_get(const DropletWindshield* windshield, const ch
 {
     return guarded([&] {
         *required("value", value) = parameterNamed(required("name", name)).get(*required("windshield", windshield));
+    });
+}
+
+DropletCode droplet_windshield_surface(DropletWindshield* windshield, const DropletMesh* mesh)
+{
+    return guarded([&] {
+        required("windshield", windshield);
+        const droplet::TexturedMesh object = objectOf(*required("mesh", mesh));
+        requireNotBegun(*windshield, "mesh");
+        setGlass(*windshield, droplet::Glass(object, {}));
     });
 }
 
@@ -378,10 +445,25 @@ DropletCode droplet_windshield_place(const DropletWindshield* windshield, double
         if (!found) {
             throw Error(ErrorCode::InvalidArgument, fmt::format("x, y: there is no glass at {}, {}", x, y));
         }
-        put(found->point, place->point);
-        put(found->normal, place->normal);
-        put(found->across, place->across);
-        put(found->up, place->up);
+        put(*found, *place);
+    });
+}
+
+DropletCode droplet_windshield_triangles(DropletWindshield* windshield, DropletTriangles* triangles)
+{
+    return guarded([&] {
+        std::vector<DropletCorner>& corners = required("windshield", windshield)->corners;
+        required("triangles", triangles);
+        corners.clear();
+        for (const droplet::GlassTriangle& triangle : windshield->parameters.glass.triangles()) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                DropletCorner& corner = corners.emplace_back();
+                corner.x = triangle.positions[k].x;
+                corner.y = triangle.positions[k].y;
+                put(triangle.places[k], corner.place);
+            }
+        }
+        *triangles = {corners.data(), corners.size() / 3};
     });
 }
 

@@ -272,7 +272,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l glass-w
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l glass-height -x -d 'Height of the glass, along its slope'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l glass-radius -x -d 'Radius of the glass\'s bend across the car'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l slope -x -d 'Slope of the glass, from horizontal'
-complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l surface -r -F -d 'Mesh instead of that glass: .glb or .gltf, its front +Z, normals outward, with texture coordinates that roll it out flat; not with --live, whose glass is a cylinder\'s'
+complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l surface -r -F -d 'Mesh instead of that glass: .glb or .gltf, its front +Z, normals outward, with texture coordinates that roll it out flat'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l still-diameter -x -d 'Raindrops smaller than this never move'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l film -x -d 'Thickness of the film that running droplets leave behind'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l shape -x -a 'capillary capsule' -d 'Shape of running droplets: capillary has least energy and a tail; capsule is the thesis\''

@@ -5,7 +5,6 @@ import {
     UnsignedByteType, Vector2, Vector3,
 } from 'three';
 
-const kColumns = 64;
 const kStep = 1 / 60;
 const kStepsAtOnce = 3;
 
@@ -25,28 +24,17 @@ void main() {
     gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(position, 1.0);
 }`;
 
-/** The glass in the vehicle's frame: x to the right, y ahead, z up. */
+/** The glass, a cylinder's or a mesh, in the vehicle's frame: x to the right, y ahead, z up. */
 function glassOf(rain, { width, height }) {
-    const lists = { position: [], facing: [], right: [], upward: [], map: [] };
-    const index = [];
-    for (let k = 0; k <= kColumns; ++k) {
-        for (const up of [0, 1]) {
-            const { point, normal, across, up: upward } = rain.place(width * k / kColumns, height * up);
-            lists.position.push(...point);
-            lists.facing.push(...normal);
-            lists.right.push(...across);
-            lists.upward.push(...upward);
-            lists.map.push(k / kColumns, 1 - up);
-        }
-        if (k > 0) {
-            index.push(2 * k - 2, 2 * k, 2 * k + 1, 2 * k - 2, 2 * k + 1, 2 * k - 1);
-        }
-    }
+    const corners = rain.triangles().flat();
     const geometry = new BufferGeometry();
-    for (const [name, numbers] of Object.entries(lists)) {
-        geometry.setAttribute(name, new BufferAttribute(new Float32Array(numbers), name === 'map' ? 2 : 3));
-    }
-    return geometry.setIndex(index);
+    const add = (name, size, numbersOf) => geometry.setAttribute(name, new BufferAttribute(new Float32Array(corners.flatMap(numbersOf)), size));
+    add('position', 3, ({ point }) => point);
+    add('facing', 3, ({ normal }) => normal);
+    add('right', 3, ({ across }) => across);
+    add('upward', 3, ({ up }) => up);
+    add('map', 2, ({ x, y }) => [x / width, 1 - y / height]);
+    return geometry;
 }
 
 function textureOf(map, format, type) {

@@ -838,7 +838,7 @@ def windshield(
       glass_radius [m]: Radius of the glass's bend across the car (default: 5m)
       slope [rad]: Slope of the glass, from horizontal (default: 45deg)
       surface: Mesh instead of that glass: .glb or .gltf, its front +Z, normals outward, with texture coordinates that
-        roll it out flat; not with live, whose glass is a cylinder's
+        roll it out flat
 
     Droplets:
       hysteresis: Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle (default: by

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bar and the panel over the rain.
+import { kGlassParameters } from '../../npm/rain.js';
 import { element, Overlay } from '../live/overlay.js';
 import { angleOfCoating, kCoatings, kFigures, kSliders } from './controls.js';
 
@@ -20,7 +21,8 @@ const kBar = [
 
 export class Panel extends Overlay {
     constructor(root, rain) {
-        super(root, rain, { name: 'rain', label: 'Rain', title: 'Rain on a windshield', icons: kIcons, bar: kBar, sliders: kSliders, hint: 'Draw on the glass' });
+        const sliders = rain.surface ? kSliders.filter(({ name }) => !kGlassParameters.includes(name)) : kSliders;
+        super(root, rain, { name: 'rain', label: 'Rain', title: 'Rain on a windshield', icons: kIcons, bar: kBar, sliders, hint: 'Draw on the glass' });
     }
 
     get rain() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rain on a windshield in a page: the simulation in fixed steps, its view, and the controls.
-import { loadRain } from '../../npm/rain.js';
+import { kGlassParameters, loadRain } from '../../npm/rain.js';
 import { Recorder, savePicture } from '../live/recorder.js';
 import { Backdrop } from './backdrop.js';
 import { Panel } from './panel.js';
@@ -24,12 +24,23 @@ const kWarmUpAtOnce = 60;        // [ms]
 const kParameters = ['speed', 'rain', 'noise', 'wiperPeriod', 'seed', 'gravity', 'contactAngle', 'hysteresis', 'kineticFraction',
     'viscosityFactor', 'film', 'stillDiameter', 'mist', 'splashes', 'glassWidth', 'glassHeight', 'glassRadius', 'slope'];
 
+/** Names of parameters that a glass has, which may be a mesh. */
+const parametersOf = (surface) => (surface ? kParameters.filter((name) => !kGlassParameters.includes(name)) : kParameters);
+
+/** The mesh of a glass, whose numbers are texts in base64. */
+function meshOf({ positions, normals, uvs, indices }) {
+    const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+    const [places, directions, maps] = [positions, normals, uvs].map((text) => new Float32Array(bytes(text)));
+    return { positions: places, normals: directions, uvs: maps, indices: new Uint32Array(bytes(indices)) };
+}
+
 /**
  * Fills an element with the rain.
  * @param parent  element, empty or not
  * @param wasm    droplet_rain.wasm, as bytes or compiled
- * @param given   what the command wrote: `parameters` by the names of windshield.d.ts, `preset`, `warm_up` [s],
- *                `eye_distance` [m], `field_of_view` [rad], `background_blur` [rad], `background`, the URL of a picture
+ * @param given   what the command wrote: `parameters` by the names of windshield.d.ts, `preset`, `surface`, the mesh of a
+ *                glass, whose numbers are texts in base64, `warm_up` [s], `eye_distance` [m], `field_of_view` [rad],
+ *                `background_blur` [rad], `background`, the URL of a picture
  * @param leave   called when the user closes the rain; without it nothing closes it
  * @return        `close`, a function that ends the rain and removes it
  */
@@ -67,6 +78,7 @@ class Rain {
         this.canvas = canvas;
         this.make = windshield;
         this.preset = given.preset ?? 'figure-3.12';
+        this.surface = given.surface && meshOf(given.surface);
         this.warm_up = given.warm_up ?? 20;
         /** What the sliders show: parameters, and those of the view. */
         this.values = {
@@ -82,7 +94,7 @@ class Rain {
         this.ends = new AbortController();
         this.view = new View(canvas);
         this.restart();
-        for (const name of kParameters) {
+        for (const name of parametersOf(this.surface)) {
             this.values[name] ??= this.windshield.get(name);
         }
         this.backdrop = new Backdrop(this.view, root, this.ends.signal, (name, trouble) => this.panel?.showBackdrop(name, trouble));
@@ -112,7 +124,7 @@ class Rain {
     restart() {
         this.windshield?.free();
         const { wind, distance, blur, exposure, ...parameters } = this.values;
-        this.windshield = this.make({ preset: this.preset, ...parameters, mapWidth: this.map_width });
+        this.windshield = this.make({ preset: this.preset, surface: this.surface, ...parameters, mapWidth: this.map_width });
         this.#setSpeed();
         this.view.setGlass(this.windshield);
         this.behind = 0;       // time that has passed and was not simulated [s]
@@ -129,7 +141,7 @@ class Rain {
         const { wind, distance, blur, exposure, mist, splashes, glassWidth, glassHeight, seed } = this.values;
         this.values = { wind: 0, distance, blur, exposure, mist, splashes, glassWidth, glassHeight, seed };
         this.restart();
-        for (const name of kParameters) {
+        for (const name of parametersOf(this.surface)) {
             this.values[name] ??= this.windshield.get(name);
         }
         this.panel.showAll();

@@ -72,7 +72,7 @@ void main() { colour = vec4(lost, 0.0, 0.0, 0.0); }`;
  * ray-traced view (src/windshield_view/wiper_view.cpp); droplets lie over it.
  */
 export const kFilmLeft = `${kHead}uniform highp sampler2D left;
-uniform sampler2D water, dry;
+uniform sampler2D water, dry, edge;
 uniform vec2 glass, tangent;
 uniform vec3 eye, cabin;
 uniform float lasts;   // [s]
@@ -110,8 +110,7 @@ void main() {
     float over = streak.x - (0.12 + 0.88 * sqrt(1.0 - film.r));  // what is lower is bare
     float pixel = max(length(dFdx(uv) * glass), length(dFdy(uv) * glass));
     float cover = clamp(over / max(length(streak.yz), 1e-3) / pixel + 0.5, 0.0, 1.0) * (1.0 - smoothstep(0.2, 0.7, texture(water, uv).a));
-    vec2 from_edge = min(uv, 1.0 - uv) * glass;
-    cover *= border > 0.0 ? smoothstep(border, 1.6 * border, min(from_edge.x, from_edge.y)) : 1.0;  // what is printed lies before it
+    cover *= border > 0.0 ? smoothstep(border, 1.6 * border, texture(edge, uv).r) : 1.0;  // what is printed lies before it
     if (over <= 0.0 || cover <= 0.0) {
         discard;
     }
@@ -137,7 +136,7 @@ void main() {
  * The line of water that a blade pushes, or leaves where it turns, with the vertices of glass.glsl: half an ellipse across, whose
  * width differs along it (src/windshield_view/wiper_view.cpp).
  */
-export const kPushed = `${kHead}uniform sampler2D outside;
+export const kPushed = `${kHead}uniform sampler2D outside, edge;
 uniform vec2 glass, wide, pivot, along, ahead, reach;  // reach: of the blade, from the pivot [m]
 uniform vec3 eye, cabin;
 uniform float begins;   // distance from the blade's middle [m]
@@ -171,8 +170,7 @@ void main() {
     }
     float pixel = max(length(dFdx(position)), length(dFdy(position)));
     float cover = clamp(beyond / pixel + 0.5, 0.0, 1.0) + clamp((width - beyond) / pixel + 0.5, 0.0, 1.0) - 1.0;
-    vec2 from_edge = min(uv, 1.0 - uv) * glass;
-    cover *= border > 0.0 ? smoothstep(border, 1.6 * border, min(from_edge.x, from_edge.y)) : 1.0;
+    cover *= border > 0.0 ? smoothstep(border, 1.6 * border, texture(edge, uv).r) : 1.0;
     float x = clamp(2.0 * beyond / max(width, 1e-6) - 1.0, -0.96, 0.96);
     vec2 slope = -0.7 * x * inversesqrt(1.0 - x * x) * ahead;
     vec3 facing = normalize(vec3(-slope, 1.0)), n = normalize(normal), ray = normalize(place - eye);

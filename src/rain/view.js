@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draws a windshield by WebGL 2: what lies behind it, the water, the mist, wipers and the car's dark parts, and the film.
+import { Edge } from './edge.js';
 import glass from './glass.glsl';
 import rain from './rain.glsl';
 import { Road, kNumbers } from './road.js';
@@ -9,7 +10,8 @@ import {
 } from './shaders.js';
 import { Sweeps } from './sweeps.js';
 
-const kColumns = 64;
+const kEdgeMap = 512;  // width of the map of distances from the edge [px]
+const kEdgeReach = 0.06;  // farthest of these distances, beyond the dots of the border [m]
 const kFieldOfView = Math.PI / 4;
 /** Tangents that droplets of the street show, up to 60 degrees aside. */
 const kWide = [1.75, 1.0];
@@ -19,7 +21,9 @@ const kPanoramaMap = [2048, 1024];
 const kLens = { glowing: 0.075, falloff: 0.42 };
 const kFilmLasts = 0.75;      // behind a blade [s]
 const kFilmMap = 1024;        // width of the map of films [px]
-const kBladeHalf = 0.0075;    // half its width [m]
+const kBladeHalf = 0.0045;    // half its width, as in the ray-traced view [m]
+const kBarParts = 12;         // of a blade or arm
+const kBesideGlass = 0.03;    // how far they are seen beside the glass [m]
 const kPushedReach = 0.024;   // of pushed water from the middle of a blade [m]
 const kStrip = 24;            // parts of its mesh along the blade
 const kGrain = { street: 0.014, picture: 0.008 };
@@ -82,6 +86,8 @@ export class View {
     #targets = new Map();
     #water;
     #mist;
+    #edge;
+    #edge_map;
     #picture;      // a picture, video or panorama: {texture, width, height, video, panorama}
     #is_stale = true;  // whether what lies behind must be drawn anew, though it does not move
     #pane;
@@ -122,6 +128,7 @@ export class View {
         gl.bindVertexArray(null);
         this.#water = this.#texture(gl.LINEAR);
         this.#mist = this.#texture(gl.LINEAR);
+        this.#edge_map = this.#texture(gl.LINEAR);
         gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     }
 
@@ -217,29 +224,41 @@ export class View {
         gl.generateMipmap(gl.TEXTURE_2D);
     }
 
-    /** Takes a windshield: its glass as a mesh. */
+    /** Takes a windshield: the triangles of its glass, and their edge. */
     setGlass(windshield) {
+        const gl = this.#gl;
         const { width, height } = windshield.figures();
         this.glass = [width, height];
-        const corner = (x, y) => this.#corner(windshield, x, y);
-        const numbers = [];
-        for (let k = 0; k < kColumns; ++k) {
-            const [left, right] = [k, k + 1].map((i) => i * width / kColumns);
-            const [a, b, c, d] = [corner(left, 0), corner(right, 0), corner(right, height), corner(left, height)];
-            numbers.push(...a, ...b, ...c, ...a, ...c, ...d);
-        }
-        this.#fill(this.#pane, numbers);
-        this.middle = windshield.place(0.5 * width, 0.5 * height).point;
+        const triangles = windshield.triangles();
+        this.#fill(this.#pane, triangles.flat().flatMap((corner) => this.#vertex(corner)));
+        this.#edge = new Edge(triangles);
+        const size = [kEdgeMap, Math.max(Math.round(kEdgeMap * height / width), 1)];
+        gl.activeTexture(gl.TEXTURE0);
+        gl.bindTexture(gl.TEXTURE_2D, this.#edge_map);
+        gl.texImage2D(gl.TEXTURE_2D, 0, gl.R16F, ...size, 0, gl.RED, gl.FLOAT, this.#edge.distances(this.glass, size, kEdgeReach));
+        this.middle = this.#placed(windshield, 0.5 * width, 0.5 * height).point;
+        this.foot = this.#placed(windshield, 0.5 * width, 0).point;
         this.#drawn_with = '';
         this.#sweeps = new Sweeps(kFilmLasts);
     }
 
-    /** A vertex of the glass. */
-    #corner(windshield, x, y) {
-        const [width, height] = this.glass;
-        const [u, v] = [Math.min(Math.max(x, 0), width), Math.min(Math.max(y, 0), height)];
-        const { point, normal, across, up } = windshield.place(u, v);
-        return [...point, ...normal, ...across, ...up, u / width, 1 - v / height];
+    /** The position on the glass that is nearest to a position, and its place. */
+    #placed(windshield, x, y) {
+        try {
+            return { x, y, ...windshield.place(x, y) };
+        } catch {  // there is no glass
+            return this.#edge.nearest(x, y);
+        }
+    }
+
+    /** Point in space of a position, which may be beside the glass. */
+    #pointOf(windshield, x, y) {
+        const at = this.#placed(windshield, x, y);
+        return { ...at, point: at.point.map((value, k) => value + (x - at.x) * at.across[k] + (y - at.y) * at.up[k]) };
+    }
+
+    #vertex({ x, y, point, normal, across, up }) {
+        return [...point, ...normal, ...across, ...up, x / this.glass[0], 1 - y / this.glass[1]];
     }
 
     /** Shows a picture, a video or a panorama behind the glass; nothing: the street. */
@@ -289,21 +308,23 @@ export class View {
     /** Position on the glass [m] that is seen at a place of the frame. Newton's method: the glass is nearly flat. */
     onGlass(right, up, windshield, camera) {
         const [width, height] = this.glass;
-        const clamped = (value, most) => Math.min(Math.max(value, 0), most);
         let [x, y] = [0.5 * width, 0.5 * height];
-        const missed = (u, v) => this.seen(windshield.place(clamped(u, width), clamped(v, height)).point, camera);
+        const missed = (u, v) => this.seen(this.#pointOf(windshield, u, v).point, camera);
         const kStep = 1e-3;
         for (let k = 0; k < 8; ++k) {
-            [x, y] = [clamped(x, width - kStep), clamped(y, height - kStep)];
+            ({ x, y } = this.#placed(windshield, x, y));
             const [a, b] = missed(x, y);
             const [ax, bx] = missed(x + kStep, y);
             const [ay, by] = missed(x, y + kStep);
             const [j11, j12, j21, j22] = [(ax - a) / kStep, (ay - a) / kStep, (bx - b) / kStep, (by - b) / kStep];
             const d = j11 * j22 - j12 * j21;
+            if (!d) {
+                break;
+            }
             x += ((right - a) * j22 - (up - b) * j12) / d;
             y += ((up - b) * j11 - (right - a) * j21) / d;
         }
-        return { x: clamped(x, width), y: clamped(y, height) };
+        return this.#placed(windshield, x, y);
     }
 
     /** Uploads what has changed of the water; neighbours of a row go together, as calls are slow. */
@@ -398,19 +419,25 @@ export class View {
         return panorama ? [0, 0] : tangent;
     }
 
-    /** Vertices of a flat part between two positions on the glass, some way above it. */
-    static #bar(numbers, windshield, [width, height], from, to, half, paint, above = 0.004) {
+    /** Vertices of a flat bar between two positions, some way above the glass; what is beside it is behind the pillars. */
+    #bar(numbers, windshield, from, to, half, paint, above = 0.004) {
         const away = Math.hypot(to.x - from.x, to.y - from.y) || 1;
         const side = { x: -half * (to.y - from.y) / away, y: half * (to.x - from.x) / away };
-        const corner = (p, s, u, v) => {
-            const [x, y] = [p.x + s * side.x, p.y + s * side.y];
-            const [inside_x, inside_y] = [Math.min(Math.max(x, 0), width), Math.min(Math.max(y, 0), height)];
-            const { point, normal, across, up } = windshield.place(inside_x, inside_y);
-            return [...point.map((value, k) =>
-                value + (x - inside_x) * across[k] + (y - inside_y) * up[k] + above * normal[k]), u, v, ...paint];
+        const at = (share) => ({ x: from.x + share * (to.x - from.x), y: from.y + share * (to.y - from.y) });
+        const corner = (share, across) => {
+            const { x, y } = at(share);
+            const { point, normal } = this.#pointOf(windshield, x + across * side.x, y + across * side.y);
+            return [...point.map((value, k) => value + above * normal[k]), 2 * share - 1, across, ...paint];
         };
-        const [a, b, c, d] = [corner(from, -1, -1, -1), corner(to, -1, -1, 1), corner(to, 1, 1, 1), corner(from, 1, 1, -1)];
-        numbers.push(...a, ...b, ...c, ...a, ...c, ...d);
+        for (let k = 0; k < kBarParts; ++k) {
+            const { x, y } = at((k + 0.5) / kBarParts);
+            const near = this.#placed(windshield, x, y);
+            if (Math.hypot(near.x - x, near.y - y) < kBesideGlass) {
+                const [begin, end] = [k / kBarParts, (k + 1) / kBarParts];
+                const [a, b, c, d] = [corner(begin, -1), corner(end, -1), corner(end, 1), corner(begin, 1)];
+                numbers.push(...a, ...b, ...c, ...a, ...c, ...d);
+            }
+        }
     }
 
     /** Films that blades have left on the glass. */
@@ -446,7 +473,7 @@ export class View {
             this.#onto(this.#targets.get('frame'));
             gl.enable(gl.BLEND);
             gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE);
-            this.#programs.left.use({ ...camera, ...shown, left: films.texture, water: this.#water, glass: this.glass, lasts: kFilmLasts });
+            this.#programs.left.use({ ...camera, ...shown, left: films.texture, water: this.#water, edge: this.#edge_map, glass: this.glass, lasts: kFilmLasts });
             gl.bindVertexArray(this.#pane.array);
             gl.drawArrays(gl.TRIANGLES, 0, this.#pane.count);
             gl.disable(gl.BLEND);
@@ -467,7 +494,8 @@ export class View {
             const along = [Math.cos(angle), Math.sin(angle)];
             const ahead = [-side * along[1], side * along[0]];
             const numbers = [];
-            const corner = (far, aside) => this.#corner(windshield, pivot.x + far * along[0] + aside * ahead[0], pivot.y + far * along[1] + aside * ahead[1]);
+            const corner = (far, aside) => this.#vertex(this.#placed(windshield,
+                pivot.x + far * along[0] + aside * ahead[0], pivot.y + far * along[1] + aside * ahead[1]));
             for (let k = 0; k < kStrip; ++k) {
                 const [from, to] = [k, k + 1].map((i) => reach[0] + (reach[1] - reach[0]) * i / kStrip);
                 const [a, b, c, d] = [corner(from, 0), corner(to, 0), corner(to, kPushedReach), corner(from, kPushedReach)];
@@ -475,7 +503,7 @@ export class View {
             }
             const other = blades.find((_, k) => k !== blade);
             this.#programs.pushed.use({
-                ...values, glass: this.glass, pivot: [pivot.x, pivot.y], along, ahead, reach, begins: kBladeHalf, pushed, drained, seed,
+                ...values, edge: this.#edge_map, glass: this.glass, pivot: [pivot.x, pivot.y], along, ahead, reach, begins: kBladeHalf, pushed, drained, seed,
                 other_pivot: other ? [other.pivot.x, other.pivot.y] : [0, 0], other_reach: other ? reachOf(other) : [0, 0],
                 other_angles: other ? [other.first, other.last] : [0, 1],
             });
@@ -494,8 +522,8 @@ export class View {
         for (const { inner, outer } of windshield.blades()) {
             const along = { x: outer.x - inner.x, y: outer.y - inner.y };
             const at = (share) => ({ x: inner.x + share * along.x, y: inner.y + share * along.y });
-            View.#bar(numbers, windshield, this.glass, at(0), at(1), kBladeHalf, [0.0035, 0.0036, 0.004, 1]);
-            View.#bar(numbers, windshield, this.glass, at(-0.4), at(0.5), 0.006, [0.006, 0.006, 0.007, 1], 0.02);
+            this.#bar(numbers, windshield, at(0), at(1), kBladeHalf, [0.0035, 0.0036, 0.004, 1]);
+            this.#bar(numbers, windshield, at(-0.4), at(0.5), 0.006, [0.006, 0.006, 0.007, 1], 0.02);
         }
         this.#drawParts(numbers, camera);
     }
@@ -503,7 +531,8 @@ export class View {
     /** The dashboard, before the glass. */
     #drawDashboard(camera) {
         const half = 0.5 * this.glass[0] + 0.25;
-        const corner = (x, y, z, v) => [x, y, z, 0, v, 0.010, 0.010, 0.011, 2];
+        const foot = this.foot;
+        const corner = (x, y, z, v) => [foot[0] + x, foot[1] + y, foot[2] + z, 0, v, 0.010, 0.010, 0.011, 2];
         const [a, b, c, d] = [corner(-half, 0.03, 0.012, 0), corner(half, 0.03, 0.012, 0), corner(half, -0.8, -0.1, 0), corner(-half, -0.8, -0.1, 0)];
         this.#drawParts([...a, ...b, ...c, ...a, ...c, ...d], camera);
     }
@@ -540,7 +569,7 @@ export class View {
         gl.clearColor(0.0025, 0.0025, 0.003, 1);
         gl.clear(gl.COLOR_BUFFER_BIT);
         this.#programs.rain.use({
-            ...camera, water: this.#water, outside, dry, mist: this.#mist, mist_edge: this.mist_edge, glass: this.glass, wide, blur: 0,
+            ...camera, water: this.#water, outside, dry, mist: this.#mist, mist_edge: this.mist_edge, edge: this.#edge_map, glass: this.glass, wide, blur: 0,
             cabin, border: shown.border,
         });
         gl.bindVertexArray(this.#pane.array);

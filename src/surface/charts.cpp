@@ -8,8 +8,6 @@
 #include <numeric>
 #include <utility>
 
-#include "droplet/error.h"
-#include "droplet/surface/onto.h"
 #include "surface/half_edges.h"
 #include "union_find.h"
 
@@ -45,29 +43,6 @@ double facingOf(const TexturedMesh& object, const Facet& facet)
 }
 
 }  // namespace
-
-std::vector<Facet> facetsOf(const TexturedMesh& object, Vec2 extent)
-{
-    std::vector<Facet> facets;
-    for (const Triangle& t : object.triangles) {
-        Facet facet;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec2 uv = object.uvs[t[k]];
-            facet.flat[k] = {(uv.x - 0.5) * extent.x, (0.5 - uv.y) * extent.y};
-            facet.corners[k] = t[k];
-        }
-        facet.twice_flat = cross(facet.flat[1] - facet.flat[0], facet.flat[2] - facet.flat[0]);
-        const Vec3 a = object.vertices[t[0]];
-        const double twice = length(cross(object.vertices[t[1]] - a, object.vertices[t[2]] - a));
-        if (std::isnormal(facet.twice_flat) && std::isnormal(twice) && std::isnormal(1.0 / facet.twice_flat)) {
-            facets.push_back(facet);
-        }
-    }
-    if (facets.empty()) {
-        throw Error(ErrorCode::InvalidInput, "the object has no triangle with an area both in space and in uv");
-    }
-    return facets;
-}
 
 std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& facets)
 {
@@ -118,35 +93,6 @@ std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& f
         std::copy_n(corner.begin() + static_cast<std::ptrdiff_t>(3 * f), 3, facets[f].corners.begin());
     }
     return chart_facing;
-}
-
-double metresPerUv(const TexturedMesh& object)
-{
-    object.validate();
-    struct Stretch {
-        double length;
-        double area;
-    };
-    std::vector<Stretch> stretches;
-    double whole = 0.0;
-    for (const Facet& facet : facetsOf(object, {1.0, 1.0})) {
-        const auto [i, j, k] = facet.corners;
-        const Vec3 a = object.vertices[i];
-        const double area = length(cross(object.vertices[j] - a, object.vertices[k] - a));
-        stretches.push_back({std::sqrt(area / std::abs(facet.twice_flat)), area});
-        whole += area;
-    }
-    std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) {
-        return std::pair(a.length, a.area) < std::pair(b.length, b.area);
-    });
-    double below = 0.0;
-    for (const Stretch& stretch : stretches) {
-        below += stretch.area;
-        if (below >= 0.5 * whole) {
-            return stretch.length;
-        }
-    }
-    return stretches.back().length;
 }
 
 }  // namespace droplet

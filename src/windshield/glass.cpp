@@ -41,6 +41,7 @@ struct Glass::Shape {
 
     [[nodiscard]] virtual std::optional<GlassPlace> place(Vec2 position) const = 0;
     [[nodiscard]] virtual bool holds(Vec2 position) const = 0;
+    [[nodiscard]] virtual std::vector<GlassTriangle> triangles() const = 0;
     [[nodiscard]] virtual const Cylinder* cylinder() const { return nullptr; }
 };
 
@@ -59,9 +60,12 @@ struct Glass::CylinderShape final : Glass::Shape {
 
     [[nodiscard]] std::optional<GlassPlace> place(Vec2 p) const override
     {
-        if (!holds(p)) {
-            return std::nullopt;
-        }
+        return holds(p) ? std::optional(at(p)) : std::nullopt;
+    }
+
+    /// Place of a position on the glass.
+    [[nodiscard]] GlassPlace at(Vec2 p) const
+    {
         const double arc = p.x - 0.5 * form.width;
         const double turn = arc / form.radius;  // 0 where the radius is infinite
         const double sine = std::sin(turn);
@@ -70,8 +74,28 @@ struct Glass::CylinderShape final : Glass::Shape {
         const double aside = flat ? arc : form.radius * sine;
         const double behind = flat ? 0.0 : form.radius * (cosine - 1.0);
         const Vec3 right{1.0, 0.0, 0.0};
-        return GlassPlace{aside * right + behind * normal + p.y * up, sine * right + cosine * normal,
-                          cosine * right - sine * normal, up};
+        return {aside * right + behind * normal + p.y * up, sine * right + cosine * normal,
+                cosine * right - sine * normal, up};
+    }
+
+    [[nodiscard]] std::vector<GlassTriangle> triangles() const override
+    {
+        constexpr int kColumns = 64;  // of 1.4 m at a radius of 5 m: 12 µm from the arc
+        std::vector<GlassTriangle> triangles;
+        const auto corners = [this](int column) {
+            const double x = form.width * column / kColumns;
+            return std::array{Vec2{x, 0.0}, Vec2{x, form.height}};
+        };
+        const auto add = [&](const std::array<Vec2, 3>& p) {
+            triangles.push_back({p, {at(p[0]), at(p[1]), at(p[2])}});
+        };
+        for (int column = 0; column < kColumns; ++column) {
+            const auto [a, d] = corners(column);
+            const auto [b, c] = corners(column + 1);
+            add({a, b, c});
+            add({a, c, d});
+        }
+        return triangles;
     }
 
     [[nodiscard]] const Cylinder* cylinder() const override { return &form; }
@@ -94,6 +118,20 @@ struct Glass::MeshShape final : Glass::Shape {
     struct Found {
         const Facet* facet = nullptr;
         std::array<double, 3> weights{};
+
+        /// Place in the facet.
+        [[nodiscard]] GlassPlace place() const
+        {
+            const auto blend = [this](const std::array<Vec3, 3>& a) {
+                return weights[0] * a[0] + weights[1] * a[1] + weights[2] * a[2];
+            };
+            GlassPlace place;
+            place.point = blend(facet->points);
+            place.normal = unit(blend(facet->normals));
+            place.across = unit(facet->across - dot(facet->across, place.normal) * place.normal);
+            place.up = facet->handed * cross(place.across, place.normal);
+            return place;
+        }
     };
 
     /// First facet, in the object's order, that contains a position.
@@ -124,19 +162,23 @@ struct Glass::MeshShape final : Glass::Shape {
     [[nodiscard]] std::optional<GlassPlace> place(Vec2 position) const override
     {
         const std::optional<Found> found = find(position);
-        if (!found) {
-            return std::nullopt;
+        return found ? std::optional(found->place()) : std::nullopt;
+    }
+
+    [[nodiscard]] std::vector<GlassTriangle> triangles() const override
+    {
+        std::vector<GlassTriangle> triangles;
+        for (const Facet& f : facets) {
+            GlassTriangle t{f.flat,
+                            {Found{&f, {1.0, 0.0, 0.0}}.place(), Found{&f, {0.0, 1.0, 0.0}}.place(),
+                             Found{&f, {0.0, 0.0, 1.0}}.place()}};
+            if (f.inverse < 0.0) {
+                std::swap(t.positions[1], t.positions[2]);
+                std::swap(t.places[1], t.places[2]);
+            }
+            triangles.push_back(t);
         }
-        const Facet& f = *found->facet;
-        const auto blend = [&](const std::array<Vec3, 3>& a) {
-            return found->weights[0] * a[0] + found->weights[1] * a[1] + found->weights[2] * a[2];
-        };
-        GlassPlace place;
-        place.point = blend(f.points);
-        place.normal = unit(blend(f.normals));
-        place.across = unit(f.across - dot(f.across, place.normal) * place.normal);
-        place.up = f.handed * cross(place.across, place.normal);
-        return place;
+        return triangles;
     }
 
     /// Builds cells, about as many as facets, with a list of the facets in each.
@@ -293,6 +335,11 @@ std::optional<GlassPlace> Glass::place(Vec2 position) const
 bool Glass::holds(Vec2 position) const
 {
     return shape_->holds(position);
+}
+
+std::vector<GlassTriangle> Glass::triangles() const
+{
+    return shape_->triangles();
 }
 
 Vec2 gravityAlong(const GlassPlace& place, double gravity)

@@ -28,6 +28,18 @@ class Water(Structure):
     _fields_ = [("volume", c_double), ("balance_error", c_double)]
 
 
+class Place(Structure):
+    _fields_ = [(name, c_double * 3) for name in ("point", "normal", "across", "up")]
+
+
+class Corner(Structure):
+    _fields_ = [("x", c_double), ("y", c_double), ("place", Place)]
+
+
+class Triangles(Structure):
+    _fields_ = [("corners", POINTER(Corner)), ("count", c_size_t)]
+
+
 class Tile(Structure):
     _fields_ = [("x", c_int32), ("y", c_int32), ("width", c_int32), ("height", c_int32)]
 
@@ -94,4 +106,28 @@ water = Water()
 check(water_of(rain, byref(water)))
 assert abs(figures.time - 0.5) < 1e-12 and figures.raindrops > 100 and abs(water.balance_error) < 1e-12
 assert any(pixels)
+delete(rain)
+
+# Rain on a mesh: a flat pane of 0.3 m by 0.2 m.
+surface = function("droplet_windshield_surface", c_void_p, POINTER(Mesh))
+triangles_of = function("droplet_windshield_triangles", c_void_p, POINTER(Triangles))
+corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 2 / 3), (0.0, 2 / 3)]
+tilt = math.sqrt(0.5)
+positions = (c_float * 12)(*[value for u, v in corners for value in (0.3 * u, (0.2 - 0.3 * v) * tilt, (0.2 - 0.3 * v) * tilt)])
+normals = (c_float * 12)(*[0.0, -tilt, tilt] * 4)
+uvs = (c_float * 8)(*[value for corner in corners for value in corner])
+pane = Mesh(4, positions, normals, uvs, None, 2, (c_uint32 * 6)(0, 3, 2, 0, 2, 1))
+rain = c_void_p()
+check(new(None, byref(rain)))
+check(surface(rain, byref(pane)))
+check(figures_of(rain, byref(figures)))
+assert abs(figures.width - 0.3) < 1e-6 and abs(figures.height - 0.2) < 1e-6, (figures.width, figures.height)
+triangles = Triangles()
+check(triangles_of(rain, byref(triangles)))
+assert triangles.count == 2
+for k in range(6):
+    corner = triangles.corners[k]
+    assert abs(corner.place.point[2] - corner.y * tilt) < 1e-6 and abs(corner.place.normal[2] - tilt) < 1e-6
+check(advance(rain, 1.0 / 60.0))
+assert surface(rain, byref(pane)) == 2 and "mesh" in message().decode()
 delete(rain)

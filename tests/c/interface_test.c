@@ -195,6 +195,79 @@ static void rain(void)
     droplet_windshield_delete(NULL);
 }
 
+// Rain on a mesh: a flat glass of 0.4 m by 0.3 m at 45 degrees, whose lower corners are cut off.
+static void surfaces(void)
+{
+    enum { kCorners = 6 };
+    const double uvs_of[kCorners][2] = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.5}, {0.75, 0.75}, {0.25, 0.75}, {0.0, 0.5}};
+    float positions[3 * kCorners];
+    float normals[3 * kCorners];
+    float uvs[2 * kCorners];
+    for (int k = 0; k < kCorners; ++k) {
+        const float up = (float)(0.4 * (0.75 - uvs_of[k][1]) * sqrt(0.5));
+        const float place[3] = {(float)(0.4 * uvs_of[k][0]), up, up};
+        const float normal[3] = {0.0F, (float)-sqrt(0.5), (float)sqrt(0.5)};
+        memcpy(positions + 3 * k, place, sizeof place);
+        memcpy(normals + 3 * k, normal, sizeof normal);
+        uvs[2 * k] = (float)uvs_of[k][0];
+        uvs[2 * k + 1] = (float)uvs_of[k][1];
+    }
+    uint32_t indices[] = {0, 5, 2, 0, 2, 1, 5, 4, 3, 5, 3, 2};
+    DropletMesh mesh = {kCorners, positions, normals, uvs, NULL, 4, indices};
+    DropletWindshield* windshield = NULL;
+    HOLDS(droplet_windshield_new(NULL, &windshield) == DROPLET_OK);
+    HOLDS(droplet_windshield_surface(windshield, NULL) == DROPLET_INVALID_ARGUMENT);
+    indices[0] = 9;
+    HOLDS(droplet_windshield_surface(windshield, &mesh) == DROPLET_INVALID_ARGUMENT);
+    indices[0] = 0;
+    mesh.uvs = NULL;
+    HOLDS(droplet_windshield_surface(windshield, &mesh) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(strstr(droplet_message(), "mesh.uvs") != NULL);
+    HOLDS(value_of(windshield, "glass-width") == 1.4);  // what failed has changed nothing
+    mesh.uvs = uvs;
+    HOLDS(droplet_windshield_surface(windshield, &mesh) == DROPLET_OK);
+    DropletWindshieldFigures figures;
+    HOLDS(droplet_windshield_figures(windshield, &figures) == DROPLET_OK);
+    HOLDS(fabs(figures.width - 0.4) < 1e-6 && fabs(figures.height - 0.3) < 1e-6);
+    double value = 0.0;
+    HOLDS(droplet_windshield_get(windshield, "slope", &value) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(strstr(droplet_message(), "slope: the glass is a mesh") != NULL);
+    HOLDS(droplet_windshield_set(windshield, "glass-width", 1.0) == DROPLET_INVALID_ARGUMENT);
+
+    DropletTriangles triangles;
+    HOLDS(droplet_windshield_triangles(windshield, &triangles) == DROPLET_OK && triangles.count == 4);
+    double area = 0.0;
+    for (size_t t = 0; t < triangles.count; ++t) {
+        const DropletCorner* c = triangles.corners + 3 * t;
+        area += 0.5 * ((c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y));
+        for (int k = 0; k < 3; ++k) {  // it is flat: up the glass is up and back
+            HOLDS(fabs(c[k].place.point[2] - c[k].y * sqrt(0.5)) < 1e-6);
+            HOLDS(fabs(c[k].place.up[2] - sqrt(0.5)) < 1e-6 && fabs(c[k].place.normal[1] - sqrt(0.5)) < 1e-6);
+        }
+    }
+    HOLDS(fabs(area - (0.4 * 0.3 - 0.1 * 0.1)) < 1e-6);
+
+    DropletPlace place;
+    HOLDS(droplet_windshield_place(windshield, 0.02, 0.02, &place) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_windshield_place(windshield, 0.2, 0.02, &place) == DROPLET_OK);
+    HOLDS(droplet_windshield_set(windshield, "rain", 50.0 / 3.6e6) == DROPLET_OK);
+    for (int frame = 0; frame < 60; ++frame) {
+        HOLDS(droplet_windshield_advance(windshield, 1.0 / 60.0) == DROPLET_OK);
+    }
+    DropletRunning running[64];
+    const size_t count = droplet_windshield_running(windshield, running, 64);
+    HOLDS(count > 2);
+    for (size_t k = 0; k < (count < 64 ? count : 64); ++k) {
+        HOLDS(droplet_windshield_place(windshield, running[k].x, running[k].y, &place) == DROPLET_OK);
+    }
+    DropletWater water;
+    HOLDS(droplet_windshield_water(windshield, &water) == DROPLET_OK);
+    HOLDS(water.volume > 0.0 && fabs(water.balance_error) < 1e-12);
+    HOLDS(droplet_windshield_surface(windshield, &mesh) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(strstr(droplet_message(), "mesh must be set before the first step") != NULL);
+    droplet_windshield_delete(windshield);
+}
+
 static DropletLiquid2dFigures figures_of(const DropletLiquid2d* liquid)
 {
     DropletLiquid2dFigures figures = {0};
@@ -325,6 +398,7 @@ int main(int argc, char** argv)
     HOLDS(strchr(droplet_version(), '.') != NULL);
     shapes(argv[1], argv[2]);
     rain();
+    surfaces();
     liquids();
     return failures;
 }

@@ -265,7 +265,7 @@ const std::vector<CommandFiles>& all()
          "live",
          {{"--live", "new.html"}},
          {},
-         {kConfig, {"--background", "road.png"}},
+         {kConfig, {"--background", "road.png"}, {"--surface", "glass.glb"}},
          {{"--live", "out.html"}}},
     };
     return commands;

@@ -327,8 +327,7 @@ TEST_F(WindshieldCommand, TheLivePageRefusesWhatItHasNoUseFor)
                                                          {"--drive-cycle", "drive.csv"},
                                                          {"--shape", "capsule"},
                                                          {"--json", "-"},
-                                                         {"--resume"},
-                                                         {"--surface", "glass.glb"}}) {
+                                                         {"--resume"}}) {
         testing::expectOneLine(live(more), 2, {"--live and " + more.front() + " exclude each other"});
     }
     testing::expectOneLine(live({"--speed", "500m/s"}), 2, {"--speed", "from 0m/s to 150m/s"});
@@ -566,6 +565,10 @@ TEST_F(WindshieldCommand, UsesASurfaceAsGlass)
     EXPECT_NEAR(report.at("glass").at("height_m").get<double>(), 0.2 * std::sqrt(2.0), 1e-5);
     EXPECT_GT(report.at("balance").back().at("rained_m3").get<double>(), 0.0);
     expectRefused({"--surface", stored("inward.glb", paneGlb(-1.0F))}, 3, "rain cannot reach it");
+    const std::string page = path("rain.html");
+    for (const std::string& glass : {path("none.glb"), path("inward.glb")}) {
+        testing::expectOneLine(testing::runInProcess({"windshield", "--live", page, "--surface", glass}), 3, {glass});
+    }
     // A droplet is not a glass: it has a hole, and is too small.
     testing::writeFile(path("dot.pgm"), "P2\n5 5\n1\n1 1 1 1 1\n1 0 0 0 1\n1 0 0 0 1\n1 0 0 0 1\n1 1 1 1 1\n");
     ASSERT_EQ(runDroplet({path("dot.pgm"), path("drop.glb"), "--triangles", "200", "--quiet"}).exit_code, 0);

@@ -110,6 +110,40 @@ test('places and blades are those of the glass', async () => {
     }
 });
 
+/** A flat pane of 0.4 m by 0.2 m at 45°, whose lower corners are cut off. */
+function pane() {
+    const uvs = [[0, 0], [1, 0], [1, 0.25], [0.75, 0.5], [0.25, 0.5], [0, 0.25]];
+    const up = (v) => 0.4 * (0.5 - v) * Math.SQRT1_2;
+    return {
+        positions: uvs.flatMap(([u, v]) => [0.4 * u, up(v), up(v)]), normals: uvs.flatMap(() => [0, -Math.SQRT1_2, Math.SQRT1_2]), uvs: uvs.flat(),
+        indices: [0, 5, 2, 0, 2, 1, 5, 4, 3, 5, 3, 2],
+    };
+}
+
+test('it rains on a mesh', async () => {
+    const rain = await windshield({ surface: pane(), rain: mmPerHour(80), speed: 10, wiperPeriod: 1.5 });
+    const { width, height } = rain.figures();
+    assert.ok(Math.abs(width - 0.4) < 1e-6 && Math.abs(height - 0.2) < 1e-6);
+    const triangles = rain.triangles();
+    const area = triangles.reduce((sum, [a, b, c]) => sum + 0.5 * ((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)), 0);
+    assert.ok(Math.abs(area - 0.07) < 1e-6, `${area}`);
+    for (const { y, point, up } of triangles.flat()) {
+        assert.ok(Math.abs(point[2] - y * Math.SQRT1_2) < 1e-6 && Math.abs(up[2] - Math.SQRT1_2) < 1e-6);
+    }
+    assert.throws(() => rain.place(0.01, 0.01), /there is no glass/);
+    advance(rain, 2);
+    const { running } = rain.figures();
+    const { volume, balanceError } = rain.water();
+    assert.ok(running > 0 && volume > 0 && Math.abs(balanceError) < 1e-9);
+    rain.running().forEach(({ x, y }) => rain.place(x, y));  // none is beside the glass
+    // What is drawn there is bare.
+    const { width: across, height: down, pixels } = rain.draw();
+    assert.equal(pixels[4 * ((down - 2) * across + 1) + 3], 0);
+    await assert.rejects(windshield({ surface: pane(), slope: 1 }), /slope: the glass is a mesh/);
+    await assert.rejects(windshield({ surface: { ...pane(), uvs: [0, 0] } }), /surface.uvs: 2 numbers/);
+    await assert.rejects(windshield({ surface: { ...pane(), indices: [0, 1, 9] } }), /triangles\[0\] names vertex 9 of 6/);
+});
+
 test('arguments are refused by name', async () => {
     const rain = await windshield();
     const refused = (work, text) => assert.throws(work, (error) => error instanceof DropletError && error.code === 'InvalidArgument' && text.test(error.message));

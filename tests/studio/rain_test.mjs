@@ -41,11 +41,12 @@ const difference = (a, b) => a.reduce((sum, value, k) => sum + Math.abs(value - 
 const mean = (all, channel) => all.filter((_, k) => k % 3 === channel).reduce((a, b) => a + b) / (all.length / 3);
 
 /** Runs a test in a page of its own, in which nothing may complain and nothing may be fetched. */
-function rain(name, run, options = { viewport: kSize }) {
+function rain(name, run, options = { viewport: kSize }, pageOf = () => kPage) {
     test(name, async () => {
-        const { context, complaints } = await watched(options, kPage);
+        const url = pageOf();
+        const { context, complaints } = await watched(options, url);
         const page = await context.newPage();
-        await page.goto(kPage);
+        await page.goto(url);
         await page.waitForFunction(() => document.documentElement.dataset.state === 'running');
         // Neither the bar nor its fading is part of the picture.
         await page.evaluate(() => {
@@ -178,6 +179,55 @@ rain('a panorama that is dropped is all around: the frame shows its middle', asy
     await frames(page, 3);
     const [red, green] = await colour(page, { x: 60, y: 80, width: 40, height: 40 });
     assert.ok(red > 2 * green, `${[red, green]}`);
+});
+
+/** A flat pane of 0.4 m by 0.2 m at 45°, half as wide at its lower edge, as bytes of a .glb. */
+function paneGlb() {
+    const uvs = [[0, 0], [1, 0], [0.75, 0.5], [0.25, 0.5]];
+    const up = (v) => 0.4 * (0.5 - v) * Math.SQRT1_2;
+    const parts = [
+        new Float32Array(uvs.flatMap(([u, v]) => [0.4 * u - 0.2, up(v), -up(v)])), new Float32Array(uvs.flatMap(() => [0, Math.SQRT1_2, Math.SQRT1_2])),
+        new Float32Array(uvs.flat()), new Uint32Array([0, 3, 2, 0, 2, 1]),
+    ].map((numbers) => Buffer.from(numbers.buffer));
+    const views = parts.map(({ length }, k) => ({ buffer: 0, byteOffset: parts.slice(0, k).reduce((sum, part) => sum + part.length, 0), byteLength: length }));
+    const low = [-0.2, 0, -up(0)].map(Math.fround);
+    const high = [0.2, up(0), 0].map(Math.fround);
+    const float = (bufferView, type, more) => ({ bufferView, componentType: 5126, count: 4, type, ...more });
+    const json = Buffer.from(JSON.stringify({
+        asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }], buffers: [{ byteLength: Buffer.concat(parts).length }],
+        meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1, TEXCOORD_0: 2 }, indices: 3 }] }], bufferViews: views,
+        accessors: [float(0, 'VEC3', { min: low, max: high }), float(1, 'VEC3'), float(2, 'VEC2'), { bufferView: 3, componentType: 5125, count: 6, type: 'SCALAR' }],
+    }));
+    const padded = Buffer.concat([json, Buffer.alloc((4 - json.length % 4) % 4, ' ')]);
+    const chunk = (kind, bytes) => Buffer.concat([Buffer.from(new Uint32Array([bytes.length]).buffer), Buffer.from(kind), bytes]);
+    const body = Buffer.concat([chunk('JSON', padded), chunk('BIN\0', Buffer.concat(parts))]);
+    return Buffer.concat([Buffer.from('glTF'), Buffer.from(new Uint32Array([2, 12 + body.length]).buffer), body]);
+}
+
+rain('it rains on a mesh, whose edge is that of the glass', async (page) => {
+    assert.equal(await page.locator('#rain-slope').count(), 0);
+    await setValue(page, 'wiperPeriod', 1.2);
+    await frames(page, 60);
+    await setValue(page, 'wiperPeriod', 0);
+    await setValue(page, 'rain', 0);
+    await dropMade(page, 'green.png', 'image/png', '-i', 'color=0x20c040:size=320x180', '-frames:v', '1');
+    await frames(page, 3);
+    const [, green] = await colour(page, { x: 180, y: 100, width: 40, height: 24 });
+    assert.ok(green > 100, `${green}`);
+    // Beside the lower edge, which is shorter than the upper one, there is no glass.
+    for (const x of [47, 321]) {
+        const beside = await colour(page, { x, y: 126, width: 32, height: 20 });
+        assert.ok(Math.max(...beside) < 20, `${beside} at ${x}`);
+    }
+}, { viewport: kSize }, () => {
+    writeFileSync(join(folder, 'pane.glb'), paneGlb());
+    const path = join(folder, 'mesh.html');
+    execFileSync(DROPLET_SHAPE, ['windshield', '--live', path, '--surface', join(folder, 'pane.glb'), '--warm-up', '1s', '--eye-distance', '0.6m'], { stdio: 'pipe' });
+    const { surface, parameters } = JSON.parse(readFileSync(path, 'utf8').match(/id="rain-values" type="application\/json">(.*)<\/script>/)[1]);
+    const numbers = new Float32Array(new Uint8Array(Buffer.from(surface.uvs, 'base64')).buffer);
+    assert.deepEqual([...numbers], [0, 0, 1, 0, 0.75, 0.5, 0.25, 0.5]);
+    assert.ok(!('slope' in parameters) && parameters.gravity > 9);
+    return pathToFileURL(path).href;
 });
 
 rain('a recording is a video, and a saved picture has the frame’s size', async (page) => {

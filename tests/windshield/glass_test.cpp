@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "droplet/error.h"
 #include "support/objects.h"
@@ -211,6 +213,46 @@ TEST_P(MeshedGlass, HasItsOwnSizeWithoutAScale)
     EXPECT_NEAR(glass.width(), 1.2, 1e-3);
     EXPECT_NEAR(glass.height(), 0.6, 1e-3);
     EXPECT_FALSE(glass.cylinder());
+}
+
+/// Triangles cover the unrolled glass once, counter-clockwise, and have the places of the glass.
+void expectTriangles(const Glass& glass, std::size_t count)
+{
+    const std::vector<GlassTriangle> triangles = glass.triangles();
+    EXPECT_EQ(triangles.size(), count);
+    double area = 0.0;
+    for (const auto& [p, places] : triangles) {
+        const double own = 0.5 * cross(p[1] - p[0], p[2] - p[0]);
+        EXPECT_GT(own, 0.0);
+        area += own;
+        for (std::size_t k = 0; k < 3; ++k) {
+            // A little inside, since neighbours may have other tangents.
+            const Vec2 inside = p[k] + 1e-6 * (p[0] + p[1] + p[2] - 3.0 * p[k]);
+            const GlassPlace here = glass.place(inside).value();
+            EXPECT_NEAR(length(here.point - places[k].point), 0.0, 1e-5);
+            EXPECT_NEAR(length(here.normal - places[k].normal), 0.0, 1e-5);
+            EXPECT_NEAR(length(here.across - places[k].across), 0.0, 1e-5);
+            EXPECT_NEAR(length(here.up - places[k].up), 0.0, 1e-5);
+        }
+    }
+    EXPECT_NEAR(area, glass.width() * glass.height(), 1e-9);
+}
+
+TEST_P(MeshedGlass, GivesItsTriangles)
+{
+    const Glass::Cylinder form{.width = 1.2, .height = 0.6, .radius = 1.0};
+    const TexturedMesh object = objectOf(form, 16, GetParam());
+    expectTriangles(Glass(object, {}), object.triangles.size());
+}
+
+TEST(CurvedGlass, GivesTrianglesNearTheArc)
+{
+    const Glass glass;
+    expectTriangles(glass, glass.triangles().size());
+    for (const auto& [p, places] : glass.triangles()) {
+        const GlassPlace middle = glass.place(0.5 * (p[0] + p[1])).value();
+        EXPECT_NEAR(length(0.5 * (places[0].point + places[1].point) - middle.point), 0.0, 2e-5);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(SeenFrom, MeshedGlass, ::testing::Bool());

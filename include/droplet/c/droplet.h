@@ -143,7 +143,7 @@ DROPLET_API void droplet_windshield_delete(DropletWindshield* windshield);
 /// | still-diameter | m | 0 to 2 mm | smaller raindrops never move |
 /// | mist | m/s | 0 to 1e-6 | growth of the mist's thickness, which ends at 10 µm |
 /// | splashes | 1 | 0 or 1 | 1: maps have the rings of large raindrops that have just hit |
-/// | glass-width | m | 0.05 to 5 | the glass |
+/// | glass-width | m | 0.05 to 5 | a glass that is no mesh |
 /// | glass-height | m | 0.05 to 5 | the glass |
 /// | glass-radius | m | 0.1 to 1e6 | the glass, bend across |
 /// | slope | rad | 0 to 90 degrees | the glass, from horizontal |
@@ -157,6 +157,13 @@ DROPLET_API DropletCode droplet_windshield_set(DropletWindshield* windshield, co
 /// @param name        in its table
 /// @param value       receives the value
 DROPLET_API DropletCode droplet_windshield_get(const DropletWindshield* windshield, const char* name, double* value);
+
+/// Gives a windshield the shape of a mesh, before the first step; it then has none of the parameters of the glass. Its
+/// uv times one scale are the unrolled glass: v runs down the glass, u to the driver's right or left.
+/// @param windshield  valid
+/// @param mesh        z points up, the front is -y, normals are outward; contact_angles are not read
+/// @return            DROPLET_INVALID_ARGUMENT; DROPLET_INVALID_INPUT: no triangle has an area both in space and in uv
+DROPLET_API DropletCode droplet_windshield_surface(DropletWindshield* windshield, const DropletMesh* mesh);
 
 /// Advances the rain: it arrives, droplets run, meet and break up, wipers sweep.
 /// @param windshield  valid
@@ -252,8 +259,28 @@ typedef struct DropletPlace {
 /// @param x           [m]
 /// @param y           [m]
 /// @param place       receives it
+/// @return            DROPLET_INVALID_ARGUMENT: there is no glass
 DROPLET_API DropletCode droplet_windshield_place(const DropletWindshield* windshield, double x, double y,
                                                  DropletPlace* place);
+
+/// Corner of a triangle of the glass.
+typedef struct DropletCorner {
+    double x;            ///< on the unrolled glass [m]
+    double y;            ///< on the unrolled glass [m]
+    DropletPlace place;  ///< in space
+} DropletCorner;
+
+/// Triangles of the glass.
+typedef struct DropletTriangles {
+    const DropletCorner* corners;  ///< three for each triangle, counter-clockwise on the unrolled glass; stays until
+                                   ///< the next call
+    size_t count;                  ///< number of triangles
+} DropletTriangles;
+
+/// Triangles of the glass, for drawing.
+/// @param windshield  valid
+/// @param triangles   receives them
+DROPLET_API DropletCode droplet_windshield_triangles(DropletWindshield* windshield, DropletTriangles* triangles);
 
 /// A wiper's blade; it may reach beyond the glass.
 typedef struct DropletBlade {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "droplet/surface/textured_mesh.h"
 #include "droplet/units.h"
@@ -17,6 +19,12 @@ struct GlassPlace {
     Vec3 normal;  ///< outward unit normal, towards wind and rain
     Vec3 across;  ///< unit tangent along the glass's x
     Vec3 up;      ///< unit tangent along the glass's y, perpendicular to `across`
+};
+
+/// Triangle of the glass, on the plane and in space.
+struct GlassTriangle {
+    std::array<Vec2, 3> positions;     ///< corners on the unrolled glass [m]
+    std::array<GlassPlace, 3> places;  ///< of the corners
 };
 
 /// Speed of the air along the glass, outside of its boundary layer. The direction is always the horizontal wind
@@ -88,6 +96,9 @@ public:
     [[nodiscard]] std::optional<GlassPlace> place(Vec2 position) const;
     /// Whether there is glass at a position.
     [[nodiscard]] bool holds(Vec2 position) const;
+    /// Triangles for drawing, which run counter-clockwise on the unrolled glass: those of the mesh, or strips of a
+    /// cylinder.
+    [[nodiscard]] std::vector<GlassTriangle> triangles() const;
 
 private:
     struct Shape;
