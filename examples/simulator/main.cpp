@@ -8,6 +8,7 @@
 // state, and prints the mean difference of their levels.
 #include <droplet/drawing/picture.h>
 #include <droplet/error.h>
+#include <droplet/units.h>
 #include <droplet/windshield/presets.h>
 #include <droplet/windshield/windshield.h>
 #include <droplet/windshield_view/view.h>
@@ -272,6 +273,8 @@ void run(const Arguments& arguments, GLFWwindow* window)
     glUniform1i(glGetUniformLocation(rain, "mist"), 2);
     glUniform2f(glGetUniformLocation(rain, "mist_edge"), 1.0F, 1.0F);
     glUniform2f(glGetUniformLocation(rain, "wide"), tangent, tangent * kHeight / kWidth);
+    const double contact_angle = std::min(view.shape.contact_angle, 90.0 * droplet::kDegree);
+    glUniform1f(glGetUniformLocation(rain, "rim"), static_cast<float>(std::sin(contact_angle)));
     glUniform1f(glGetUniformLocation(rain, "blur"), 0.0F);
     glUniform1f(glGetUniformLocation(rain, "border"), 0.0F);
     glUniform2f(glGetUniformLocation(rain, "glass"), static_cast<float>(glass.width()),

@@ -59,7 +59,7 @@ export function rainyGlass(rain, shader, outside, blur = 0) {
         water: { value: textureOf(rain.draw(), RGBAFormat, HalfFloatType) }, mist: { value: textureOf(rain.mist(), RedFormat, UnsignedByteType) },
         outside: { value: outside }, dry: { value: outside }, blur: { value: blur }, mist_edge: { value: new Vector2(1, 1) },
         glass: { value: new Vector2(figures.width, figures.height) }, eye: { value: new Vector3() }, tangent: { value: new Vector2() },
-        wide: { value: new Vector2() }, cabin: { value: new Vector3(0.01, 0.01, 0.012) }, border: { value: 0 },
+        wide: { value: new Vector2() }, rim: { value: 1 }, cabin: { value: new Vector3(0.01, 0.01, 0.012) }, border: { value: 0 },
     };
     const material = new RawShaderMaterial({
         uniforms, glslVersion: GLSL3, vertexShader: kVertex,
@@ -83,6 +83,7 @@ export function rainyGlass(rain, shader, outside, blur = 0) {
         uniforms.mist.value.image.data = mist.pixels;
         uniforms.mist.value.needsUpdate = true;
         uniforms.mist_edge.value.set(mist.right, mist.top);
+        uniforms.rim.value = Math.sin(Math.min(rain.get('contactAngle'), Math.PI / 2));
         const { x, y, z } = camera.position;
         uniforms.eye.value.set(x, -z, y);
         const tangent = Math.tan(camera.fov * Math.PI / 360);

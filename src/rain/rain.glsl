@@ -17,6 +17,7 @@ uniform vec2 glass;         // width and height of the glass [m]
 uniform vec3 eye;           // in the vehicle's frame: x right, y ahead, z up [m]
 uniform vec2 tangent;       // of half the angle of the frame, across and up
 uniform vec2 wide;          // the same of `outside`; 0: it is a panorama, its middle straight ahead
+uniform float rim;          // sine of the contact angle, 1 beyond a right angle
 uniform float blur;         // of bare glass, as a mipmap level of `dry`
 uniform vec3 cabin;         // light that total reflection shows
 uniform float border;       // width of the black border of the glass [m]; 0: none
@@ -122,8 +123,8 @@ vec3 bareLight(vec2 at)
 void main()
 {
     vec4 wet = texture(water, uv);
-    // The outline of a droplet is sharp, however coarse the map: of several ramps, this is nearest to the ray-traced view.
-    float cover = smoothstep(0.2, 0.7, wet.a);
+    // The outline of a droplet is sharp, however coarse the map: of several ramps, these are nearest to the ray-traced view.
+    float cover = smoothstep(0.17, 0.6, wet.a);
     vec3 n = normalize(normal);
     vec3 ray = normalize(place - eye);
     vec3 local = vec3(dot(ray, across), dot(ray, up), dot(ray, n));
@@ -136,6 +137,9 @@ void main()
         leaves = texture(water, uv + aside * leaves.b / max(leaves.a, 0.1));
     }
     vec2 slope = leaves.xy / max(leaves.a, 1e-3);
+    // A pixel at the outline has the mean of its water. At the contact line it is as steep as the contact angle, and reflects
+    // totally where the eye looks into the slope: the dark rim that droplets have.
+    slope = mix(slope, rim * slope / max(length(slope), 1e-3), 1.0 - smoothstep(0.2, 0.9, leaves.a));
     vec3 facing = vec3(slope, sqrt(max(1.0 - dot(slope, slope), 0.0)));
 
     // Unpolarised light that goes from water to air.

@@ -109,7 +109,7 @@ void main() {
     vec3 streak = level(vec2(film.b, film.g));
     float over = streak.x - (0.12 + 0.88 * sqrt(1.0 - film.r));  // what is lower is bare
     float pixel = max(length(dFdx(uv) * glass), length(dFdy(uv) * glass));
-    float cover = clamp(over / max(length(streak.yz), 1e-3) / pixel + 0.5, 0.0, 1.0) * (1.0 - smoothstep(0.2, 0.7, texture(water, uv).a));
+    float cover = clamp(over / max(length(streak.yz), 1e-3) / pixel + 0.5, 0.0, 1.0) * (1.0 - smoothstep(0.17, 0.6, texture(water, uv).a));
     cover *= border > 0.0 ? smoothstep(border, 1.6 * border, texture(edge, uv).r) : 1.0;  // what is printed lies before it
     if (over <= 0.0 || cover <= 0.0) {
         discard;

@@ -570,7 +570,7 @@ export class View {
         gl.clear(gl.COLOR_BUFFER_BIT);
         this.#programs.rain.use({
             ...camera, water: this.#water, outside, dry, mist: this.#mist, mist_edge: this.mist_edge, edge: this.#edge_map, glass: this.glass, wide, blur: 0,
-            cabin, border: shown.border,
+            rim: Math.sin(Math.min(windshield.get('contactAngle'), 0.5 * Math.PI)), cabin, border: shown.border,
         });
         gl.bindVertexArray(this.#pane.array);
         gl.drawArrays(gl.TRIANGLES, 0, this.#pane.count);

@@ -123,10 +123,11 @@ view('the page draws rain as rays do', async (page) => {
     const text = `mean differences from the ray-traced view: ${seen.rain.toFixed(3)} levels of 255, of a dry pane ${seen.without.toFixed(3)}; ` +
         `without rain ${seen.pane.toFixed(3)}; correlation of the droplets ${seen.alike.toFixed(3)}`;
     console.log(text);
-    // 0.11 levels, 2.51 of 3.07 levels and 0.61 were measured. Droplets elsewhere have a correlation of 0.01.
+    // 0.11 levels, 2.20 of 3.07 levels and 0.72 were measured. Droplets elsewhere have a correlation of 0.01; without dark
+    // rims it is 0.61, and the difference 2.51 levels.
     assert.ok(seen.pane < 0.3, text);
-    assert.ok(seen.rain < 0.9 * seen.without, text);
-    assert.ok(seen.alike > 0.55, text);
+    assert.ok(seen.rain < 0.76 * seen.without, text);
+    assert.ok(seen.alike > 0.68, text);
 });
 
 test('blades push water ahead, and leave it where they turn', async () => {
