@@ -175,19 +175,8 @@ const GlassMaps& GlassMapFrames::maps(const WindshieldState& state)
     Content& content = *content_;
     content.begin();
     content.sums.update(state);
-    std::vector<std::size_t> changed;
-    std::vector<std::uint8_t> is_stale(static_cast<std::size_t>(content.height()));  // for every row
-    content.sums.takeChanged([&](std::size_t pixel) {
-        changed.push_back(pixel);
-        is_stale[pixel / static_cast<std::size_t>(content.width())] = 1;
-    });
-    forBlocks(changed.size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) {
-            content.write(changed[k]);
-        }
-    });
-    tbb::parallel_for(std::size_t{0}, is_stale.size(), [&](std::size_t row) {
-        if (is_stale[row] != 0) {
+    tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(content.height()), [&](std::size_t row) {
+        if (content.sums.takeChanged(row, [&](std::size_t pixel) { content.write(pixel); })) {
             content.writeThickness(row);
         }
     });

@@ -2,7 +2,9 @@
 #include "windshield_view/water_raster.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -46,22 +48,6 @@ Vec2 reachOf(const WaterDrop& drop, Vec2 along)
 }
 
 }  // namespace
-
-void WaterPixel::add(const WaterPixel& other, int sign)
-{
-    thickness += sign * other.thickness;
-    cover += sign * other.cover;
-    slope[0] += sign * other.slope[0];
-    slope[1] += sign * other.slope[1];
-    up += sign * other.up;
-}
-
-void WaterMotion::add(const WaterMotion& other, int sign)
-{
-    cover += sign * other.cover;
-    velocity[0] += sign * other.velocity[0];
-    velocity[1] += sign * other.velocity[1];
-}
 
 Vec3f WaterPixel::normal() const
 {
@@ -108,6 +94,9 @@ struct WaterRaster::Body {
                 take(end * along.x + chord);
             }
         }
+        if (half == 0.0F) {
+            return ends;
+        }
         // On its straight flanks.
         for (const float side : {-wide, wide}) {
             const float place = (y - side * along.x) / along.y;
@@ -118,29 +107,51 @@ struct WaterRaster::Body {
         return ends;
     }
 
-    void sample(float x, float y, Samples& sum) const
+    /// Sample places on a line across the glass, each at x0 + i · step.
+    struct Line {
+        float x0 = 0.0F;
+        float step = 0.0F;
+        float y = 0.0F;
+    };
+
+    /// Calls add(i, ahead, left, up, thickness) for the places from `begin` to before `end` that lie on the droplet.
+    template <typename Add>
+    void sample(const Line& line, int begin, int end, const Add& add) const
     {
-        const float a = along.x * x + along.y * y;
-        const float b = along.x * y - along.y * x;
         if (relief != nullptr) {
-            if (relief->inside({a, b}) > 0.0F) {
-                const BodyRelief::Point point = relief->at({a, b});
-                ++sum.count;
-                sum.ahead += point.normal.x;
-                sum.left += point.normal.y;
-                sum.up += point.normal.z;
-                sum.thickness += point.height;
+            for (int i = begin; i < end; ++i) {
+                const float x = line.x0 + static_cast<float>(i) * line.step;
+                const Vec2f place{along.x * x + along.y * line.y, along.x * line.y - along.y * x};
+                if (relief->inside(place) > 0.0F) {
+                    const BodyRelief::Point point = relief->at(place);
+                    add(i, point.normal.x, point.normal.y, point.normal.z, point.height);
+                }
             }
             return;
         }
-        const float end = a - std::clamp(a, -half, half);
-        const float up = std::sqrt(std::max(square - end * end - b * b, 0.0F));
-        ++sum.count;
-        sum.ahead += end;
-        sum.left += b;
-        sum.up += up;
-        // Where the droplet overhangs its contact, there is air below it.
-        sum.thickness += std::min(up + centre, 2.0F * up);
+        // In blocks, whose first loop is vectorised.
+        constexpr int kBlockLength = 32;
+        std::array<float, kBlockLength> ahead;
+        std::array<float, kBlockLength> left;
+        std::array<float, kBlockLength> up;
+        for (; begin < end; begin += kBlockLength) {
+            const int count = std::min(end - begin, kBlockLength);
+            for (int k = 0; k < count; ++k) {
+                const auto at = static_cast<std::size_t>(k);
+                const float x = line.x0 + static_cast<float>(begin + k) * line.step;
+                const float a = along.x * x + along.y * line.y;
+                const float b = along.x * line.y - along.y * x;
+                const float beyond = a - std::min(std::max(a, -half), half);
+                ahead[at] = beyond;
+                left[at] = b;
+                up[at] = std::sqrt(std::max(square - beyond * beyond - b * b, 0.0F));
+            }
+            for (int k = 0; k < count; ++k) {
+                const auto at = static_cast<std::size_t>(k);
+                // Where the droplet overhangs its contact, there is air below it.
+                add(begin + k, ahead[at], left[at], up[at], std::min(up[at] + centre, 2.0F * up[at]));
+            }
+        }
     }
 };
 
@@ -179,19 +190,29 @@ void WaterRaster::draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) c
     const int columns = right - left + 1;
     const int rows = last - first + 1;
     std::vector<Samples> sums(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-    for (int j = 0; j < rows * across; ++j) {
+    // Lines above and below the droplet have no sample places on it; one more, for rounding.
+    const int above = std::max(static_cast<int>((y0 - f(reach.y)) / step_y) - 1, 0);
+    const int below = std::min(static_cast<int>((y0 + f(reach.y)) / step_y) + 2, rows * across);
+    for (int j = above; j < below; ++j) {
         const float y = y0 - static_cast<float>(j) * step_y;
         const auto [begin_x, end_x] = body.widthAt(y, f(reach.x));
-        int i = std::max(static_cast<int>(std::ceil((begin_x - x0) / step_x)), 0);
-        const int end = std::min(static_cast<int>(std::floor((end_x - x0) / step_x)), columns * across - 1);
-        while (i <= end) {
-            const int column = i / across;
-            Samples& sum = sums[static_cast<std::size_t>(j / across) * static_cast<std::size_t>(columns) +
-                                static_cast<std::size_t>(column)];
-            for (const int until = std::min(end, (column + 1) * across - 1); i <= until; ++i) {
-                body.sample(x0 + static_cast<float>(i) * step_x, y, sum);
-            }
+        const int begin = std::max(static_cast<int>(std::ceil((begin_x - x0) / step_x)), 0);
+        const int end = std::min(static_cast<int>(std::floor((end_x - x0) / step_x)) + 1, columns * across);
+        if (begin >= end) {
+            continue;
         }
+        Samples* sum = sums.data() + j / across * columns + begin / across;
+        int next = (begin / across + 1) * across;  // first place of the next pixel
+        body.sample({x0, step_x, y}, begin, end, [&](int i, float ahead, float left, float up, float thickness) {
+            for (; next <= i; next += across) {
+                ++sum;
+            }
+            ++sum->count;
+            sum->ahead += ahead;
+            sum->left += left;
+            sum->up += up;
+            sum->thickness += thickness;
+        });
     }
 
     const double place = 1.0 / (static_cast<double>(across) * across);

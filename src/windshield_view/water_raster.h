@@ -39,7 +39,14 @@ struct WaterPixel {
     static constexpr double kShare = 1.0 / 262'144;  ///< of one
 
     /// Adds another one, or with sign −1 takes it away.
-    void add(const WaterPixel& other, int sign);
+    void add(const WaterPixel& other, int sign)
+    {
+        thickness += sign * other.thickness;
+        cover += sign * other.cover;
+        slope[0] += sign * other.slope[0];
+        slope[1] += sign * other.slope[1];
+        up += sign * other.up;
+    }
     friend bool operator==(const WaterPixel&, const WaterPixel&) = default;
     /// Mean outward unit normal.
     [[nodiscard]] Vec3f normal() const;
@@ -51,7 +58,12 @@ struct WaterMotion {
     std::array<std::int32_t, 2> velocity = {};  ///< in 2^-18 m/s
 
     /// Adds another one, or with sign −1 takes it away.
-    void add(const WaterMotion& other, int sign);
+    void add(const WaterMotion& other, int sign)
+    {
+        cover += sign * other.cover;
+        velocity[0] += sign * other.velocity[0];
+        velocity[1] += sign * other.velocity[1];
+    }
     friend bool operator==(const WaterMotion&, const WaterMotion&) = default;
 };
 

@@ -50,10 +50,7 @@ void WaterSums::add(std::span<const WaterStamp> stamps, int sign)
         if (stamp.motion.cover != 0) {
             motion_[stamp.pixel].add(stamp.motion, sign);
         }
-        if (is_changed_[stamp.pixel] == 0) {
-            is_changed_[stamp.pixel] = 1;
-            changed_.push_back(stamp.pixel);
-        }
+        is_changed_[stamp.pixel] = 1;
     }
 }
 
@@ -129,8 +126,8 @@ void WaterSums::update(const std::vector<RunningDroplet>& now)
             fresh.push_back(drawn.size());
             Drawn& one = drawn.emplace_back(Drawn{droplet, {}});
             if (was_there) {
-                add(old->water, -1);
-                one.water = std::move(old->water);
+                one.before = std::move(old->water);
+                one.water = std::move(old->before);
                 one.water.clear();
             }
         }
@@ -148,6 +145,8 @@ void WaterSums::update(const std::vector<RunningDroplet>& now)
         },
         kDropsPerBlock);
     for (const std::size_t k : fresh) {
+        add(drawn[k].before, -1);
+        drawn[k].before.clear();
         add(drawn[k].water, 1);
     }
     running_ = std::move(drawn);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -36,15 +37,24 @@ public:
     /// Water of every pixel, row by row from the upper left.
     [[nodiscard]] const std::vector<WaterPixel>& water() const { return water_; }
     [[nodiscard]] const std::vector<WaterMotion>& motion() const { return motion_; }
-    /// Calls work(pixel) for every pixel that changed since the last call.
+    /// Calls work(pixel) for every pixel of a row that changed since the last call for this row, from the left.
+    /// @return  whether there is any
     template <typename Work>
-    void takeChanged(const Work& work)
+    bool takeChanged(std::size_t row, const Work& work)
     {
-        for (const std::uint32_t pixel : changed_) {
-            is_changed_[pixel] = 0;
-            work(std::size_t{pixel});
+        const auto columns = static_cast<std::size_t>(raster_.width());
+        std::uint8_t* const begin = is_changed_.data() + row * columns;
+        std::uint8_t* const end = begin + columns;
+        bool is_any = false;
+        const auto next = [end](std::uint8_t* from) {  // most pixels have not changed
+            return static_cast<std::uint8_t*>(std::memchr(from, 1, static_cast<std::size_t>(end - from)));
+        };
+        for (std::uint8_t* one = next(begin); one != nullptr; one = next(one + 1)) {
+            *one = 0;
+            is_any = true;
+            work(static_cast<std::size_t>(one - is_changed_.data()));
         }
-        changed_.clear();
+        return is_any;
     }
 
 private:
@@ -52,6 +62,7 @@ private:
     struct Drawn {
         RunningDroplet droplet;
         std::vector<WaterStamp> water;
+        std::vector<WaterStamp> before = {};  ///< its water in the sums, if that is to be replaced
     };
 
     void update(const StillCells& now);
@@ -68,9 +79,8 @@ private:
     std::vector<WaterMotion> motion_;
     StillCells still_;  ///< as drawn
     std::vector<Drawn> running_;
-    std::vector<WaterStamp> rims_;        ///< of splashes
-    std::vector<std::uint32_t> changed_;  ///< pixels, each once
-    std::vector<std::uint8_t> is_changed_;
+    std::vector<WaterStamp> rims_;          ///< of splashes
+    std::vector<std::uint8_t> is_changed_;  ///< for every pixel
 };
 
 }  // namespace droplet

@@ -33,7 +33,7 @@ struct WindshieldMaps::Content {
     void write(std::span<std::uint16_t> pixels)
     {
         const auto width = static_cast<std::size_t>(raster().width());
-        sums.takeChanged([&](std::size_t pixel) {
+        const auto put_pixel = [&](std::size_t pixel) {
             const WaterPixel& water = sums.water()[pixel];
             const std::size_t at = 4 * pixel;
             const auto share = [](std::int32_t sum) { return put(static_cast<float>(sum * WaterPixel::kShare)); };
@@ -44,7 +44,10 @@ struct WindshieldMaps::Content {
                 put(static_cast<float>(static_cast<double>(water.thickness) * (WaterPixel::kThickness / kMillimetre)));
             pixels[at + 3] = share(water.cover);
             is_stale[pixel / width / kTile * columns() + pixel % width / kTile] = 1;
-        });
+        };
+        for (std::size_t row = 0; row < static_cast<std::size_t>(raster().height()); ++row) {
+            sums.takeChanged(row, put_pixel);
+        }
         tiles.clear();
         for (std::size_t k = 0; k < is_stale.size(); ++k) {
             if (std::exchange(is_stale[k], std::uint8_t{0}) != 0) {
