@@ -3,11 +3,15 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +19,8 @@
 
 #include "droplet/c/droplet.h"
 #include "droplet/error.h"
+#include "droplet/io/object.h"
+#include "droplet/surface/textured_mesh.h"
 #include "droplet/units.h"
 
 namespace binding {
@@ -69,6 +75,33 @@ public:
     ~Windshield() { droplet_windshield_delete(made_); }
     Windshield(const Windshield&) = delete;
     Windshield& operator=(const Windshield&) = delete;
+
+    /// Gives the glass the shape of a mesh.
+    void setSurface(const std::filesystem::path& path)
+    {
+        const droplet::TexturedMesh object = droplet::readObject(path);
+        std::vector<float> positions;
+        std::vector<float> normals;
+        std::vector<float> uvs;
+        for (std::size_t k = 0; k < object.vertices.size(); ++k) {
+            const auto add = [](std::vector<float>& list, double number) {
+                list.push_back(static_cast<float>(number));
+            };
+            for (const auto member : {&droplet::Vec3::x, &droplet::Vec3::y, &droplet::Vec3::z}) {
+                add(positions, object.vertices[k].*member);
+                add(normals, object.normals[k].*member);
+            }
+            add(uvs, object.uvs[k].x);
+            add(uvs, object.uvs[k].y);
+        }
+        std::vector<std::uint32_t> indices;
+        for (const droplet::Triangle& triangle : object.triangles) {
+            indices.insert(indices.end(), triangle.begin(), triangle.end());
+        }
+        const DropletMesh mesh{object.vertices.size(),  positions.data(), normals.data(), uvs.data(), nullptr,
+                               object.triangles.size(), indices.data()};
+        check(droplet_windshield_surface(made_, &mesh));
+    }
 
     void set(const py::kwargs& parameters)
     {
@@ -187,16 +220,22 @@ void bindWindshield(py::module_& module)
                            R"(Rain on a windshield that advances with your frames.
 
 preset      figure-3.10, figure-3.11 or figure-3.12 of the thesis
+surface     file of the glass, as of windshield(); otherwise it is bent as a
+            cylinder, whose parameters a file does not have
 parameters  as of set()
 
 Positions are on the unrolled glass: x to the driver's right, y up the glass
 [m]. For files and films there is windshield().)")
-        .def(py::init([](const std::string& preset, const py::kwargs& parameters) {
+        .def(py::init([](const std::string& preset, const std::optional<std::filesystem::path>& surface,
+                         const py::kwargs& parameters) {
                  auto made = std::make_unique<Windshield>(preset);
+                 if (surface) {
+                     made->setSurface(*surface);
+                 }
                  made->set(parameters);
                  return made;
              }),
-             py::arg("preset") = "figure-3.12")
+             py::arg("preset") = "figure-3.12", py::arg("surface") = py::none())
         .def("set", &Windshield::set,
              R"(Sets parameters, at any time; those of the glass and the seed only before the
 first step. Numbers are in SI units, texts have a unit: speed="50km/h".

@@ -249,6 +249,21 @@ class LiveWindshield(unittest.TestCase):
         self.assertAlmostEqual(rain.figures.time, 0.5)
         self.assertLess(abs(rain.water.balance_error), 1e-12)
 
+    def test_it_rains_on_a_mesh(self):
+        rain = ds.Windshield(surface=DATA / "can.glb", rain="50mm/h")
+        self.assertAlmostEqual(rain.figures.width, 2 * math.pi * 33e-3, delta=1e-3)
+        for _ in range(30):
+            rain.advance(1 / 60)
+        self.assertGreater(rain.figures.raindrops, 10)
+        self.assertTrue(rain.draw(128)[0].any())
+        self.assertLess(abs(rain.water.balance_error), 1e-12)
+        with self.assertRaisesRegex(ds.InvalidArgument, "slope: the glass is a mesh"):
+            rain.get("slope")
+        with self.assertRaisesRegex(ds.InvalidArgument, "glass-width: the glass is a mesh"):
+            ds.Windshield(surface=DATA / "can.glb", glass_width=1)
+        with self.assertRaises(ds.InvalidInput):
+            ds.Windshield(surface="nowhere.glb")
+
     def test_mist_is_wiped_by_a_finger(self):
         rain = ds.Windshield(rain=0, mist=1e-6, speed=0)
         self.assertEqual(rain.mist.shape, (1, 1))
