@@ -20,6 +20,13 @@ void declareCommon(CommandLine& line, const char* group, const std::string& exam
     line.addFlag(group, "--version", "Print the version");
 }
 
+void declareStageProgress(CommandLine& line, const char* group, const std::string& percents)
+{
+    line.add(group, "--progress", "auto|none|json",
+             "auto shows a bar on a terminal; json writes a line of JSON for each stage, and for each percent " +
+                 percents + ", instead of the summary [auto]");
+}
+
 void declareFrameProgress(CommandLine& line, const char* group)
 {
     line.add(group, "--progress", "auto|none|json",

@@ -42,6 +42,10 @@ inline constexpr Range kMapThickness{droplet::Dimension::Length, 1e-6, 1.0, "fro
 /// @param example  line of a configuration file, for the help
 void declareCommon(CommandLine& line, const char* group, const std::string& example);
 
+/// Declares --progress of a command that goes through stages.
+/// @param percents  when there is a line for each percent, for the help
+void declareStageProgress(CommandLine& line, const char* group, const std::string& percents);
+
 /// Declares --progress of a command that makes frames.
 void declareFrameProgress(CommandLine& line, const char* group);
 

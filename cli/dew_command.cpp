@@ -38,7 +38,9 @@ int runDew(int argc, const char* const* argv)
     }
     const auto& options = std::get<DewCommandOptions>(parsed);
     checkFiles(filesOf(options), options.run.files);
-    runAndTell(options.run, [&](ProgressDisplay&) { return ended(makeDew(options)); });
+    runAndTell(options.run, [&](ProgressDisplay& progress) {
+        return ended(makeDew(options, [&](droplet::Stage stage, double share) { progress.begin(stage, share); }));
+    });
     return 0;
 }
 

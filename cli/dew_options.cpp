@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dew_options.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <set>
@@ -133,6 +135,7 @@ void declare(CommandLine& line, DewCommandOptions& options)
     line.add(kOut, "--json", "FILE", "Write a report; - is standard output", into(options.json));
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
+    declareStageProgress(line, kRun, "while droplets are placed");
     declareCommon(line, kRun, "coverage = 0.3");
 }
 
@@ -161,11 +164,15 @@ void readDroplets(const CommandLine& line, DewCommandOptions& options)
         return given ? quantity(*given, kRadius) : otherwise;
     };
     dew.smallest = length_or("--smallest", preset->smallest);
-    dew.largest = length_or("--largest", std::max(preset->largest, dew.smallest));
+    dew.largest = length_or("--largest", preset->largest);
+    if (const auto smallest = line.value("--smallest"); smallest && dew.largest < dew.smallest) {
+        const auto largest = line.value("--largest");
+        refuse(*smallest,
+               "at most --largest, " + (largest ? largest->text
+                                                : fmt::format("which is {:g}mm by --preset {}; give --largest, too",
+                                                              preset->largest / droplet::kMillimetre, preset->name)));
+    }
     if (dew.largest < dew.smallest) {
-        if (line.value("--smallest")) {
-            refuse("--largest must not be less than --smallest");
-        }
         dew.smallest = dew.largest * preset->smallest / preset->largest;
     }
     dew.median = length_or("--median", std::clamp(preset->median, dew.smallest, dew.largest));

@@ -29,10 +29,10 @@ namespace cli {
 namespace {
 
 droplet::DewDroplets placed(const droplet::FlowTerrain& terrain, const droplet::DewOptions& dew,
-                            const std::string& object)
+                            const std::string& object, const droplet::Progress& progress)
 {
     try {
-        return droplet::dewDroplets(terrain, dew);
+        return droplet::dewDroplets(terrain, dew, progress);
     } catch (const droplet::Error& error) {
         const bool is_of_object = error.code() == droplet::ErrorCode::InvalidInput;
         throw droplet::Error(error.code(),
@@ -40,30 +40,47 @@ droplet::DewDroplets placed(const droplet::FlowTerrain& terrain, const droplet::
     }
 }
 
+/// What is in the way of more droplets, and what to do.
+std::string hindranceOf(droplet::DewObstacle obstacle)
+{
+    switch (obstacle) {
+        case droplet::DewObstacle::Slopes:
+            return "more would run off slopes; give smaller ones, or more --hysteresis";
+        case droplet::DewObstacle::Edges:
+            return "more find no place between the object's edges; give smaller ones";
+        case droplet::DewObstacle::Droplets:
+        case droplet::DewObstacle::None:
+            break;
+    }
+    return "more find no room between the others; give a --smallest that is less";
+}
+
 /// Why much less of the surface is covered than asked for, if it is.
-/// @param placed  covered with droplets that were left out
-std::optional<std::string> warnOfCoverage(const droplet::DewReport& report, double placed)
+std::optional<std::string> warnOfCoverage(const droplet::DewReport& report, const droplet::DewDroplets& droplets)
 {
     constexpr double kMuchLess = 0.9;
     const double least = kMuchLess * report.options.coverage * report.area;
     if (report.covered >= least) {
         return std::nullopt;
     }
-    const std::string why =
-        placed >= least      ? fmt::format("{} droplets lie where the object bends too much", report.left_out)
-        : report.run_off > 0 ? fmt::format("{} droplets run off slopes", report.run_off)
-                             : std::string("droplets of this size find no more room and join others");
-    return fmt::format("--coverage: {:.3g} of the surface is covered instead of {:.3g}, as {}; give smaller ones{}",
-                       report.covered / report.area, report.options.coverage, why,
-                       report.run_off > 0 ? ", or more --hysteresis" : "");
+    const std::string why = droplets.covered >= least
+                                ? fmt::format(
+                                      "{} droplets are left out where the object bends too much; give smaller "
+                                      "ones",
+                                      report.left_out)
+                                : hindranceOf(droplets.obstacle);
+    return fmt::format("--coverage: {:.3g} of the surface is covered instead of {:.3g}: {}",
+                       report.covered / report.area, report.options.coverage, why);
 }
 
 }  // namespace
 
 std::string lostOf(const droplet::DewReport& report)
 {
-    return fmt::format("{} joined others; {} ran off; {} left out, where the object bends too much", report.joined,
-                       report.run_off, report.left_out);
+    return fmt::format(
+        "{} joined others; {} ran off; {} too large between edges; {} left out, where the object bends "
+        "too much",
+        report.joined, report.run_off, report.between_edges, report.left_out);
 }
 
 RunFiles filesOf(const DewCommandOptions& options)
@@ -79,8 +96,14 @@ RunFiles filesOf(const DewCommandOptions& options)
     return files;
 }
 
-Dew placeDew(const DewCommandOptions& options)
+Dew placeDew(const DewCommandOptions& options, const droplet::Progress& progress)
 {
+    const auto begin = [&](droplet::Stage stage) {
+        if (progress) {
+            progress(stage, 0.0);
+        }
+    };
+    begin(droplet::Stage::Read);
     droplet::FlowObject object = droplet::readFlowObject(options.object, options.reading);
     droplet::FlowSurface faces =
         forOption(options.object, [&] { return droplet::flowSurface(object.vertices, object.triangles); });
@@ -95,8 +118,10 @@ Dew placeDew(const DewCommandOptions& options)
     if (options.reading.weights) {
         dew.weight = forOption("--vertex-weights", [&] { return droplet::weightsOver(object, terrain.surface()); });
     }
-    const droplet::DewDroplets droplets = placed(terrain, dew, options.object);
     droplet::DropletBodies bodies(droplet::BodyShape::Capillary, dew.forces);
+    dew.extent = droplet::dewExtents(bodies, dew.gravity, options.detail);
+    const droplet::DewDroplets droplets = placed(terrain, dew, options.object, progress);
+    begin(droplet::Stage::Loft);
     droplet::DewModel model(terrain, droplets.samples, bodies, dew.gravity, options.detail);
 
     std::vector<droplet::FlowSample> shown;
@@ -114,6 +139,7 @@ Dew placeDew(const DewCommandOptions& options)
     report.droplets = shown.size();
     report.joined = droplets.joined;
     report.run_off = droplets.run_off;
+    report.between_edges = droplets.between_edges;
     report.left_out = droplets.samples.size() - shown.size();
     report.warnings = object.warnings;
     warnOfDefects(report.surface, oneLine(options.object), report.warnings);
@@ -129,7 +155,7 @@ Dew placeDew(const DewCommandOptions& options)
         report.smallest = report.smallest == 0.0 ? radius : std::min(report.smallest, radius);
         report.largest = std::max(report.largest, radius);
     }
-    if (const auto warning = warnOfCoverage(report, droplets.covered)) {
+    if (const auto warning = warnOfCoverage(report, droplets)) {
         report.warnings.push_back(*warning);
     }
     return {std::move(object), std::move(terrain), std::move(bodies),
@@ -150,10 +176,13 @@ void writeTable(std::ostream& out, droplet::TableFormat format, const Dew& dew)
     table.finish();
 }
 
-droplet::DewReport makeDew(const DewCommandOptions& options)
+droplet::DewReport makeDew(const DewCommandOptions& options, const droplet::Progress& progress)
 {
     const StageClock clock;
-    Dew dew = placeDew(options);
+    Dew dew = placeDew(options, progress);
+    if (progress) {
+        progress(droplet::Stage::Write, 0.0);
+    }
     const auto finish = [&] {
         dew.report.time_total = clock.total();
         dew.report.peak_memory = peakMemory();

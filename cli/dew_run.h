@@ -13,6 +13,7 @@
 #include "droplet/flow_io/dew_report.h"
 #include "droplet/flow_io/flow_object.h"
 #include "droplet/io/table_format.h"
+#include "droplet/progress.h"
 #include "droplet/scene/format.h"
 #include "droplet/surface/surface.h"
 #include "run_files.h"
@@ -36,8 +37,9 @@ RunFiles filesOf(const DewCommandOptions& options);
 std::string lostOf(const droplet::DewReport& report);
 
 /// Covers an object with droplets; reads files, and writes none.
+/// @param progress        told of the stages Read, Solve (placing) and Loft (meshes)
 /// @throws droplet::Error InvalidArgument, InvalidInput
-Dew placeDew(const DewCommandOptions& options);
+Dew placeDew(const DewCommandOptions& options, const droplet::Progress& progress = {});
 
 /// All droplets as they are written in a format that holds one surface.
 /// @param reading  of the object
@@ -48,6 +50,6 @@ void writeTable(std::ostream& out, droplet::TableFormat format, const Dew& dew);
 
 /// Covers an object with droplets and writes all outputs.
 /// @throws droplet::Error on any failure
-droplet::DewReport makeDew(const DewCommandOptions& options);
+droplet::DewReport makeDew(const DewCommandOptions& options, const droplet::Progress& progress = {});
 
 }  // namespace cli

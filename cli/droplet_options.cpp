@@ -420,10 +420,7 @@ void declareRun(CommandLine& line)
     line.add(kGroup, "-j,--threads", "N", "Maximum number of threads [all cores]", within(1, kMaxThreads));
     line.addFlag(kGroup, "-q,--quiet", "Print only errors, and warnings of results that cannot be right");
     line.addFlag(kGroup, "-v,--verbose", "Print more: every droplet, times, memory");
-    line.add(
-        kGroup, "--progress", "auto|none|json",
-        "auto shows a bar on a terminal; json writes a line of JSON for each stage, and for each percent of a long "
-        "solve, instead of the summary [auto]");
+    declareStageProgress(line, kGroup, "of a long solve");
     line.add(kGroup, "--config", "FILE",
              "Read options from a TOML file with lines such as width = \"8cm\"; the command line takes precedence");
     line.addFlag(kGroup, "-h,--help", "Print this help; --help=json prints it for programs");

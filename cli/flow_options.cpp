@@ -3,12 +3,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string_view>
 
 #include "command_line.h"
 #include "common_options.h"
+#include "droplet/error.h"
 #include "droplet/units.h"
 #include "files.h"
 #include "force_options.h"
@@ -33,7 +35,8 @@ constexpr Range kSpacing{Dimension::Length, 1e-4, 1.0, "from 0.1mm to 1m"};
 constexpr Range kTime{Dimension::Duration, 1e-3, 86400.0, "from 1ms to 24h"};
 constexpr Range kPlace{Dimension::Length, -1e3, 1e3, "from -1000m to 1000m"};
 constexpr Range kSpeed{Dimension::Speed, -150.0, 150.0, "from -150m/s to 150m/s"};
-constexpr Range kTurn{Dimension::Angle, -1e4, 1e4, "an angle in a second, such as 30deg/s"};
+constexpr Range kTurn{Dimension::Angle, -1e4, 1e4,
+                      "an angle per s, min or h, such as 30deg/s, from -1e4rad/s to 1e4rad/s"};
 
 std::string presetNames()
 {
@@ -217,14 +220,25 @@ std::optional<std::string> text(const CommandLine& line, const char* option)
     return given ? std::optional(given->text) : std::nullopt;
 }
 
+/// Reads a value of several parts. Whatever is wrong with one of them, the message shows all, and their form.
+template <typename Function>
+auto inForm(const Given& given, const char* form, Function function)
+{
+    try {
+        return function();
+    } catch (const droplet::Error&) {
+        refuse(given, form);
+    }
+}
+
 /// A quantity per second, minute or hour.
-double rate(const Given& given, const Range& range, const char* allowed)
+double rate(const Given& given, const Range& range)
 {
     const std::size_t slash = given.text.rfind('/');
     const std::string per = slash == std::string::npos ? "" : given.text.substr(slash + 1);
     const double seconds = per == "s" ? 1.0 : per == "min" ? 60.0 : per == "h" ? 3600.0 : 0.0;
     if (seconds == 0.0) {
-        refuse(given, allowed);
+        refuse(given, range.allowed);
     }
     return quantity({given.text.substr(0, slash), given.subject}, range) / seconds;
 }
@@ -271,8 +285,8 @@ void readObject(const CommandLine& line, FlowOptions& options)
     }
     if (spin) {
         options.parameters.motion.keys.clear();
-        options.parameters.motion.spin =
-            rate(*spin, kTurn, kTurn.allowed) * (axis ? direction(*axis) : Vec3{0.0, 0.0, 1.0});
+        const double turn = inForm(*spin, kTurn.allowed, [&] { return rate(*spin, kTurn); });
+        options.parameters.motion.spin = turn * (axis ? direction(*axis) : Vec3{0.0, 0.0, 1.0});
     }
     options.keeps_animation = !options.preset && !line.flag("--no-animation") && !spin && !options.motion;
 }
@@ -292,15 +306,15 @@ void readSources(const CommandLine& line, FlowOptions& options)
         refuse(std::string(options.mask ? "--mask" : "--vertex-weights") + " needs --drops");
     }
     for (const Given& emitter : line.values("--emitter")) {
-        constexpr const char* kAllowed = "x,y,z,rate such as 0,0.1,0,50uL/s";
-        const std::size_t comma = emitter.text.rfind(',');
-        if (comma == std::string::npos) {
-            refuse(emitter, kAllowed);
-        }
-        const Vec3 place = vector({emitter.text.substr(0, comma), emitter.subject}, kPlace);
-        constexpr Range kRate{Dimension::Volume, 0.0, 1e-2, "a rate from 0uL/s to 10L/s"};
-        parameters.emitters.push_back(
-            {place, rate({emitter.text.substr(comma + 1), emitter.subject}, kRate, kAllowed), options.volumes});
+        constexpr Range kRate{Dimension::Volume, 0.0, 1e-2,
+                              "X,Y,Z,RATE such as 0,0.1,0,50uL/s: a place from -1000m to 1000m, and a rate from 0uL/s "
+                              "to 10L/s"};
+        parameters.emitters.push_back(inForm(emitter, kRate.allowed, [&] {
+            const std::size_t comma = std::min(emitter.text.rfind(','), emitter.text.size() - 1);
+            const Vec3 place = vector({emitter.text.substr(0, comma), emitter.subject}, kPlace);
+            const double amount = rate({emitter.text.substr(comma + 1), emitter.subject}, kRate);
+            return droplet::FlowEmitter{place, amount, options.volumes};
+        }));
     }
     if (const auto rain = line.value("--rain")) {
         droplet::FlowRain falling;

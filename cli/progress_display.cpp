@@ -127,7 +127,7 @@ std::string ProgressDisplay::bar() const
         full = kCellsPerStage * static_cast<std::size_t>(*stage_) + static_cast<std::size_t>(share_ * kCellsPerStage);
         what = item_.empty() ? name(*stage_) : item_ + ": " + name(*stage_);
         if (share_ > 0.0) {
-            what += fmt::format(": {:.0f} % of the liquid", 100.0 * share_);
+            what += fmt::format(": {:.0f} %", 100.0 * share_);
         }
     }
     return "[" + std::string(full, '#') + std::string(kCells - full, '.') + "] " + what + " " + rounded(elapsed(), 1) +

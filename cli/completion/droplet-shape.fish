@@ -136,6 +136,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from dew flow' -l material 
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew' -l instancing -x -a 'auto none nodes gpu' -d 'auto is one mesh up to 20000 droplets; none one mesh; nodes a node for each droplet, with shared meshes; gpu EXT_mesh_gpu_instancing, for glTF'
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew' -l droplets-only -d 'Leave the object out of a .glb, .gltf, .usda or .usdz'
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew' -l droplets -r -F -d 'Write a table of all droplets, .csv or .json; flow can start with the .csv'
+complete -c droplet-shape -n '__fish_seen_subcommand_from dew' -l progress -x -a 'auto none json' -d 'auto shows a bar on a terminal; json writes a line of JSON for each stage, and for each percent while droplets are placed, instead of the summary'
 complete -c droplet-shape -n '__fish_seen_subcommand_from dew' -l config -r -F -d 'Read options from a TOML file with lines such as coverage = 0.3; the command line takes precedence'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l preset -x -a 'masses viscosities adhesions roughnesses tear forces bottle leaf car window' -d 'Named scene with its own object and droplets, instead of OBJECT; other options change it'
 complete -c droplet-shape -n '__fish_seen_subcommand_from flow' -l floor -x -a 'plate dish' -d 'What catches the water below an object that rests: a plate or a dish, with the material floor'

@@ -1082,7 +1082,8 @@ class DewDroplet(_Report):
     smallest_m: float  # Radius of the smallest droplet seen from above, without gravity
     largest_m: float  # Radius of the largest droplet seen from above, without gravity
     joined: int  # Droplets that found no room and joined others
-    run_off: int  # Droplets that no place holds
+    run_off: int  # Droplets that no slope holds
+    between_edges: int  # Droplets that find no place clear of the object's edges
     left_out: int  # Droplets below which the object bends too much
 
 

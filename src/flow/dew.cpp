@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Radii are drawn until they cover enough, and placed from large to small, so that small droplets fill what large ones
-// leave (random sequential adsorption). Those that no slope holds, and those that others took up, leave room: more are
-// drawn for it, until the object is covered or they find none. Droplets lie in a grid for each power of two of their
-// radius: a search looks into few cells, however different the sizes are. Volumes of joined droplets add up.
+// leave (random sequential adsorption). Those that no slope holds, those that are too large between edges, and those
+// that others took up, leave room: more are drawn for it, until the object is covered or they find none. Droplets lie
+// in a grid for each power of two of their radius: a search looks into few cells, however different the sizes are.
+// Volumes of joined droplets add up.
 #include "droplet/flow/dew.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "flow/footing.h"
 #include "flow/pinning.h"
 #include "flow/places.h"
 #include "require.h"
@@ -26,19 +28,19 @@ namespace {
 
 constexpr double kRight = 0.5 * std::numbers::pi;
 constexpr std::size_t kMost = 1'000'000;
-// Parts of a droplet's rim that are looked for on the ground.
-constexpr int kAround = 8;
 
 /// Droplet on the surface.
 struct Drop {
     FlowTerrain::Point point;
     Vec3 normal;
     double volume = 0.0;
-    double radius = 0.0;  ///< seen from above
-    Vec3 centre;          ///< of a ball that it fills as far as it leans out; below 90° its place
+    double radius = 0.0;         ///< seen from above
+    double reach = 0.0;          ///< radius of a ball about the centre that has it, as far as it is off the ground
+    Vec3 centre;                 ///< of the ellipsoid that has it
+    std::array<Vec3, 3> axes{};  ///< of that
 };
 
-/// Droplets by place, with a grid for each power of two of their radius.
+/// Droplets by place, with a grid for each power of two of their reach.
 class Grids {
 public:
     /// @param smallest  radius
@@ -53,7 +55,7 @@ public:
         std::optional<std::size_t> met;
         for (const auto& [level, grid] : grids_) {
             const double side = sideOf(level);
-            const double reach = drop.radius + 0.5 * side;
+            const double reach = drop.reach + 0.5 * side;
             const Cell low = at(drop.centre - reach * Vec3{1.0, 1.0, 1.0}, side);
             const Cell high = at(drop.centre + reach * Vec3{1.0, 1.0, 1.0}, side);
             for (Cell c = low; c[0] <= high[0]; ++c[0]) {
@@ -87,10 +89,23 @@ private:
     };
     using Grid = std::unordered_map<Cell, std::vector<std::size_t>, Hash>;
 
-    /// Those on the two sides of a thin part do not touch.
+    /// Whether no plane across the way between their centres lies between two droplets. Those on the two sides of a
+    /// thin part do not touch.
     static bool touch(const Drop& a, const Drop& b)
     {
-        return length(a.centre - b.centre) < a.radius + b.radius && dot(a.normal, b.normal) > -0.5;
+        const Vec3 way = b.centre - a.centre;
+        const double square = dot(way, way);
+        if (square >= (a.reach + b.reach) * (a.reach + b.reach) || dot(a.normal, b.normal) <= -0.5) {
+            return false;
+        }
+        const auto along = [&](const Drop& drop) {
+            double sum = 0.0;
+            for (const Vec3& axis : drop.axes) {
+                sum += dot(axis, way) * dot(axis, way);
+            }
+            return std::sqrt(sum);
+        };
+        return square < along(a) + along(b);
     }
 
     [[nodiscard]] double sideOf(int level) const { return 2.0 * std::ldexp(smallest_, level); }
@@ -104,7 +119,7 @@ private:
     std::vector<std::size_t>& cellOf(const Drop& drop)
     {
         int level = 0;
-        while (std::ldexp(smallest_, level) < drop.radius) {
+        while (std::ldexp(smallest_, level) < drop.reach) {
             ++level;
         }
         return grids_[level][at(drop.centre, sideOf(level))];
@@ -117,12 +132,12 @@ private:
 /// Places droplets.
 class Dew {
 public:
-    Dew(const FlowTerrain& terrain, const DewOptions& options)
+    Dew(const FlowTerrain& terrain, const DewOptions& options, const Progress& progress)
         : terrain_(terrain),
           options_(options),
+          progress_(progress),
           places_{terrain, options.from, options.weight},
           pinning_(options.pinning, RandomStream(options.seed, RandomPurpose::Pinning, 0).bits(0)),
-          has_edges_(terrain.surface().report.boundary_edges > 0),
           grids_(options.smallest)
     {
     }
@@ -174,9 +189,16 @@ private:
         double missing = wanted;
         double largest = options_.largest;
         for (int round = 0; round < kMostRounds && missing > kNear * wanted; ++round) {
-            for (const double radius : drawn(missing, largest)) {
-                place(radius, round == 0);
+            obstacles_ = {};
+            const std::vector<double> radii = drawn(missing, largest);
+            for (std::size_t k = 0; k < radii.size(); ++k) {
+                place(radii[k], round == 0);
+                if (round == 0) {
+                    report(static_cast<double>(k + 1) / static_cast<double>(radii.size()));
+                }
             }
+            result_.obstacle =
+                static_cast<DewObstacle>(std::max_element(obstacles_.begin(), obstacles_.end()) - obstacles_.begin());
             double covered = 0.0;
             for (const Drop& drop : drops_) {
                 covered += std::numbers::pi * drop.radius * drop.radius;
@@ -188,6 +210,16 @@ private:
             missing = left;
             // Smaller ones stay where those ran off, and fit between those that are there.
             largest = std::max(0.5 * largest, options_.smallest);
+        }
+    }
+
+    /// Reports a share of the first round, which has nearly all droplets.
+    void report(double share)
+    {
+        constexpr double kStep = 0.01;
+        if (progress_ && share >= reported_ + kStep) {
+            progress_(Stage::Solve, share);
+            reported_ = share;
         }
     }
 
@@ -240,8 +272,22 @@ private:
     {
         const double angle = options_.forces.wetting.contact_angle;
         const Vec3 normal = terrain_.surface().faces[point.face].normal;
+        const DewExtent extent = options_.extent ? options_.extent(volume, normal) : ballOf(volume, normal);
+        double reach = 0.0;
+        for (const Vec3& axis : extent.axes) {
+            reach = std::max(reach, length(axis));
+        }
+        return {point, normal, volume, dewRadius(volume, angle), reach, point.place + extent.middle, extent.axes};
+    }
+
+    /// Ball of the cap that a droplet is without gravity, or below 90° about its base.
+    [[nodiscard]] DewExtent ballOf(double volume, Vec3 normal) const
+    {
+        const double angle = options_.forces.wetting.contact_angle;
         const double rise = angle > kRight ? -std::cos(angle) * capOf(volume, angle).radius : 0.0;
-        return {point, normal, volume, dewRadius(volume, angle), point.place + rise * normal};
+        const double radius = dewRadius(volume, angle);
+        return {rise * normal,
+                {radius * Vec3{1.0, 0.0, 0.0}, radius * Vec3{0.0, 1.0, 0.0}, radius * Vec3{0.0, 0.0, 1.0}}};
     }
 
     /// Volume of a droplet with a radius seen from above.
@@ -270,92 +316,78 @@ private:
         if (pinning_.isEven() || push <= pinning_.least() * forces.retention) {
             return push <= forces.retention;
         }
+        if (push > pinning_.most() * forces.retention) {
+            return false;
+        }
         // As for droplets that run: where hysteresis varies, it is that of the front half of the rim.
         const Vec3 ahead = (1.0 / pushed) * along;
         return push <=
                forces.retention * pinning_.over({drop.point.place, contact, ahead, cross(drop.normal, ahead)}).along;
     }
 
-    /// Middle of the part of a droplet's rim that is on the ground; empty if all of it is.
-    [[nodiscard]] std::optional<Vec3> inward(const Drop& drop) const
+    /// Where a droplet has to go of which a part would lie across an edge or the end of the surface.
+    [[nodiscard]] std::optional<Vec3> away(const Drop& drop) const
     {
-        if (!has_edges_) {
-            return std::nullopt;
-        }
-        const double contact = capOf(drop.volume, options_.forces.wetting.contact_angle).contact_radius;
-        const Vec3 n = drop.normal;
-        const Vec3 across = cross(n, std::abs(n.x) < 0.9 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0});
-        const Vec3 left = (1.0 / length(across)) * across;
-        const Vec3 ahead = cross(left, n);
-        Vec3 sum;
-        int found = 0;
-        for (int k = 0; k < kAround; ++k) {
-            const double angle = 2.0 * std::numbers::pi * k / kAround;
-            const Vec3 rim = drop.point.place + contact * (std::cos(angle) * ahead + std::sin(angle) * left);
-            const auto met = terrain_.firstAlong(rim + contact * n, -1.0 * n);
-            if (met && dot(met->place - rim, n) >= -contact) {
-                sum = sum + met->place;
-                ++found;
-            }
-        }
-        if (found == kAround) {
-            return std::nullopt;
-        }
-        return found > 0 ? (1.0 / found) * sum : drop.point.place;
+        const Vec3 middle = drop.centre - drop.point.place;
+        const double aside = length(middle - dot(middle, drop.normal) * drop.normal);
+        return awayFromEdge(terrain_, drop.point, aside + std::max(length(drop.axes[0]), length(drop.axes[1])));
     }
 
     /// @param joins  whether it becomes part of another one where it finds no room, or is not there at all
     void place(double radius, bool joins)
     {
         const int room_tries = joins ? 100 : 30;
-        constexpr int kSlopeTries = 200;
+        constexpr int kGroundTries = 200;
         constexpr std::uint64_t kMostInner = 10'000;  // tries, of an object that has nearly only inner sides
         const RandomStream random(options_.seed, RandomPurpose::Dew, 2 * placed_++ + 1);
         const double volume = volumeOf(radius);
         std::optional<std::size_t> met;
         std::uint64_t counter = 0;
         std::uint64_t inner = 0;
-        for (int room = 0, slope = 0; room < room_tries && slope < kSlopeTries;) {
+        int room = 0;
+        int slope = 0;
+        int edge = 0;
+        while (room < room_tries && slope + edge < kGroundTries) {
             const std::optional<FlowTerrain::Point> point = places_.pointOf(random, counter);
             if (!point) {
                 refuseObject();
             }
-            Drop drop = dropAt(*point, volume);
+            const Drop drop = dropAt(*point, volume);
             if (!isHeld(drop)) {
                 ++slope;
                 continue;
             }
-            const auto touched = grids_.touching(drop, drops_);
+            if (const auto touched = grids_.touching(drop, drops_)) {
+                met = touched;
+                ++room;
+                continue;
+            }
+            if (away(drop)) {
+                ++edge;
+                continue;
+            }
             // What takes rays comes last.
-            if (!touched && !options_.inside && !places_.isOutside(*point)) {
+            if (!options_.inside && !places_.isOutside(*point)) {
                 if (++inner == kMostInner) {
                     refuseObject();
                 }
                 continue;
             }
-            if (!touched && inward(drop)) {
-                ++slope;
-                continue;
-            }
-            met = touched;
-            if (!met) {
-                grids_.add(drops_.size(), drop);
-                drops_.push_back(drop);
-                return;
-            }
-            ++room;
+            grids_.add(drops_.size(), drop);
+            drops_.push_back(drop);
+            return;
         }
+        ++obstacles_[static_cast<std::size_t>(room == room_tries ? DewObstacle::Droplets
+                                              : edge > slope     ? DewObstacle::Edges
+                                                                 : DewObstacle::Slopes)];
         if (!met) {
-            ++result_.run_off;
-            return;
+            ++(edge > slope ? result_.between_edges : result_.run_off);
+        } else if (joins) {
+            ++result_.joined;
+            Drop grown = take(*met);
+            grown = dropAt(grown.point, grown.volume + volume);
+            settle(*met, grown);
         }
-        if (!joins) {
-            return;
-        }
-        ++result_.joined;
-        Drop grown = take(*met);
-        grown = dropAt(grown.point, grown.volume + volume);
-        settle(*met, grown);
     }
 
     /// Takes a droplet off the surface.
@@ -365,12 +397,12 @@ private:
         return std::exchange(drops_[k], {});
     }
 
-    /// Puts a droplet that has grown back; it joins those that it touches, and withdraws from where the surface ends.
-    /// One that is too large runs off.
+    /// Puts a droplet that has grown back; it joins those that it touches, and withdraws from edges. One that is too
+    /// large runs off.
     void settle(std::size_t k, Drop drop)
     {
         constexpr int kMostMoves = 8;
-        std::optional<Vec3> away;
+        std::optional<Vec3> there;
         for (int moves = 0; moves <= kMostMoves; ++moves) {
             while (const auto other = grids_.touching(drop, drops_)) {
                 const Drop second = take(*other);
@@ -380,29 +412,33 @@ private:
                 drop = dropAt(terrain_.nearest(middle), volume);
                 ++result_.joined;
             }
-            away = inward(drop);
-            if (!away) {
+            there = away(drop);
+            if (!there) {
                 break;
             }
-            drop = dropAt(terrain_.nearest(*away), drop.volume);
+            drop = dropAt(terrain_.nearest(*there), drop.volume);
         }
-        if (!away && isHeld(drop)) {
+        if (there) {
+            ++result_.between_edges;
+        } else if (!isHeld(drop)) {
+            ++result_.run_off;
+        } else {
             grids_.add(k, drop);
             drops_[k] = drop;
-        } else {
-            ++result_.run_off;
         }
     }
 
     const FlowTerrain& terrain_;
     const DewOptions& options_;
+    const Progress& progress_;
     Places places_;
     PinningField pinning_;
-    bool has_edges_;  ///< the surface ends somewhere
     Grids grids_;
-    std::size_t next_radius_ = 0;  ///< number of radii drawn
-    std::uint64_t placed_ = 0;     ///< number of radii that were given a place
-    std::vector<Drop> drops_;      ///< without volume: joined another one
+    std::size_t next_radius_ = 0;             ///< number of radii drawn
+    std::uint64_t placed_ = 0;                ///< number of radii that were given a place
+    std::array<std::size_t, 4> obstacles_{};  ///< droplets of this round without a place, by DewObstacle
+    std::vector<Drop> drops_;                 ///< without volume: joined another one
+    double reported_ = 0.0;                   ///< share
     DewDroplets result_;
 };
 
@@ -432,10 +468,13 @@ double dewRadius(double volume, double contact_angle)
     return contact_angle > kRight ? cap.radius : cap.contact_radius;
 }
 
-DewDroplets dewDroplets(const FlowTerrain& terrain, const DewOptions& options)
+DewDroplets dewDroplets(const FlowTerrain& terrain, const DewOptions& options, const Progress& progress)
 {
     options.validate();
-    return Dew(terrain, options).make();
+    if (progress) {
+        progress(Stage::Solve, 0.0);
+    }
+    return Dew(terrain, options, progress).make();
 }
 
 }  // namespace droplet

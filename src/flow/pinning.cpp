@@ -24,6 +24,11 @@ double PinningField::least() const
     return factor(-1.0);
 }
 
+double PinningField::most() const
+{
+    return factor(1.0);
+}
+
 double PinningField::factor(double random) const
 {
     return std::exp(pinning_.spread * (random / kSmoothRandomDeviation) - 0.5 * pinning_.spread * pinning_.spread);

@@ -35,6 +35,9 @@ public:
     /// Smallest factor anywhere.
     [[nodiscard]] double least() const;
 
+    /// Largest factor anywhere.
+    [[nodiscard]] double most() const;
+
     /// Integral over the front half of the contact line.
     [[nodiscard]] PinningHold over(const ContactFront& front) const;
 

@@ -85,15 +85,15 @@ BodyDetail detailOf(double volume, DewDetail detail)
     return kDetails[detail == DewDetail::High ? step + 1 : step];
 }
 
-Kind kindOf(const FlowSample& sample, Vec3 gravity, DewDetail detail)
+Kind kindOf(double volume, Vec3 normal, Vec3 gravity, DewDetail detail)
 {
     Kind kind;
-    kind.detail = detailOf(sample.volume, detail);
-    if (sample.volume <= kLeastVolume || length(gravity) == 0.0) {
+    kind.detail = detailOf(volume, detail);
+    if (volume <= kLeastVolume || length(gravity) == 0.0) {
         return kind;
     }
-    kind.volume = 1 + static_cast<int>(std::floor(std::log(sample.volume / kLeastVolume) / std::log(kVolumeStep)));
-    const double up = -dot(gravity, sample.normal) / length(gravity);
+    kind.volume = 1 + static_cast<int>(std::floor(std::log(volume / kLeastVolume) / std::log(kVolumeStep)));
+    const double up = -dot(gravity, normal) / length(gravity);
     kind.slope = static_cast<int>(std::lround(std::acos(std::clamp(up, -1.0, 1.0)) / kSlopeStep));
     return kind;
 }
@@ -118,6 +118,18 @@ struct SharedMesh {
         const double base = half.x * half.y;
         return std::sqrt(base) * unit * base / volume;
     }
+};
+
+SharedMesh sharedMesh(const DropletBodies& bodies, const Kind& kind, double gravity, double unit)
+{
+    const BodyConditions conditions = meanOf(kind, gravity);
+    return {unitBody(bodies, conditions, kind.detail, unit), conditions.volume, halfSizes(bodies, conditions)};
+}
+
+/// Ellipsoid along the axes of a frame.
+struct Ellipsoid {
+    Vec3 middle;
+    Vec3 half;
 };
 
 /// Whether a seated droplet still looks like one.
@@ -269,6 +281,55 @@ void append(const DropletShape& shape, const std::vector<Triangle>& triangles, D
 
 }  // namespace
 
+std::function<DewExtent(double volume, Vec3 normal)> dewExtents(const DropletBodies& bodies, Vec3 gravity,
+                                                                DewDetail detail)
+{
+    const double unit = unitVolume(bodies);
+    // Meshes of a kind are scaled alike: that of 1 m³, in the droplet's frame.
+    const auto box_of = [&bodies, gravity, unit](const Kind& kind) {
+        const SharedMesh shared = sharedMesh(bodies, kind, length(gravity), unit);
+        const Vec2 half = (1.0 / std::cbrt(shared.volume)) * shared.half;
+        std::vector<Vec3> vertices = shared.mesh.vertices;
+        for (Vec3& p : vertices) {
+            p = {half.x * p.x, half.y * p.y, p.z / (unit * half.x * half.y)};
+        }
+        const auto [low, high] = cornersOf(vertices);
+        Ellipsoid around{{0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.0}, 0.5 * (high - low)};
+        double widest = 0.0;
+        for (const Vec3 p : vertices) {
+            const double wide =
+                std::hypot((p.x - around.middle.x) / around.half.x, (p.y - around.middle.y) / around.half.y);
+            if (wide > widest) {
+                widest = wide;
+                around.middle.z = p.z;
+            }
+        }
+        around.half.z = std::max(high.z - around.middle.z, around.middle.z);
+        double most = 0.0;
+        for (const Vec3 p : vertices) {
+            const Vec3 d = p - around.middle;
+            most = std::max(most, length(Vec3{d.x / around.half.x, d.y / around.half.y, d.z / around.half.z}));
+        }
+        around.half = most * around.half;
+        return around;
+    };
+    return [box_of, gravity, detail, known = std::map<Kind, Ellipsoid>{}](double volume, Vec3 normal) mutable {
+        const Kind kind = kindOf(volume, normal, gravity, detail);
+        auto found = known.find(kind);
+        if (found == known.end()) {
+            found = known.emplace(kind, box_of(kind)).first;
+        }
+        FlowSample sample;
+        sample.normal = normal;
+        const DropletFrame frame = droplet::frameOf(sample, gravity);
+        const double size = std::cbrt(volume);
+        const Vec3 middle = size * found->second.middle;
+        const Vec3 half = size * found->second.half;
+        return DewExtent{middle.x * frame.ahead + middle.y * frame.left + middle.z * frame.normal,
+                         {half.x * frame.ahead, half.y * frame.left, half.z * frame.normal}};
+    };
+}
+
 struct DewModel::Content {
     std::map<Kind, SharedMesh> shared = {};
     std::vector<const std::pair<const Kind, SharedMesh>*> kinds = {};  ///< of every droplet
@@ -343,16 +404,14 @@ DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> sampl
     Content& content = *content_;
     const double unit = unitVolume(bodies);
     for (const FlowSample& sample : samples) {
-        content.shared.try_emplace(kindOf(sample, gravity, detail));
+        content.shared.try_emplace(kindOf(sample.volume, sample.normal, gravity, detail));
     }
     std::vector<std::pair<const Kind, SharedMesh>*> all;
     for (auto& entry : content.shared) {
         all.push_back(&entry);
     }
     tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
-        const BodyConditions conditions = meanOf(all[k]->first, length(gravity));
-        all[k]->second = {unitBody(bodies, conditions, all[k]->first.detail, unit), conditions.volume,
-                          halfSizes(bodies, conditions)};
+        all[k]->second = sharedMesh(bodies, all[k]->first, length(gravity), unit);
     });
     content.kinds.resize(samples.size());
     content.poses.resize(samples.size());
@@ -361,7 +420,7 @@ DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> sampl
     std::vector<char> fits(samples.size(), 0);
     tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
         const FlowSample& sample = samples[i];
-        const auto* const kind = &*content.shared.find(kindOf(sample, gravity, detail));
+        const auto* const kind = &*content.shared.find(kindOf(sample.volume, sample.normal, gravity, detail));
         const double factor = std::cbrt(sample.volume / kind->second.volume);
         const Vec2 half = factor * kind->second.half;
         DropletPose& pose = content.poses[i];

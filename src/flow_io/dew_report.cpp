@@ -39,9 +39,11 @@ void writeDewReport(std::ostream& out, const DewReport& report)
     }
     json["forces"] = forcesSection(options.forces);
     json["forces"]["gravity_m_per_s2"] = vectorOf(options.gravity);
-    json["droplets"] = {{"count", report.droplets},     {"volume_m3", report.volume},    {"area_m2", report.area},
-                        {"covered_m2", report.covered}, {"smallest_m", report.smallest}, {"largest_m", report.largest},
-                        {"joined", report.joined},      {"run_off", report.run_off},     {"left_out", report.left_out}};
+    json["droplets"] = {
+        {"count", report.droplets},     {"volume_m3", report.volume},    {"area_m2", report.area},
+        {"covered_m2", report.covered}, {"smallest_m", report.smallest}, {"largest_m", report.largest},
+        {"joined", report.joined},      {"run_off", report.run_off},     {"between_edges", report.between_edges},
+        {"left_out", report.left_out}};
     addRunSection(json, {report.warnings, report.time_total, report.peak_memory});
     writeReportJson(out, json);
 }

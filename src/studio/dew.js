@@ -449,11 +449,12 @@ function wordsOf({ droplets }) {
 }
 
 function rowsOf({ input, droplets, forces }, solve_ms) {
-    const { count, volume_m3, smallest_m, largest_m, joined, run_off, left_out, covered_m2, area_m2 } = droplets;
+    const { count, volume_m3, smallest_m, largest_m, joined, run_off, between_edges, left_out, covered_m2, area_m2 } = droplets;
     return [
         ['Droplets', counted(count)], ['Volume', volume(volume_m3)], ['Covered', `${digits(100 * covered_m2 / area_m2, 3)}\u2009%`],
         ['Radii', `${length(smallest_m)} to ${length(largest_m)}`], ['Contact angle', `${digits(forces.contact_angle_deg)}°`],
-        ['Joined others', counted(joined)], ['Ran off', counted(run_off)], ['Left out', counted(left_out)],
+        ['Joined others', counted(joined)], ['Ran off', counted(run_off)], ['Too large between edges', counted(between_edges)],
+        ['Left out', counted(left_out)],
         ['Triangles of the object', counted(input.triangles)], ['Time', `${digits(solve_ms / 1000, 2)}\u00a0s`],
     ];
 }

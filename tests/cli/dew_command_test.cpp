@@ -181,6 +181,37 @@ TEST_F(DewCommand, ItsReportIsThatOfItsTable)
     EXPECT_EQ(report["sizes"]["median_m"], nullptr);
 }
 
+TEST_F(DewCommand, ProgressAsJsonHasStagesAndShares)
+{
+    const CommandResult result = dew("wet.glb", {"--progress", "json"});
+    EXPECT_EQ(result.exit_code, 0);
+    std::vector<std::string> begun;
+    std::vector<std::string> done;
+    std::vector<double> shares;
+    for (const std::string& line : result.errorLines()) {
+        const auto event = nlohmann::json::parse(line);
+        if (event.contains("share")) {
+            EXPECT_EQ(event["stage"], "solve");
+            shares.push_back(event["share"]);
+        } else {
+            (event["done"].get<bool>() ? done : begun).push_back(event["stage"]);
+        }
+    }
+    EXPECT_THAT(begun, ::testing::ElementsAre("read", "solve", "loft", "write"));
+    EXPECT_THAT(done, ::testing::ElementsAre("write"));
+    EXPECT_GE(shares.size(), 50U);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(dew("a.glb", {"-q"}).error, "");
+}
+
+TEST_F(DewCommand, WarnsOfLessCoverageWithItsCause)
+{
+    EXPECT_THAT(dew("a.glb", {"--coverage", "0.7", "--smallest", "0.9mm", "--largest", "1mm"}).error,
+                HasSubstr("no room between the others; give a --smallest that is less"));
+    EXPECT_THAT(dew("a.glb", {"--smallest", "2mm", "--largest", "4mm", "--gravity-direction", "1,0,0"}).error,
+                HasSubstr("run off slopes; give smaller ones, or more --hysteresis"));
+}
+
 TEST_F(DewCommand, ReadsAConfiguration)
 {
     testing::writeFile(path("dew.toml"), "preset = \"mist\"\ncoverage = 0.05\nquiet = true\n");
@@ -195,7 +226,10 @@ TEST_F(DewCommand, RefusesWhatCannotBe)
     expectRefused("x.glb", {"--preset", "fog"}, 2, "dew|rain|bottle|shower|mist");
     expectRefused("x.glb", {"--coverage", "0.9"}, 2, "from 0.001 to 0.7");
     expectRefused("x.glb", {"--median", "1mm"}, 2, "--median needs --sizes lognormal");
-    expectRefused("x.glb", {"--smallest", "2mm", "--largest", "1mm"}, 2, "--largest must not be less than --smallest");
+    expectRefused("x.glb", {"--smallest", "2mm", "--largest", "1mm"}, 2,
+                  "--smallest: '2mm' must be at most --largest, 1mm");
+    expectRefused("x.glb", {"--preset", "mist", "--smallest", "0.6mm"}, 2,
+                  "--smallest: '0.6mm' must be at most --largest, which is 0.5mm by --preset mist");
     expectRefused("x.glb", {"--sizes", "equal"}, 2, "condensation or lognormal");
     expectRefused("x.obj", {"--instancing", "gpu"}, 2, "--instancing needs a .glb");
     expectRefused("x.usda", {"--instancing", "gpu"}, 2, "--instancing gpu needs a .glb or .gltf");

@@ -415,8 +415,16 @@ TEST_F(FlowCommand, RefusesWhatItCannotUse)
     expectRefused({"--drops", "3", "--volume", "20"}, 2, "--volume");
     expectRefused({"--drops", "3", "--from", "0,0"}, 2, "--from");
     expectRefused({"--drops", "3", "--from", "0,-1,0"}, 3, "--drops");
-    expectRefused({"--drops", "3", "--spin", "30deg"}, 2, "--spin");
-    expectRefused({"--emitter", "0,1,0"}, 2, "--emitter");
+    for (const std::string spin : {"30deg", "30", "fast/s", "30deg/day", "30mm/s", "1e6rad/s"}) {
+        expectRefused({"--drops", "3", "--spin", spin}, 2,
+                      "--spin: '" + spin + "' must be an angle per s, min or h, such as 30deg/s");
+    }
+    for (const std::string emitter :
+         {"0,1,0", "0,1", "", "5uL/s", "0,1,0,5uL", "0,1,0,5", "a,1,0,5uL/s", "0,1,0,0,5uL/s", "0,2000,0,5uL/s",
+          "0,1,0,20L/s", "0,1,0,-5uL/s", "0,1,0,5mm/s"}) {
+        expectRefused({"--emitter", emitter}, 2,
+                      "--emitter: '" + emitter + "' must be X,Y,Z,RATE such as 0,0.1,0,50uL/s");
+    }
     expectRefused({"--start", path("no.csv")}, 3, "no.csv");
     expectRefused({"--drops", "3", "--object-size", "20mm", "--volume", "1L"}, 2, "the object");
     expectRefused({"--drops", "3", "--json", path("slope.obj")}, 2, "slope.obj");

@@ -275,10 +275,69 @@ TEST(Dew, KeepsOffTheEndOfTheSurface)
     for (const FlowSample& sample : dew.samples) {
         const double contact = capOf(sample.volume, options.forces.wetting.contact_angle).contact_radius;
         const Vec3 p = sample.place;
-        // Rims are looked for at every eighth of a turn.
+        // Rims are looked for at every sixteenth of a turn.
         EXPECT_GT(std::min({p.x, p.y, (0.02 - p.x - p.y) / std::sqrt(2.0)}), 0.9 * contact);
     }
     expectApart(dew, options);
+}
+
+TEST(Dew, SaysWhatIsInTheWay)
+{
+    DewOptions options;
+    options.coverage = 0.05;
+    EXPECT_EQ(dewDroplets(plane(0.05, 0.05), options).obstacle, DewObstacle::None);
+    options.coverage = 0.7;
+    options.smallest = 0.9e-3;
+    options.largest = 1e-3;
+    EXPECT_EQ(dewDroplets(plane(0.03, 0.03), options).obstacle, DewObstacle::Droplets);
+    const DewDroplets strip = dewDroplets(plane(1.5e-3, 0.1), options);
+    EXPECT_EQ(strip.obstacle, DewObstacle::Edges);
+    EXPECT_TRUE(strip.samples.empty()) << "it is narrower than a droplet";
+    EXPECT_GT(strip.between_edges, 10U);
+    EXPECT_EQ(strip.run_off, 0U);
+    options.smallest = 4e-3;
+    options.largest = 5e-3;
+    const DewDroplets wall = dewDroplets(plane(0.1, 0.1, 90.0 * kDegree), options);
+    EXPECT_EQ(wall.obstacle, DewObstacle::Slopes);
+    EXPECT_GT(wall.run_off, 10U);
+    EXPECT_EQ(wall.between_edges, 0U);
+}
+
+TEST(Dew, ExtentsKeepDropletsApart)
+{
+    // Twice as long as wide.
+    DewOptions options;
+    options.extent = [&](double volume, Vec3 normal) {
+        const double radius = dewRadius(volume, options.forces.wetting.contact_angle);
+        return DewExtent{{}, {Vec3{2.0 * radius, 0.0, 0.0}, Vec3{0.0, radius, 0.0}, radius * normal}};
+    };
+    options.coverage = 0.2;
+    const DewDroplets dew = dewDroplets(plane(0.03, 0.03), options);
+    EXPECT_NEAR(dew.covered / dew.area, options.coverage, 0.01) << "what they cover is not what they keep free";
+    std::size_t beside = 0;
+    for (std::size_t i = 0; i < dew.samples.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            const Vec3 apart = dew.samples[i].place - dew.samples[k].place;
+            const double sum = radiusOf(dew.samples[i], options) + radiusOf(dew.samples[k], options);
+            EXPECT_GE(std::hypot(0.5 * apart.x, apart.y), 0.999 * sum);
+            beside += length(apart) < 1.5 * sum ? 1 : 0;
+        }
+    }
+    EXPECT_GT(beside, 10U) << "they come near across their length";
+}
+
+TEST(Dew, ReportsItsProgress)
+{
+    std::vector<double> shares;
+    dewDroplets(plane(0.03, 0.03), {}, [&](Stage stage, double share) {
+        EXPECT_EQ(stage, Stage::Solve);
+        shares.push_back(share);
+    });
+    ASSERT_GT(shares.size(), 50U);
+    EXPECT_EQ(shares.front(), 0.0);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_GT(shares.back(), 0.98);
+    EXPECT_LE(shares.back(), 1.0);
 }
 
 TEST(Dew, InnerSidesAreDryUnlessAskedFor)

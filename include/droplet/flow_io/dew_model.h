@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "droplet/body/droplet_body.h"
+#include "droplet/flow/dew.h"
 #include "droplet/flow/flow.h"
 #include "droplet/flow/flow_terrain.h"
 #include "droplet/flow_io/flow_object.h"
@@ -41,6 +43,13 @@ struct DewFile {
     Instancing instancing = Instancing::Auto;  ///< how droplets share meshes
     bool has_object = true;                    ///< whether the file has the object, too
 };
+
+/// DewOptions::extent of the meshes that DewModel has: those of large droplets are flat, and lean out on slopes.
+/// @param bodies   their shapes; must outlive the result
+/// @param gravity  in the object's frame [m/s²]
+/// @param detail   of the meshes
+std::function<DewExtent(double volume, Vec3 normal)> dewExtents(const DropletBodies& bodies, Vec3 gravity,
+                                                                DewDetail detail = DewDetail::Medium);
 
 /// Meshes of droplets at rest on an object.
 ///

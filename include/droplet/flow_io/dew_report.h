@@ -29,7 +29,8 @@ struct DewReport {
     double largest = 0.0;               ///< of the largest droplet [m]
     std::size_t droplets = 0;           ///< that the file has
     std::size_t joined = 0;             ///< that found no room and became part of others
-    std::size_t run_off = 0;            ///< that no place holds
+    std::size_t run_off = 0;            ///< that no slope holds
+    std::size_t between_edges = 0;      ///< that find no place clear of the object's edges
     std::size_t left_out = 0;           ///< below which the object bends too much
     std::vector<std::string> warnings;  ///< all warnings of the run
     double time_total = 0.0;            ///< run time [s]
