@@ -3,7 +3,7 @@
 // Radii are drawn until they cover enough, and placed from large to small, so that small droplets fill what large ones
 // leave (random sequential adsorption). Those that no slope holds, those that are too large between edges, and those
 // that others took up, leave room: more are drawn for it, until the object is covered or they find none. Droplets lie
-// in a grid for each power of two of their radius: a search looks into few cells, however different the sizes are.
+// in a grid for each power of four of their reach: a search looks into few cells, however different the sizes are.
 // Volumes of joined droplets add up.
 #include "droplet/flow/dew.h"
 
@@ -40,39 +40,38 @@ struct Drop {
     std::array<Vec3, 3> axes{};  ///< of that
 };
 
-/// Droplets by place, with a grid for each power of two of their reach.
+/// Droplets by place, with a grid for each power of four of their reach.
 class Grids {
 public:
     /// @param smallest  radius
     explicit Grids(double smallest) : smallest_(smallest) {}
 
-    void add(std::size_t k, const Drop& drop) { cellOf(drop).push_back(k); }
-    void remove(std::size_t k, const Drop& drop) { std::erase(cellOf(drop), k); }
+    void add(std::size_t k, const Drop& drop) { cellOf(drop).push_back({drop.centre, drop.reach, k}); }
+    void remove(std::size_t k, const Drop& drop)
+    {
+        std::erase_if(cellOf(drop), [&](const Entry& entry) { return entry.drop == k; });
+    }
+
+    /// Whether a droplet touches any other one.
+    [[nodiscard]] bool isTouched(const Drop& drop, const std::vector<Drop>& all) const
+    {
+        // Large ones first: most of the ground is theirs.
+        return std::any_of(grids_.rbegin(), grids_.rend(), [&](const auto& level) {
+            return !visit(drop, level, [&](std::size_t k) { return !touch(drop, all[k]); });
+        });
+    }
 
     /// A droplet that touches another one; of several, the first that was placed.
     [[nodiscard]] std::optional<std::size_t> touching(const Drop& drop, const std::vector<Drop>& all) const
     {
         std::optional<std::size_t> met;
-        for (const auto& [level, grid] : grids_) {
-            const double side = sideOf(level);
-            const double reach = drop.reach + 0.5 * side;
-            const Cell low = at(drop.centre - reach * Vec3{1.0, 1.0, 1.0}, side);
-            const Cell high = at(drop.centre + reach * Vec3{1.0, 1.0, 1.0}, side);
-            for (Cell c = low; c[0] <= high[0]; ++c[0]) {
-                for (c[1] = low[1]; c[1] <= high[1]; ++c[1]) {
-                    for (c[2] = low[2]; c[2] <= high[2]; ++c[2]) {
-                        const auto found = grid.find(c);
-                        if (found == grid.end()) {
-                            continue;
-                        }
-                        for (const std::size_t k : found->second) {
-                            if ((!met || k < *met) && touch(drop, all[k])) {
-                                met = k;
-                            }
-                        }
-                    }
+        for (const auto& level : grids_) {
+            visit(drop, level, [&](std::size_t k) {
+                if ((!met || k < *met) && touch(drop, all[k])) {
+                    met = k;
                 }
-            }
+                return true;
+            });
         }
         return met;
     }
@@ -82,20 +81,57 @@ private:
     struct Hash {
         std::size_t operator()(const Cell& c) const
         {
-            return static_cast<std::size_t>(
-                mix(mix(mix(static_cast<std::uint64_t>(c[0])) + static_cast<std::uint64_t>(c[1])) +
-                    static_cast<std::uint64_t>(c[2])));
+            constexpr std::array<std::uint64_t, 3> kStrides{0x9E3779B97F4A7C15U, 0xC2B2AE3D27D4EB4FU,
+                                                            0x165667B19E3779F9U};
+            return static_cast<std::size_t>(static_cast<std::uint64_t>(c[0]) * kStrides[0] +
+                                            static_cast<std::uint64_t>(c[1]) * kStrides[1] +
+                                            static_cast<std::uint64_t>(c[2]) * kStrides[2]);
         }
     };
-    using Grid = std::unordered_map<Cell, std::vector<std::size_t>, Hash>;
+    /// Ball that has a droplet.
+    struct Entry {
+        Vec3 centre;
+        double reach = 0.0;
+        std::size_t drop = 0;
+    };
+    using Grid = std::unordered_map<Cell, std::vector<Entry>, Hash>;
+    static constexpr double kRatio = 4.0;  // of levels' sizes
+
+    /// Visits droplets of a level whose balls touch that of one, until a function returns false.
+    /// @return  whether all were visited
+    template <typename Function>
+    bool visit(const Drop& drop, const std::pair<const int, Grid>& level, const Function& function) const
+    {
+        const double side = sideOf(level.first);
+        const double reach = drop.reach + 0.5 * side;
+        const Cell low = at(drop.centre - reach * Vec3{1.0, 1.0, 1.0}, side);
+        const Cell high = at(drop.centre + reach * Vec3{1.0, 1.0, 1.0}, side);
+        for (Cell c = low; c[0] <= high[0]; ++c[0]) {
+            for (c[1] = low[1]; c[1] <= high[1]; ++c[1]) {
+                for (c[2] = low[2]; c[2] <= high[2]; ++c[2]) {
+                    const auto found = level.second.find(c);
+                    if (found == level.second.end()) {
+                        continue;
+                    }
+                    for (const Entry& entry : found->second) {
+                        const Vec3 way = entry.centre - drop.centre;
+                        const double sum = entry.reach + drop.reach;
+                        if (dot(way, way) < sum * sum && !function(entry.drop)) {
+                            return false;
+                        }
+                    }
+                }
+            }
+        }
+        return true;
+    }
 
     /// Whether no plane across the way between their centres lies between two droplets. Those on the two sides of a
     /// thin part do not touch.
     static bool touch(const Drop& a, const Drop& b)
     {
         const Vec3 way = b.centre - a.centre;
-        const double square = dot(way, way);
-        if (square >= (a.reach + b.reach) * (a.reach + b.reach) || dot(a.normal, b.normal) <= -0.5) {
+        if (dot(a.normal, b.normal) <= -0.5) {
             return false;
         }
         const auto along = [&](const Drop& drop) {
@@ -105,10 +141,10 @@ private:
             }
             return std::sqrt(sum);
         };
-        return square < along(a) + along(b);
+        return dot(way, way) < along(a) + along(b);
     }
 
-    [[nodiscard]] double sideOf(int level) const { return 2.0 * std::ldexp(smallest_, level); }
+    [[nodiscard]] double sideOf(int level) const { return 2.0 * smallest_ * std::pow(kRatio, level); }
 
     static Cell at(Vec3 p, double side)
     {
@@ -116,10 +152,10 @@ private:
                 static_cast<std::int64_t>(std::floor(p.z / side))};
     }
 
-    std::vector<std::size_t>& cellOf(const Drop& drop)
+    std::vector<Entry>& cellOf(const Drop& drop)
     {
         int level = 0;
-        while (std::ldexp(smallest_, level) < drop.reach) {
+        while (0.5 * sideOf(level) < drop.reach) {
             ++level;
         }
         return grids_[level][at(drop.centre, sideOf(level))];
@@ -341,7 +377,7 @@ private:
         constexpr std::uint64_t kMostInner = 10'000;  // tries, of an object that has nearly only inner sides
         const RandomStream random(options_.seed, RandomPurpose::Dew, 2 * placed_++ + 1);
         const double volume = volumeOf(radius);
-        std::optional<std::size_t> met;
+        std::optional<Drop> crowded;  // where it found no room last
         std::uint64_t counter = 0;
         std::uint64_t inner = 0;
         int room = 0;
@@ -357,8 +393,8 @@ private:
                 ++slope;
                 continue;
             }
-            if (const auto touched = grids_.touching(drop, drops_)) {
-                met = touched;
+            if (grids_.isTouched(drop, drops_)) {
+                crowded = drop;
                 ++room;
                 continue;
             }
@@ -380,13 +416,14 @@ private:
         ++obstacles_[static_cast<std::size_t>(room == room_tries ? DewObstacle::Droplets
                                               : edge > slope     ? DewObstacle::Edges
                                                                  : DewObstacle::Slopes)];
-        if (!met) {
+        if (!crowded) {
             ++(edge > slope ? result_.between_edges : result_.run_off);
         } else if (joins) {
             ++result_.joined;
-            Drop grown = take(*met);
+            const std::size_t met = *grids_.touching(*crowded, drops_);
+            Drop grown = take(met);
             grown = dropAt(grown.point, grown.volume + volume);
-            settle(*met, grown);
+            settle(met, grown);
         }
     }
 
