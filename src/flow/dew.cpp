@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <string>
@@ -221,14 +222,20 @@ private:
         constexpr double kLeast = 0.1;  // of what is missing, that a round adds
         constexpr double kSmall = 1.2;  // radius over the smallest, of which droplets are all alike
         constexpr int kMostRounds = 30;
-        const double wanted = options_.coverage * result_.area;
-        double missing = wanted;
+        // What ground holds no droplet at all is not covered by more elsewhere.
+        const double held = heldShare();
+        const double wanted = held * options_.coverage * result_.area;
+        double missing = options_.coverage * result_.area;
         double largest = options_.largest;
         for (int round = 0; round < kMostRounds && missing > kNear * wanted; ++round) {
             obstacles_ = {};
             const std::vector<double> radii = drawn(missing, largest);
             for (std::size_t k = 0; k < radii.size(); ++k) {
-                place(radii[k], round == 0);
+                if (round == 0 && held < 1.0 && runsOff(held)) {
+                    ++result_.run_off;
+                } else {
+                    place(radii[k], round == 0);
+                }
                 if (round == 0) {
                     report(static_cast<double>(k + 1) / static_cast<double>(radii.size()));
                 }
@@ -239,6 +246,9 @@ private:
             for (const Drop& drop : drops_) {
                 covered += std::numbers::pi * drop.radius * drop.radius;
             }
+            if (held < 1.0 - kNear) {
+                result_.obstacle = DewObstacle::Slopes;
+            }
             const double left = wanted - covered;
             if (left > (1.0 - kLeast) * missing && largest <= kSmall * options_.smallest) {
                 return;
@@ -247,6 +257,33 @@ private:
             // Smaller ones stay where those ran off, and fit between those that are there.
             largest = std::max(0.5 * largest, options_.smallest);
         }
+    }
+
+    /// Share of the ground that holds the smallest droplets.
+    [[nodiscard]] double heldShare() const
+    {
+        constexpr int kPoints = 4096;
+        const RandomStream random(options_.seed, RandomPurpose::Dew, std::numeric_limits<std::uint64_t>::max());
+        const double volume = volumeOf(options_.smallest);
+        std::uint64_t counter = 0;
+        int held = 0;
+        for (int k = 0; k < kPoints; ++k) {
+            const auto point = places_.pointOf(random, counter);
+            if (!point) {
+                refuseObject();
+            }
+            held += isHeld(dropAt(*point, volume)) ? 1 : 0;
+        }
+        return static_cast<double>(held) / kPoints;
+    }
+
+    /// Whether the next droplet is one for ground that holds none.
+    bool runsOff(double held)
+    {
+        constexpr std::uint64_t kCounter = std::numeric_limits<std::uint64_t>::max();  // place() begins with 0
+        const bool runs = RandomStream(options_.seed, RandomPurpose::Dew, 2 * placed_ + 1).uniform(kCounter) >= held;
+        placed_ += runs ? 1 : 0;
+        return runs;
     }
 
     /// Reports a share of the first round, which has nearly all droplets.
@@ -413,9 +450,9 @@ private:
             drops_.push_back(drop);
             return;
         }
-        ++obstacles_[static_cast<std::size_t>(room == room_tries ? DewObstacle::Droplets
-                                              : edge > slope     ? DewObstacle::Edges
-                                                                 : DewObstacle::Slopes)];
+        ++obstacles_[static_cast<std::size_t>(room > std::max(edge, slope) ? DewObstacle::Droplets
+                                              : edge > slope               ? DewObstacle::Edges
+                                                                           : DewObstacle::Slopes)];
         if (!crowded) {
             ++(edge > slope ? result_.between_edges : result_.run_off);
         } else if (joins) {

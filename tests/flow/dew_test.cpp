@@ -303,6 +303,26 @@ TEST(Dew, SaysWhatIsInTheWay)
     EXPECT_EQ(wall.between_edges, 0U);
 }
 
+// A level square, and a wall as large, neither of which has room for all.
+TEST(Dew, WithoutHysteresisWallsAreDryAndLevelGroundIsNotFlooded)
+{
+    testing::Sheet level;
+    level.place = [](Vec2 uv) { return Vec3{0.03 * uv.x, 0.03 * uv.y, 0.0}; };
+    level.turned = true;
+    testing::Sheet wall;
+    wall.place = [](Vec2 uv) { return Vec3{0.03 * uv.x, 0.05, 0.03 * uv.y}; };
+    const TexturedMesh mesh = testing::together(testing::meshOf(level), testing::meshOf(wall));
+    const FlowTerrain terrain(flowSurface(mesh.vertices, mesh.triangles));
+    DewOptions options;
+    options.forces.wetting.hysteresis = 0.0;
+    const DewDroplets dew = dewDroplets(terrain, options);
+    EXPECT_TRUE(std::all_of(dew.samples.begin(), dew.samples.end(),
+                            [](const FlowSample& sample) { return sample.place.z < 1e-9; }));
+    EXPECT_NEAR(dew.covered / (0.5 * dew.area), options.coverage, 0.02) << "as if the level square were alone";
+    EXPECT_EQ(dew.obstacle, DewObstacle::Slopes);
+    EXPECT_GT(dew.run_off, dew.samples.size() / 3) << "as many as fall on the wall";
+}
+
 TEST(Dew, ExtentsKeepDropletsApart)
 {
     // Twice as long as wide.

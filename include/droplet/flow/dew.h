@@ -87,7 +87,7 @@ double dewRadius(double volume, double contact_angle);
 /// hysteresis, or surface tension below an overhang, as for droplets that run. None hangs over the end of the surface,
 /// and no contact line crosses a sharp edge, where Gibbs' condition would hold it: both ends of an edge of over 50°,
 /// and what lies farther off the droplet's plane than a ridge of 37° below its middle. More are placed as long as the
-/// coverage is not reached and they find room.
+/// coverage is not reached and they find room. The share of it that falls to ground that holds no droplet runs off.
 ///
 /// Guarantees: the same options give the same droplets.
 /// @param terrain  the object
