@@ -100,7 +100,7 @@ struct FlowPainter::Content {
             render.stand_materials = std::move(own.materials);
             render.shows_room = isSeenThrough();
         }
-        render.stand_openness = opennessOf(stand, clearFaces());
+        render.stand_openness = openness();
         stand.uvs = own.uvs.empty() ? std::vector<Vec2>(stand.vertices.size()) : std::move(own.uvs);
         water.divisions.resize(stand.triangles.size());
         water.first.resize(stand.triangles.size());
@@ -128,6 +128,12 @@ struct FlowPainter::Content {
             clear.push_back(options.render.stand_looks[material].clearness() > 0.5);
         }
         return clear;
+    }
+
+    // Light past the object itself. Where it is open, backs are seen.
+    [[nodiscard]] StandOpenness openness() const
+    {
+        return opennessOf(stand, {clearFaces(), terrain->surface().report.boundary_edges > 0});
     }
 
     // Whether most of the object, by area, lets light pass.
@@ -207,7 +213,7 @@ void FlowPainter::reshape(const FlowObject& object, const FlowTerrain& terrain)
     FlowObject own = onFaces(object, terrain.surface());
     c.stand.vertices = std::move(own.vertices);
     c.stand.normals = std::move(own.normals);
-    c.options.render.stand_openness = opennessOf(c.stand, c.clearFaces());
+    c.options.render.stand_openness = c.openness();
 }
 
 Picture FlowPainter::picture(const FlowMoment& moment, std::span<const FlowSample> samples, const Surface& droplets)

@@ -3,16 +3,22 @@
 
 #include <vector>
 
+#include "droplet/render/stand_openness.h"
 #include "droplet/surface/textured_mesh.h"
 
 namespace droplet {
 
-/// Share of even light from all around that reaches each vertex of an object past the object itself.
+/// What openness depends on besides the object.
+struct OpennessOptions {
+    std::vector<bool> is_clear = {};  ///< whether light passes a triangle, for each triangle; empty: it passes none
+    bool has_backs = false;           ///< also of the other sides of triangles
+};
+
+/// Share of even light from all around that reaches an object past the object itself, on grids as fine as shadows of
+/// large triangles are seen.
 ///
 /// Guarantees: the same bytes with any number of threads.
-/// @param object   valid
-/// @param is_clear  whether light passes a triangle, for each triangle; empty: it passes none
-/// @return         from 0 to 1, for each vertex
-std::vector<float> opennessOf(const TexturedMesh& object, const std::vector<bool>& is_clear = {});
+/// @param object  valid
+StandOpenness opennessOf(const TexturedMesh& object, const OpennessOptions& options = {});
 
 }  // namespace droplet

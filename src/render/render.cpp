@@ -27,6 +27,7 @@
 #include "render/stand_film.h"
 #include "render/studio_light.h"
 #include "render/table.h"
+#include "render/triangle_grid.h"
 #include "require.h"
 
 namespace droplet {
@@ -359,7 +360,7 @@ private:
         if (matter && matter->clear >= 1.0F) {
             return throughClear(*matter, ray, meeting, way, {});
         }
-        const Vec3f light = light_ ? light_->at(meeting.place) : lightOnStand(meeting);
+        const Vec3f light = light_ ? light_->at(meeting.place) : lightOnStand(meeting, ray);
         Vec3f seen = colour * light;
         if (options_.paint) {
             seen = (kPi / level_.y) * 0.82F * Vec3f{light.y, light.y, light.y};
@@ -612,21 +613,27 @@ private:
     }
 
     // Share of the light around that reaches a place on the stand. What hides the rest scatters some light itself.
-    [[nodiscard]] float opennessAt(const Meeting& meeting) const
+    [[nodiscard]] float opennessAt(const Meeting& meeting, bool is_front) const
     {
-        if (options_.stand_openness.empty()) {
+        if (!options_.stand_openness) {
             return 1.0F;
         }
         constexpr float kScattered = 0.2F;
-        const auto [a, b, c] = options_.stand->triangles[meeting.triangle];
-        const std::vector<float>& at = options_.stand_openness;
-        const float open = at[a] + meeting.u * (at[b] - at[a]) + meeting.v * (at[c] - at[a]);
+        const StandOpenness& openness = *options_.stand_openness;
+        const std::vector<float>& side = is_front || openness.back.empty() ? openness.front : openness.back;
+        const std::uint32_t first = openness.first[meeting.triangle];
+        const float open = onGrid(side.data() + first, openness.divisions[meeting.triangle], meeting).here;
         return kScattered + (1.0F - kScattered) * open;
     }
 
-    [[nodiscard]] Vec3f lightOnStand(const Meeting& meeting) const
+    // Light on the side of the stand that a ray comes to.
+    [[nodiscard]] Vec3f lightOnStand(Meeting meeting, const RayF& ray) const
     {
-        return opennessAt(meeting) * openLightOnStand(meeting);
+        const bool is_front = dot(ray.direction, meeting.facet) < 0.0F || !options_.shows_whole_stand;
+        if (!is_front) {
+            meeting.normal = -1.0F * meeting.normal;
+        }
+        return opennessAt(meeting, is_front) * openLightOnStand(meeting);
     }
 
     [[nodiscard]] Vec3f openLightOnStand(const Meeting& meeting) const
@@ -861,8 +868,11 @@ void RenderOptions::validate() const
     if (stand) {
         stand->validate();
     }
-    if (!stand_openness.empty() && (!stand || !shows_whole_stand || stand_openness.size() != stand->vertices.size())) {
-        refuse("stand_openness needs a stand that is an object, with as many vertices");
+    if (stand_openness) {
+        if (!stand || !shows_whole_stand) {
+            refuse("stand_openness needs a stand that is an object");
+        }
+        stand_openness->validate(stand->triangles.size());
     }
     if (!stand_looks.empty()) {
         if (!stand || !shows_whole_stand || stand_materials.size() != stand->triangles.size() ||

@@ -5,19 +5,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "render/triangle_grid.h"
 #include "require.h"
 
 namespace droplet {
-namespace {
-
-// Number of values of a triangle's grid.
-std::size_t valuesOf(std::size_t divisions)
-{
-    return divisions == 0 ? 0 : (divisions + 1) * (divisions + 2) / 2;
-}
-
-}  // namespace
-
 void StandWater::validate(std::size_t triangles) const
 {
     for (const DropletBase& base : bases) {
@@ -31,7 +22,8 @@ void StandWater::validate(std::size_t triangles) const
             "as many as the stand's triangles");
     require(divisions.size() == first.size(), "options.stand_water.first", first.size(), "as many as divisions");
     for (std::size_t t = 0; t < divisions.size(); ++t) {
-        require(first[t] + valuesOf(divisions[t]) <= film.size(), "options.stand_water.first", first[t], "inside film");
+        require(first[t] + gridValues(divisions[t]) <= film.size(), "options.stand_water.first", first[t],
+                "inside film");
     }
     for (const float value : film) {
         require(value >= 0.0F && std::isfinite(value), "options.stand_water.film", value, "at least 0 m");
@@ -44,29 +36,9 @@ StandFilm::Here StandFilm::at(const Meeting& meeting) const
         return {0.0F, meeting.normal};
     }
     const int n = water_.divisions[meeting.triangle];
-    const float u = std::clamp(meeting.u, 0.0F, 1.0F) * static_cast<float>(n);
-    const float v = std::clamp(meeting.v, 0.0F, 1.0F) * static_cast<float>(n);
-    const int j = std::min(static_cast<int>(v), n - 1);
-    const int i = std::clamp(static_cast<int>(u), 0, n - 1 - j);
-    const float* const values = water_.film.data() + water_.first[meeting.triangle];
-    const auto value = [&](int column, int row) { return values[row * (n + 1) - row * (row - 1) / 2 + column]; };
-    const float fu = u - static_cast<float>(i);
-    const float fv = v - static_cast<float>(j);
-    // A cell is cut into two triangles; the grid's last cells have one.
-    float here = 0.0F;
-    float along_u = 0.0F;
-    float along_v = 0.0F;
-    if (fu + fv <= 1.0F || i + j + 2 > n) {
-        along_u = value(i + 1, j) - value(i, j);
-        along_v = value(i, j + 1) - value(i, j);
-        here = value(i, j) + fu * along_u + fv * along_v;
-    } else {
-        along_u = value(i + 1, j + 1) - value(i, j + 1);
-        along_v = value(i + 1, j + 1) - value(i + 1, j);
-        here = value(i + 1, j + 1) - (1.0F - fu) * along_u - (1.0F - fv) * along_v;
-    }
-    here = std::max(here, 0.0F);
-    if (along_u == 0.0F && along_v == 0.0F) {
+    const GridValue film = onGrid(water_.film.data() + water_.first[meeting.triangle], n, meeting);
+    const float here = std::max(film.here, 0.0F);
+    if (film.along_u == 0.0F && film.along_v == 0.0F) {
         return {here, meeting.normal};
     }
     // Gradient of the film's thickness along the triangle.
@@ -75,7 +47,8 @@ StandFilm::Here StandFilm::at(const Meeting& meeting) const
     const Vec3 q = stand_.vertices[c] - stand_.vertices[a];
     const Vec3 across = cross(p, q);
     const double rise = n / std::max(dot(across, across), 1e-300);
-    const Vec3 slope = rise * cross(static_cast<double>(along_u) * q - static_cast<double>(along_v) * p, across);
+    const Vec3 slope =
+        rise * cross(static_cast<double>(film.along_u) * q - static_cast<double>(film.along_v) * p, across);
     constexpr double kSteepest = 0.5;
     const double steep = length(slope);
     const double limit = steep > kSteepest ? kSteepest / steep : 1.0;

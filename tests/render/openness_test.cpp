@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -30,16 +31,18 @@ TEST(Openness, BelowABallIsTheRestOfItsSolidAngle)
 {
     for (const double height : {1.1, 1.5, 3.0}) {
         const TexturedMesh mesh = ballOver(1.0, height);
-        const std::vector<float> openness = opennessOf(mesh);
-        EXPECT_NEAR(openness[0], 1.0 - 1.0 / (height * height), 0.02) << height;
+        const StandOpenness openness = opennessOf(mesh);
+        openness.validate(mesh.triangles.size());
+        EXPECT_NEAR(openness.front[0], 1.0 - 1.0 / (height * height), 0.02) << height;
         // Its upper half sees everything; below, the square is nearly nothing.
-        for (std::size_t v = 4; v < openness.size(); ++v) {
-            EXPECT_GT(openness[v], 0.98F);
+        for (std::size_t k = openness.first[2]; k < openness.front.size(); ++k) {
+            EXPECT_GT(openness.front[k], 0.98F);
         }
+        EXPECT_TRUE(openness.back.empty());
         std::vector<bool> is_clear(mesh.triangles.size(), true);
-        EXPECT_EQ(opennessOf(mesh, is_clear)[0], 1.0F) << "light passes glass";
+        EXPECT_EQ(opennessOf(mesh, {is_clear}).front[0], 1.0F) << "light passes glass";
         is_clear.assign(mesh.triangles.size(), false);
-        EXPECT_EQ(opennessOf(mesh, is_clear), openness);
+        EXPECT_EQ(opennessOf(mesh, {is_clear}).front, openness.front);
     }
 }
 
@@ -47,7 +50,7 @@ TEST(Openness, BelowABallIsTheRestOfItsSolidAngle)
 TEST(Openness, IsThatOfTheSameMeshWithSharedVertices)
 {
     const TexturedMesh mesh = ballOver(1.0, 1.5);
-    const std::vector<float> shared = opennessOf(mesh);
+    const StandOpenness shared = opennessOf(mesh);
     TexturedMesh apart;
     for (const Triangle& t : mesh.triangles) {
         for (const std::uint32_t v : t) {
@@ -57,11 +60,60 @@ TEST(Openness, IsThatOfTheSameMeshWithSharedVertices)
         const auto count = static_cast<std::uint32_t>(apart.vertices.size());
         apart.triangles.push_back({count - 3, count - 2, count - 1});
     }
-    const std::vector<float> openness = opennessOf(apart);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            EXPECT_EQ(openness[3 * t + k], shared[mesh.triangles[t][k]]);
+    EXPECT_EQ(opennessOf(apart).front, shared.front);
+}
+
+/// Two long squares of 1 m that meet along the y axis at a right angle, open above both.
+TexturedMesh gutter(std::uint32_t cells)
+{
+    TexturedMesh mesh;
+    for (const bool is_wall : {false, true}) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        for (std::uint32_t i = 0; i <= cells; ++i) {
+            for (const double y : {-20.0, 20.0}) {
+                const double way = static_cast<double>(i) / cells;
+                mesh.vertices.push_back(is_wall ? Vec3{0.0, -y, way} : Vec3{way, y, 0.0});
+                mesh.normals.push_back(is_wall ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 0.0, 1.0});
+            }
         }
+        for (std::uint32_t i = 0; i < cells; ++i) {
+            const std::uint32_t a = first + 2 * i;
+            mesh.triangles.push_back({a, a + 2, a + 3});
+            mesh.triangles.push_back({a, a + 3, a + 1});
+        }
+    }
+    return mesh;
+}
+
+// At a distance x from a long wall of height h, (1 − x/√(x² + h²))/2 of even light is hidden (Lambert's law): half of
+// it at the edge, of a floor of two triangles, too.
+TEST(Openness, OfLargeTrianglesFadesFromTheEdge)
+{
+    const TexturedMesh mesh = gutter(1);
+    const StandOpenness openness = opennessOf(mesh);
+    std::size_t compared = 0;
+    const std::size_t n = openness.divisions[0];
+    ASSERT_GT(n, 4U);
+    for (std::size_t j = 0, k = openness.first[0]; j <= n; ++j) {
+        for (std::size_t i = 0; i + j <= n; ++i, ++k) {
+            const double x = static_cast<double>(i + j) / static_cast<double>(n);
+            const double y = -20.0 + 40.0 * static_cast<double>(j) / static_cast<double>(n);
+            if (std::abs(y) <= 10.0) {
+                EXPECT_NEAR(openness.front[k], 1.0 - 0.5 * (1.0 - x / std::hypot(x, 1.0)), 0.03) << x;
+                ++compared;
+            }
+        }
+    }
+    EXPECT_GT(compared, 10U);
+}
+
+TEST(Openness, BacksSeeTheOtherSide)
+{
+    const TexturedMesh mesh = gutter(1);
+    const StandOpenness openness = opennessOf(mesh, {{}, true});
+    openness.validate(mesh.triangles.size());
+    for (const float value : openness.back) {
+        EXPECT_EQ(value, 1.0F) << "outside of the gutter all is open";
     }
 }
 
@@ -71,7 +123,7 @@ TEST(Openness, InsideIsDark)
     for (Vec3& n : mesh.normals) {
         n = -1.0 * n;
     }
-    for (const float value : opennessOf(mesh)) {
+    for (const float value : opennessOf(mesh).front) {
         EXPECT_EQ(value, 0.0F);
     }
 }

@@ -9,6 +9,7 @@
 #include "droplet/render/environment.h"
 #include "droplet/render/paint.h"
 #include "droplet/render/stand_look.h"
+#include "droplet/render/stand_openness.h"
 #include "droplet/render/stand_water.h"
 #include "droplet/shape/base_surface.h"
 #include "droplet/surface/material.h"
@@ -67,13 +68,13 @@ struct RenderOptions {
     Vec2 extent = {};                    ///< physical size of the mask, centred at the origin [m]; > 0 with `ground`
     std::optional<Picture> ground = {};  ///< picture on the ground; empty: a table with a fine ruling
     bool light_table = false;            ///< that table is light grey, which shows colours as they are; else dark
-    std::optional<TexturedMesh> stand = {};           ///< ground instead of the plane z = 0, uv as the droplet's
-    std::vector<StandLook> stand_looks = {};          ///< of an object as stand; empty: it is plain
-    std::vector<std::uint32_t> stand_materials = {};  ///< in `stand_looks`, of every triangle of the stand
-    std::vector<float> stand_openness = {};  ///< share of the light around that reaches each vertex of the stand past
-                                             ///< the stand itself, 0 … 1; empty: all of it
-    bool shows_room = false;                 ///< behind all, the room that lights it, as for glass; else dark
-    bool shows_whole_stand = true;           ///< true: the stand is an object, shown whole; false: ground
+    std::optional<TexturedMesh> stand = {};            ///< ground instead of the plane z = 0, uv as the droplet's
+    std::vector<StandLook> stand_looks = {};           ///< of an object as stand; empty: it is plain
+    std::vector<std::uint32_t> stand_materials = {};   ///< in `stand_looks`, of every triangle of the stand
+    std::optional<StandOpenness> stand_openness = {};  ///< light that reaches a stand that is an object past the object
+                                                       ///< itself; empty: all of it
+    bool shows_room = false;                           ///< behind all, the room that lights it, as for glass; else dark
+    bool shows_whole_stand = true;                     ///< true: the stand is an object, shown whole; false: ground
     std::optional<StandWater> stand_water = {};  ///< light and wetness below many small droplets on a stand that is an
                                                  ///< object, instead of one map of light over its uv. The picture then
                                                  ///< frames the stand, or `framed`, and not the droplets
