@@ -212,9 +212,9 @@ void visitRings(const Region& region, const LatticePart& part, const std::functi
     }
     // As far apart as the rows of the lattice.
     const double row_height = 0.5 * std::sqrt(3.0) * latticeStep(part.spacing);
-    const double rings = std::max(std::round(disc->radius / row_height), 1.0);
+    const int rings = std::max(static_cast<int>(std::lround(disc->radius / row_height)), 1);
     const double step = disc->radius / rings;
-    for (double ring = 0.0; ring < rings; ring += 1.0) {
+    for (int ring = 0; ring < rings; ++ring) {
         const double area = std::numbers::pi * step * step * (2.0 * ring + 1.0);
         const int count = std::max(static_cast<int>(std::lround(area / (part.spacing * part.spacing))), 1);
         const double radius = count > 1 ? (ring + 0.5) * step : 0.0;
