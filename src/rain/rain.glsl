@@ -12,7 +12,7 @@ uniform sampler2D outside;  // what droplets show, sharp, with mipmaps
 uniform sampler2D dry;      // what bare glass shows in the frame, with mipmaps
 uniform sampler2D mist;     // red: how dense it is, 0 to 1; upper edge first
 uniform vec2 mist_edge;     // where its right and upper edges are, over the glass's width and height
-uniform sampler2D edge;     // red: distance from the edge of the glass [m]; upper edge first
+uniform sampler2D edge;     // red: distance from the edge of the glass [m]; upper edge first; not read without a border
 uniform vec2 glass;         // width and height of the glass [m]
 uniform vec3 eye;           // in the vehicle's frame: x right, y ahead, z up [m]
 uniform vec2 tangent;       // of half the angle of the frame, across and up
@@ -162,7 +162,7 @@ void main()
     vec3 light = mix(bareLight(frameOf(ray)), seen, cover) * kPane;
     // The border is printed in black, and ends in dots.
     float inward = texture(edge, uv).r;
-    if (inward < 1.6 * border) {
+    if (border > 0.0 && inward < 1.6 * border) {
         vec2 dot_place = fract(uv * glass / 4e-3) - 0.5;
         float size = 0.62 * (1.6 - inward / border) / 0.6;
         float printed = inward < border ? 1.0 : 1.0 - smoothstep(size - 0.12, size + 0.12, length(dot_place));
