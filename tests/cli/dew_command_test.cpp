@@ -208,7 +208,7 @@ TEST_F(DewCommand, WarnsOfLessCoverageWithItsCause)
 {
     EXPECT_THAT(dew("a.glb", {"--coverage", "0.7", "--smallest", "0.9mm", "--largest", "1mm"}).error,
                 HasSubstr("no room between the others; give a --smallest that is less"));
-    EXPECT_THAT(dew("a.glb", {"--smallest", "2mm", "--largest", "4mm", "--gravity-direction", "1,0,0"}).error,
+    EXPECT_THAT(dew("a.glb", {"--smallest", "1mm", "--largest", "4mm", "--gravity-direction", "1,0,0"}).error,
                 HasSubstr("run off slopes; give smaller ones, or more --hysteresis"));
 }
 

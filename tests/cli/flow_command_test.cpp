@@ -419,9 +419,8 @@ TEST_F(FlowCommand, RefusesWhatItCannotUse)
         expectRefused({"--drops", "3", "--spin", spin}, 2,
                       "--spin: '" + spin + "' must be an angle per s, min or h, such as 30deg/s");
     }
-    for (const std::string emitter :
-         {"0,1,0", "0,1", "", "5uL/s", "0,1,0,5uL", "0,1,0,5", "a,1,0,5uL/s", "0,1,0,0,5uL/s", "0,2000,0,5uL/s",
-          "0,1,0,20L/s", "0,1,0,-5uL/s", "0,1,0,5mm/s"}) {
+    for (const std::string emitter : {"0,1,0", "0,1", "5uL/s", "0,1,0,5uL", "0,1,0,5", "a,1,0,5uL/s", "0,1,0,0,5uL/s",
+                                      "0,2000,0,5uL/s", "0,1,0,20L/s", "0,1,0,-5uL/s", "0,1,0,5mm/s"}) {
         expectRefused({"--emitter", emitter}, 2,
                       "--emitter: '" + emitter + "' must be X,Y,Z,RATE such as 0,0.1,0,50uL/s");
     }
