@@ -167,18 +167,19 @@ std::vector<Spot> spotsOf(const TexturedMesh& object, const StandOpenness& grids
 {
     std::vector<Spot> spots;
     for (std::size_t t = 0; t < object.triangles.size(); ++t) {
-        const auto& [a, b, c] = object.triangles[t];
-        const Vec3 middle = (1.0 / 3.0) * (object.vertices[a] + object.vertices[b] + object.vertices[c]);
+        const Triangle& triangle = object.triangles[t];
+        const Vec3 middle =
+            (1.0 / 3.0) * (object.vertices[triangle[0]] + object.vertices[triangle[1]] + object.vertices[triangle[2]]);
         const int n = grids.divisions[t];
         for (int j = 0; j <= n; ++j) {
             for (int i = 0; i + j <= n; ++i) {
                 const double u = static_cast<double>(i) / n;
                 const double v = static_cast<double>(j) / n;
                 const auto mixed = [&](const std::vector<Vec3>& of) {
-                    return (1.0 - u - v) * of[a] + u * of[b] + v * of[c];
+                    return (1.0 - u - v) * of[triangle[0]] + u * of[triangle[1]] + v * of[triangle[2]];
                 };
                 const Vec3 place = mixed(object.vertices);
-                spots.push_back({place, unit(mixed(object.normals), object.normals[a]), middle - place});
+                spots.push_back({place, unit(mixed(object.normals), object.normals[triangle[0]]), middle - place});
             }
         }
     }
