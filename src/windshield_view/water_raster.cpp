@@ -201,7 +201,7 @@ void WaterRaster::draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) c
         if (begin >= end) {
             continue;
         }
-        Samples* sum = sums.data() + j / across * columns + begin / across;
+        Samples* sum = sums.data() + static_cast<std::size_t>(j / across * columns + begin / across);
         int next = (begin / across + 1) * across;  // first place of the next pixel
         body.sample({x0, step_x, y}, begin, end, [&](int i, float ahead, float left, float up, float thickness) {
             for (; next <= i; next += across) {

@@ -322,12 +322,8 @@ TEST_F(WindshieldCommand, TheLivePageRefusesWhatItHasNoUseFor)
         return testing::runInProcess(arguments);
     };
     testing::expectOneLine(live({path("out.mp4")}), 2, {"--live and OUTPUT exclude each other"});
-    for (const std::vector<std::string>& more :
-         std::initializer_list<std::vector<std::string>>{{"--time", "3s"},
-                                                         {"--drive-cycle", "drive.csv"},
-                                                         {"--shape", "capsule"},
-                                                         {"--json", "-"},
-                                                         {"--resume"}}) {
+    for (const std::vector<std::string>& more : std::initializer_list<std::vector<std::string>>{
+             {"--time", "3s"}, {"--drive-cycle", "drive.csv"}, {"--shape", "capsule"}, {"--json", "-"}, {"--resume"}}) {
         testing::expectOneLine(live(more), 2, {"--live and " + more.front() + " exclude each other"});
     }
     testing::expectOneLine(live({"--speed", "500m/s"}), 2, {"--speed", "from 0m/s to 150m/s"});
