@@ -649,10 +649,12 @@ TEST_F(ShapeCommandTest, QuadsAreWrittenWhereFilesHoldThem)
     };
     // On curved ground, upright, and where liquid hangs over its rim, too.
     for (const std::vector<std::string>& more :
-         {std::vector<std::string>{}, {"--surface", "sphere:R=40mm"}, {"--contact-angle", "110deg"}, {"--open"}}) {
-        std::vector<std::string> options{"two.pgm", "quads.obj", "--quads", "--triangles", "4k"};
+         {std::vector<std::string>{}, {"--surface", "sphere:R=40mm"}, {"--contact-angle", "90deg"}, {"--open"}}) {
+        std::vector<std::string> options{"two.pgm", "quads.obj", "--quads",    "--triangles",
+                                         "8k",      "--json",    "quads.json", "-q"};
         options.insert(options.end(), more.begin(), more.end());
-        const json output = report(options)["output"];
+        ASSERT_EQ(run(options).exit_code, 0);
+        const json output = json::parse(bytesOf("quads.json"))["output"];
         const auto [triangles, quads] = faces_of("quads.obj");
         EXPECT_EQ(output["quads"], quads);
         EXPECT_EQ(output["triangles"], triangles + 2 * quads);
@@ -664,12 +666,12 @@ TEST_F(ShapeCommandTest, QuadsAreWrittenWhereFilesHoldThem)
     EXPECT_THAT(glb["warnings"].dump(), HasSubstr("glb files hold triangles alone"));
     EXPECT_EQ(report({"two.pgm", "plain.obj"})["output"]["quads"], 0);
     EXPECT_EQ(run({"two.pgm", "a.obj", "--quads", "--grading", "4"}).exit_code, 2);
-    make({"two.pgm", "one.obj", "--quads", "-j", "1"});
-    make({"two.pgm", "other.obj", "--quads", "-j", "2"});
-    EXPECT_EQ(bytesOf("one.obj"), bytesOf("other.obj"));
-    // Laid on an object, also mirrored.
+    make({"two.pgm", "one.ply", "--quads", "-j", "1"});
+    make({"two.pgm", "other.ply", "--quads", "-j", "2"});
+    EXPECT_EQ(bytesOf("one.ply"), bytesOf("other.ply"));
     make({"disc.pgm", "cap.glb", "--open", "--width", "6cm"});
-    const json laid = report({"two.pgm", "laid.obj", "--onto", "cap.glb", "--quads", "--triangles", "4k"});
+    writeFile(directory() / "spot.pgm", discPicture(64, 8.0));
+    const json laid = report({"spot.pgm", "laid.obj", "--onto", "cap.glb", "--quads"});
     EXPECT_GT(laid["output"]["quads"].get<double>(), 0.4 * laid["output"]["triangles"].get<double>());
 }
 

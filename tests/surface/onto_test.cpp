@@ -249,6 +249,25 @@ TEST(Onto, TurnedTextureTurnsTheDroplet)
     EXPECT_EQ(result.report.mirrored, 0U);
 }
 
+TEST(Onto, QuadrilateralsStayAlsoOnMirroredCharts)
+{
+    Surface droplet = testing::asOnePart(roundDroplet({.outer = 2e-3, .centre = {5e-3, 1e-3}}));
+    joinTriangles(droplet, {testing::kExtent, testing::kExtent});
+    ASSERT_GT(droplet.parts[0].quads, 0U);
+    for (const bool is_mirrored : {false, true}) {
+        Sheet sheet = plane();
+        if (is_mirrored) {
+            sheet.place = [](Vec2 uv) { return Vec3{-flatOf(uv).x, flatOf(uv).y, 0.0}; };
+            sheet.turned = true;
+        }
+        const Surface laid = placeOnto(droplet, meshOf(sheet), kPicture).surface;
+        EXPECT_NO_THROW(laid.validate());
+        EXPECT_TRUE(windsOutward(laid));
+        ASSERT_EQ(laid.parts.size(), 1U);
+        EXPECT_EQ(laid.parts[0].quads, droplet.parts[0].quads);
+    }
+}
+
 TEST(Onto, TrianglesOnMirroredChartsAreReportedAndWindOutward)
 {
     const Surface droplet = roundDroplet({.outer = 2e-3, .centre = {5e-3, 1e-3}});
