@@ -536,7 +536,7 @@ void finish(Droplet& droplet, const DropletOptions& options, const Progress& pro
         }
     }
     if (options.mesh.quads) {
-        joinTriangles(droplet.surface, droplet.domain.extent);
+        joinTriangles(droplet.surface);
     }
     droplet.warnings = warningsOf(droplet, options, shapes);
     if (std::string less = lessWarning(shapes, solved.fill, droplet.meshes.size()); !less.empty()) {

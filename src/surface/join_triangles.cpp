@@ -17,13 +17,10 @@
 #include <numbers>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "droplet/error.h"
 #include "droplet/surface/surface.h"
-#include "number_text.h"
 
 namespace droplet {
 namespace {
@@ -33,15 +30,15 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// Corners of a quadrilateral are between this angle and its supplement; beyond them, subdividing it makes folds.
 constexpr double kSmallestCorner = std::numbers::pi / 6.0;
 
-double angleAt(Vec2 at, Vec2 from, Vec2 to)
+double angleAt(const Vec3& at, const Vec3& from, const Vec3& to)
 {
-    const Vec2 u = from - at;
-    const Vec2 v = to - at;
-    return std::atan2(std::abs(cross(u, v)), dot(u, v));
+    const Vec3 u = from - at;
+    const Vec3 v = to - at;
+    return std::atan2(length(cross(u, v)), dot(u, v));
 }
 
 /// Largest deviation of a corner from 90° [rad]; nothing for a quadrilateral that is not good.
-std::optional<double> deviation(const std::array<Vec2, 4>& corners)
+std::optional<double> deviation(const std::array<Vec3, 4>& corners)
 {
     const auto& [a, b, c, d] = corners;
     // Corners over 180° show as a sum of angles.
@@ -62,7 +59,7 @@ struct Candidate {
 
 class Pairing {
 public:
-    Pairing(std::span<const Triangle> triangles, const std::vector<Vec2>& vertices)
+    Pairing(std::span<const Triangle> triangles, const std::vector<Vec3>& vertices)
         : around_(triangles.size(), {kNone, kNone, kNone}), partner_(triangles.size(), kNone)
     {
         std::vector<Candidate> candidates = candidatesOf(triangles, vertices);
@@ -97,7 +94,7 @@ private:
         partner_[b] = a;
     }
 
-    static std::vector<Candidate> candidatesOf(std::span<const Triangle> triangles, const std::vector<Vec2>& vertices)
+    static std::vector<Candidate> candidatesOf(std::span<const Triangle> triangles, const std::vector<Vec3>& vertices)
     {
         struct HalfEdge {
             std::uint32_t low, high, triangle, corner;
@@ -188,7 +185,7 @@ private:
 
 /// Orders triangles so that the first are the halves of quadrilaterals.
 /// @return  number of quadrilaterals
-std::size_t join(std::span<Triangle> triangles, const std::vector<Vec2>& vertices)
+std::size_t join(std::span<Triangle> triangles, const std::vector<Vec3>& vertices)
 {
     const Pairing pairing(triangles, vertices);
     std::vector<Triangle> halves;
@@ -219,20 +216,11 @@ std::size_t join(std::span<Triangle> triangles, const std::vector<Vec2>& vertice
 
 }  // namespace
 
-void joinTriangles(Surface& surface, Vec2 extent)
+void joinTriangles(Surface& surface)
 {
-    if (!(extent.x > 0.0 && extent.y > 0.0)) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "extent " + numberText(extent.x) + " m × " + numberText(extent.y) + " m must be positive");
-    }
-    std::vector<Vec2> places;
-    places.reserve(surface.uvs.size());
-    for (const Vec2 uv : surface.uvs) {
-        places.push_back({uv.x * extent.x, uv.y * extent.y});
-    }
     tbb::parallel_for(std::size_t{0}, surface.parts.size(), [&](std::size_t k) {
         SurfacePart& part = surface.parts[k];
-        part.quads = join(std::span(surface.triangles).subspan(part.first_triangle, part.triangles), places);
+        part.quads = join(std::span(surface.triangles).subspan(part.first_triangle, part.triangles), surface.vertices);
     });
 }
 

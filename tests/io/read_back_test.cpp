@@ -114,7 +114,7 @@ TEST_P(ReadBack, EveryTriangleStandsWhereItStood)
 TEST_P(ReadBack, QuadrilateralsAreFacesOfFourCornersWhereTheyCanBe)
 {
     Surface surface = testing::asOnePart(roundDroplet({.inner = 1e-3, .centre = {2e-3, -4e-3}}));
-    joinTriangles(surface, {testing::kExtent, testing::kExtent});
+    joinTriangles(surface);
     surface.parts[0].quads -= 3;  // some triangles are left
     ASSERT_NO_FATAL_FAILURE(read(surface));
     const std::size_t quads = hasQuads(GetParam().format) ? surface.parts[0].quads : 0;

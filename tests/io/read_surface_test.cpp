@@ -139,7 +139,7 @@ TEST_F(ReadSurfaceTest, ObjInEveryNotation)
 TEST_F(ReadSurfaceTest, QuadrilateralsAreReadAsTheHalvesThatWereJoined)
 {
     Surface surface = testing::asOnePart(roundDroplet({.inner = 1e-3}));
-    joinTriangles(surface, {testing::kExtent, testing::kExtent});
+    joinTriangles(surface);
     ASSERT_GT(surface.parts[0].quads, 0U);
     for (const Format format : {Format::Obj, Format::Ply}) {
         const Surface found = read(std::string("quads.") + name(format), written(surface, format));

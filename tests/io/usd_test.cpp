@@ -150,7 +150,7 @@ TEST(Usda, WeldsPointsAndKeepsNormalsApart)
 TEST(Usda, QuadrilateralsAreFacesOfFourCorners)
 {
     Surface surface = testing::asOnePart(roundDroplet({.inner = 1e-3, .centre = {1e-3, 2e-3}}));
-    joinTriangles(surface, {testing::kExtent, testing::kExtent});
+    joinTriangles(surface);
     const std::size_t quads = surface.parts[0].quads -= 3;  // some triangles are left
     const std::string usda = written(writeUsda, surface);
     const auto counts = listOf(usda, "int[] faceVertexCounts");

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -19,8 +18,6 @@ using testing::asOnePart;
 using testing::kExtent;
 using testing::roundDroplet;
 using testing::RoundDroplet;
-
-constexpr Vec2 kPicture{kExtent, kExtent};
 
 /// Flat triangles at given places.
 Surface flat(const std::vector<Vec2>& places, const std::vector<Triangle>& triangles)
@@ -50,7 +47,7 @@ TEST(JoinTriangles, ARingOfSquaresHasNoTriangleLeft)
 {
     Surface surface = asOnePart(roundDroplet({.inner = 1e-3, .rings = 6, .segments = 40}));
     const std::vector<Triangle> before = sorted(surface.triangles);
-    joinTriangles(surface, kPicture);
+    joinTriangles(surface);
     EXPECT_NO_THROW(surface.validate());
     EXPECT_EQ(2 * surface.parts[0].quads, surface.triangles.size());
     EXPECT_EQ(sorted(surface.triangles), before);
@@ -66,7 +63,7 @@ TEST(JoinTriangles, CornersAreBetween30And150Degrees)
     for (const RoundDroplet& wish : {RoundDroplet{}, RoundDroplet{.rings = 3, .segments = 7},
                                      RoundDroplet{.inner = 3.6e-3, .rings = 1, .segments = 30}}) {
         Surface surface = asOnePart(roundDroplet(wish));
-        joinTriangles(surface, kPicture);
+        joinTriangles(surface);
         EXPECT_NO_THROW(surface.validate());
         EXPECT_GT(surface.parts[0].quads, 0U);
         for (const std::uint32_t t : quadrilaterals(surface)) {
@@ -74,16 +71,16 @@ TEST(JoinTriangles, CornersAreBetween30And150Degrees)
             const std::uint32_t corners[4] = {a, b, c, surface.triangles[t + 1][2]};
             double sum = 0.0;
             for (std::size_t k = 0; k < 4; ++k) {
-                const Vec2 at = surface.uvs[corners[k]];
-                const Vec2 on = surface.uvs[corners[(k + 1) % 4]] - at;
-                const Vec2 back = surface.uvs[corners[(k + 3) % 4]] - at;
-                // Pictures have y downwards, bases are seen from below.
-                const double angle = std::abs(std::atan2(cross(on, back), dot(on, back))) * 180.0 / std::numbers::pi;
-                EXPECT_GE(angle, 30.0 - 1e-9);
+                const Vec3 at = surface.vertices[corners[k]];
+                const Vec3 on = surface.vertices[corners[(k + 1) % 4]] - at;
+                const Vec3 back = surface.vertices[corners[(k + 3) % 4]] - at;
+                // Not flat, a quadrilateral has corners a little smaller than the sums of its halves' angles.
+                const double angle = std::atan2(length(cross(on, back)), dot(on, back)) * 180.0 / std::numbers::pi;
+                EXPECT_GE(angle, 29.0);
                 EXPECT_LE(angle, 150.0 + 1e-9);
                 sum += angle;
             }
-            EXPECT_NEAR(sum, 360.0, 1e-6);  // convex
+            EXPECT_NEAR(sum, 360.0, 3.0);  // convex
         }
     }
 }
@@ -93,7 +90,7 @@ TEST(JoinTriangles, PartnersAreExchangedForMorePairs)
 {
     Surface surface =
         flat({{1, 1}, {2, 1}, {2, 2}, {1, 2}, {0, 1.3}, {3, 1.7}}, {{4, 0, 3}, {0, 2, 3}, {0, 1, 2}, {5, 2, 1}});
-    joinTriangles(surface, kPicture);
+    joinTriangles(surface);
     EXPECT_NO_THROW(surface.validate());
     EXPECT_EQ(surface.parts[0].quads, 2U);
 }
@@ -103,18 +100,18 @@ TEST(JoinTriangles, TwoThatMakeNoGoodQuadrilateralStayApart)
     // A dart, a corner of 162 degrees (beside one of 118), and two that have no edge in common.
     for (const double tip : {0.2, 0.58, 0.8}) {
         Surface surface = flat({{0, 0}, {1, 0}, {0, 1}, {tip, tip}}, {{0, 1, 3}, {0, 3, 2}});
-        joinTriangles(surface, kPicture);
+        joinTriangles(surface);
         EXPECT_EQ(surface.parts[0].quads, tip > 0.6 ? 1U : 0U) << tip;
     }
     Surface apart = flat({{0, 0}, {1, 0}, {0, 1}, {2, 0}, {3, 0}, {2, 1}}, {{0, 1, 2}, {3, 4, 5}});
-    joinTriangles(apart, kPicture);
+    joinTriangles(apart);
     EXPECT_EQ(apart.parts[0].quads, 0U);
 }
 
 TEST(JoinTriangles, EveryDropletHasItsOwn)
 {
     Surface surface = testing::pairOfDroplets();
-    joinTriangles(surface, kPicture);
+    joinTriangles(surface);
     EXPECT_NO_THROW(surface.validate());
     for (const SurfacePart& part : surface.parts) {
         EXPECT_GT(static_cast<double>(2 * part.quads), 0.9 * static_cast<double>(part.triangles));
@@ -132,8 +129,8 @@ TEST(JoinTriangles, TheSameTrianglesGiveTheSamePairs)
 {
     Surface one = testing::pairOfDroplets();
     Surface other = one;
-    joinTriangles(one, kPicture);
-    joinTriangles(other, kPicture);
+    joinTriangles(one);
+    joinTriangles(other);
     EXPECT_EQ(one.triangles, other.triangles);
 }
 
@@ -141,24 +138,15 @@ TEST(JoinTriangles, WithoutPartsNothingIsJoined)
 {
     Surface surface = roundDroplet();
     const std::vector<Triangle> before = surface.triangles;
-    joinTriangles(surface, kPicture);
+    joinTriangles(surface);
     EXPECT_EQ(surface.triangles, before);
     EXPECT_TRUE(quadrilaterals(surface).empty());
-}
-
-TEST(JoinTriangles, RefusesUnusableArguments)
-{
-    Surface surface = asOnePart(roundDroplet());
-    for (const double extent : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_THROW(joinTriangles(surface, {extent, 1.0}), Error);
-        EXPECT_THROW(joinTriangles(surface, {1.0, extent}), Error);
-    }
 }
 
 TEST(Surface, QuadrilateralsHaveTheirHalvesFirst)
 {
     Surface surface = asOnePart(roundDroplet({.inner = 1e-3}));
-    joinTriangles(surface, kPicture);
+    joinTriangles(surface);
     ASSERT_NO_THROW(surface.validate());
     Surface turned = surface;
     std::rotate(turned.triangles[0].begin(), turned.triangles[0].begin() + 1, turned.triangles[0].end());

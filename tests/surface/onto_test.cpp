@@ -252,7 +252,7 @@ TEST(Onto, TurnedTextureTurnsTheDroplet)
 TEST(Onto, QuadrilateralsStayAlsoOnMirroredCharts)
 {
     Surface droplet = testing::asOnePart(roundDroplet({.outer = 2e-3, .centre = {5e-3, 1e-3}}));
-    joinTriangles(droplet, {testing::kExtent, testing::kExtent});
+    joinTriangles(droplet);
     ASSERT_GT(droplet.parts[0].quads, 0U);
     for (const bool is_mirrored : {false, true}) {
         Sheet sheet = plane();

@@ -86,12 +86,10 @@ Surface extract(const Surface& surface, const std::vector<std::size_t>& which);
 /// @return         index of the first half of each, ascending; the other half follows it
 std::vector<std::uint32_t> quadrilaterals(const Surface& surface);
 
-/// Joins the triangles of every part to quadrilaterals, two and two, as many as have all corners between 30° and 150°
-/// on the footprint. Triangles change their order, not their winding.
+/// Joins the triangles of every part to quadrilaterals, two and two, where all corners are between 30° and 150°.
+/// Triangles change their order, not their winding.
 /// @param surface  valid; without parts it stays as it is
-/// @param extent   size of the picture, by which texture coordinates are places on the footprint [m]; both > 0
-/// @throws Error   InvalidArgument for an extent that is not positive
-void joinTriangles(Surface& surface, Vec2 extent);
+void joinTriangles(Surface& surface);
 
 /// Makes the surface at another fill, as a viewer shows it with the weights of its states.
 /// @param surface  valid, with a refill
