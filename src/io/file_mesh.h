@@ -69,14 +69,14 @@ struct FileSampling {
 };
 
 struct FileMeshOptions {
-    bool uvs = false;       ///< read the texture coordinates of OBJ and PLY
-    bool weights = false;   ///< read the vertices' weights: attribute _WEIGHT of glTF, or red of COLOR_0;
-                            ///< property weight of PLY, or red
-    bool creases = false;   ///< divide vertices without a normal, and all of STL, at creases; see
-                            ///< divideAtCreases. Otherwise those at one place share a normal, and STL has
-                            ///< its facets'
-    bool looks = false;     ///< read materials and their images
-    bool motion = false;    ///< read the animation of the node of a glTF scene that carries all meshes
+    bool uvs = false;      ///< read the texture coordinates of OBJ and PLY
+    bool weights = false;  ///< read the vertices' weights: attribute _WEIGHT of glTF, or red of COLOR_0;
+                           ///< property weight of PLY, or red
+    bool creases = false;  ///< divide vertices without a normal, and all of STL, at creases; see
+                           ///< divideAtCreases. Otherwise those at one place share a normal, and STL has
+                           ///< its facets'
+    bool looks = false;    ///< read materials and their images
+    bool motion = false;   ///< read the animation of the node of a glTF scene that carries all meshes
     std::optional<FileSampling> sampling = {};  ///< sample an animation of glTF that deforms the mesh: nodes that move
                                                 ///< apart, scales, skins, morph targets
     std::vector<std::uint32_t> fans = {};  ///< FileMesh::fans of another shape of the mesh, which polygons are divided

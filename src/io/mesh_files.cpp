@@ -79,7 +79,8 @@ void forEachFace(const Surface& surface, const Visit& visit)
         const auto& [a, b, c] = surface.triangles[t];
         if (quad != quads.end() && *quad == t) {
             ++quad;
-            visit(t, std::initializer_list<std::uint32_t>{a, b, c, surface.triangles[++t][2]});
+            visit(t, std::initializer_list<std::uint32_t>{a, b, c, surface.triangles[t + 1][2]});
+            ++t;
         } else {
             visit(t, std::initializer_list<std::uint32_t>{a, b, c});
         }

@@ -375,6 +375,17 @@ TEST(MeshFiles, ObjDropletsHaveTheirMaterials)
     writeMtl({options.looks[0], options.looks[1], options.looks[0]}, mtl);
     EXPECT_THAT(mtl.str(), ::testing::AllOf(HasSubstr("newmtl ink\n"), HasSubstr("newmtl honey\n")));
     EXPECT_EQ(mtl.str().find("newmtl ink"), mtl.str().rfind("newmtl ink"));
+    // So do their quadrilaterals.
+    Surface joined = surface;
+    joinTriangles(joined);
+    std::ostringstream quads;
+    writeObj(joined, quads, options);
+    const std::string faces = quads.str();
+    const std::size_t second = faces.find("usemtl ink\nf ");
+    ASSERT_NE(second, std::string::npos);
+    const std::string before = faces.substr(faces.find("usemtl honey\nf "), second - faces.find("usemtl honey\nf "));
+    EXPECT_EQ(std::count(before.begin(), before.end(), '\n'),
+              static_cast<std::ptrdiff_t>(joined.parts[0].triangles - joined.parts[0].quads) + 1);
     options.looks.pop_back();
     EXPECT_THROW(writeObj(surface, out, options), Error);
 }
