@@ -395,11 +395,6 @@ void declareSurface(CommandLine& line, DropletSettings& settings)
         "where gravity flattens all but the rim",
         into(mesh.grading,
              {{"auto", std::nullopt}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}}));
-    line.addFlag(
-        kGroup, "--quads",
-        "Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; --triangles counts "
-        "their halves",
-        mesh.quads);
     line.addFlag(kGroup, "--open", "Leave out the base", settings.droplet.open);
     line.add(kGroup, "--material", "water|ink|mercury|honey|plain",
              "Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own]");
@@ -407,7 +402,6 @@ void declareSurface(CommandLine& line, DropletSettings& settings)
              into(settings.unit,
                   {{"m", LengthUnit::Metre}, {"cm", LengthUnit::Centimetre}, {"mm", LengthUnit::Millimetre}}));
     line.exclude({"--triangles", "--edge"});
-    line.exclude({"--quads", "--grading"});
 }
 
 void declareRun(CommandLine& line)

@@ -146,6 +146,12 @@ void declareDroplets(CommandLine& line, ShapeOptions& options)
     declareLiquid(line, settings);
     declareGround(line, settings);
     declareSurface(line, settings);
+    line.addFlag(
+        "Surface", "--quads",
+        "Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; --triangles counts "
+        "their halves",
+        settings.droplet.mesh.quads);
+    line.exclude({"--quads", "--grading"});
     using droplet::Format;
     line.add("Surface", "--format", "File format, whatever OUTPUT's extension is [by OUTPUT's extension]",
              into(options.format, {{"glb", Format::Glb},

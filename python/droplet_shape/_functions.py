@@ -112,8 +112,8 @@ _MAKE_DROPLET = {
     "triangles": "number",
     "edge": "m",
     "grading": "number",
-    "quads": "flag",
     "open": "flag",
+    "quads": "flag",
     "fill_range": "range",
     "solver": "text",
     "threads": "number",
@@ -156,8 +156,8 @@ def make_droplet(
     triangles: str | int | None = None,
     edge: str | float | None = None,
     grading: Literal["auto", 1, 2, 4, 8, 16, 32, 64] | None = None,
-    quads: bool = False,
     open: bool = False,
+    quads: bool = False,
     fill_range: str | tuple[float, float] | None = None,
     solver: Literal["auto", "llt", "multigrid"] | None = None,
     threads: str | int | None = None,
@@ -232,9 +232,9 @@ def make_droplet(
       edge [m]: Edge length of the triangles, instead of triangles
       grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
         rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
+      open: Leave out the base
       quads: Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; triangles counts
         their halves
-      open: Leave out the base
       fill_range: Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid;
         takes the linear model unless model exact is given
 
@@ -277,8 +277,8 @@ _GLYPHS = {
     "triangles": "number",
     "edge": "m",
     "grading": "number",
-    "quads": "flag",
     "open": "flag",
+    "quads": "flag",
     "fill_range": "range",
     "solver": "text",
     "threads": "number",
@@ -316,8 +316,8 @@ def glyphs(
     triangles: str | int | None = None,
     edge: str | float | None = None,
     grading: Literal["auto", 1, 2, 4, 8, 16, 32, 64] | None = None,
-    quads: bool = False,
     open: bool = False,
+    quads: bool = False,
     fill_range: str | tuple[float, float] | None = None,
     solver: Literal["auto", "llt", "multigrid"] | None = None,
     threads: str | int | None = None,
@@ -375,9 +375,9 @@ def glyphs(
       edge [m]: Edge length of the triangles, instead of triangles
       grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
         rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
+      open: Leave out the base
       quads: Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; triangles counts
         their halves
-      open: Leave out the base
       fill_range: Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid;
         takes the linear model unless model exact is given
 
@@ -421,7 +421,6 @@ _ANIMATE = {
     "triangles": "number",
     "edge": "m",
     "grading": "number",
-    "quads": "flag",
     "open": "flag",
     "compress": "text",
     "solver": "text",
@@ -460,7 +459,6 @@ def animate(
     triangles: str | int | None = None,
     edge: str | float | None = None,
     grading: Literal["auto", 1, 2, 4, 8, 16, 32, 64] | None = None,
-    quads: bool = False,
     open: bool = False,
     compress: Literal["none", "quantize", "meshopt"] | None = None,
     solver: Literal["auto", "llt", "multigrid"] | None = None,
@@ -524,8 +522,6 @@ def animate(
       edge [m]: Edge length of the triangles, instead of triangles
       grading: auto, 1, 2, 4, 8, 16, 32, 64: Largest edge length far from the rim, as a multiple of the length at the
         rim; auto: 1, or 64 in puddles where gravity flattens all but the rim (default: auto)
-      quads: Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; triangles counts
-        their halves
       open: Leave out the base
       compress: none, quantize, meshopt: Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three
         quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size (default: none)

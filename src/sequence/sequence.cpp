@@ -465,6 +465,10 @@ void SequenceOptions::validate() const
     if (droplet.fill_range) {
         throw Error(ErrorCode::InvalidArgument, "fill_range is not allowed in a sequence");
     }
+    if (droplet.mesh.quads) {
+        // Others would be joined in every frame, though triangles stay.
+        throw Error(ErrorCode::InvalidArgument, "mesh.quads are not allowed in a sequence");
+    }
     if (!droplet.solve.volumes.empty()) {
         throw Error(ErrorCode::InvalidArgument,
                     "volumes are not allowed in a sequence: fill sets the amount of the first frame");

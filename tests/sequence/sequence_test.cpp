@@ -442,6 +442,9 @@ TEST(Sequence, RejectsOptionsThatDoNotApply)
     EXPECT_EQ(refusal(options), "");
     options.droplet.fill_range = FillRange{};
     EXPECT_THAT(refusal(options), HasSubstr("fill_range"));
+    options.droplet.fill_range.reset();
+    options.droplet.mesh.quads = true;
+    EXPECT_THAT(refusal(options), HasSubstr("mesh.quads"));
     options = optionsFor(VolumeMode::Total);
     options.droplet.solve.fill.sharing = FillSharing::Each;
     EXPECT_THAT(refusal(options), HasSubstr("fill.sharing"));

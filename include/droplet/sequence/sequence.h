@@ -27,8 +27,8 @@ struct SequenceOptions {
     bool keep_vertices = true;  ///< move each mesh with its footprint, or keep triangles far from changes of the rim,
                                 ///< where possible; if false, triangulate every frame
 
-    /// @throws Error InvalidArgument if a value is out of its range, with a fill_range, with volumes of each droplet,
-    ///               or with VolumeMode::Total unless fill.sharing is Total
+    /// @throws Error InvalidArgument if a value is out of its range, with a fill_range, with quads, with volumes of
+    ///               each droplet, or with VolumeMode::Total unless fill.sharing is Total
     void validate() const;
 };
 
