@@ -70,14 +70,14 @@ export interface Options {
     edge?: string | number;
     /** Largest edge length far from the rim, as a multiple of the length at the rim; auto: 1, or 64 in puddles where gravity flattens all but the rim [auto] */
     grading?: 'auto' | 1 | 2 | 4 | 8 | 16 | 32 | 64;
-    /** Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; triangles counts their halves */
-    quads?: boolean;
     /** Leave out the base */
     open?: boolean;
     /** Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own] */
     material?: 'water' | 'ink' | 'mercury' | 'honey' | 'plain';
     /** Unit of length in OBJ and STL [mm] */
     unit?: 'm' | 'cm' | 'mm';
+    /** Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; triangles counts their halves */
+    quads?: boolean;
     /** Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; takes the linear model unless model exact is given */
     fillRange?: string | [number, number];
     /** Solver of the linear system: llt is Eigen's factorisation, multigrid iterates; auto takes llt for linear models of up to 25,000 unknowns and for small or irregular meshes [auto] */
@@ -96,7 +96,7 @@ export type DewObject =
 export interface DewOptions {
     /** Factor on the lengths of the file [1] */
     scale?: number;
-    /** Longest side of the object; scales it; a number is in m */
+    /** Longest side of the object, 0.1mm to 1000m; scales it; a number is in m */
     objectSize?: string | number;
     /** Axis that points up in an .obj, .ply or .stl [y, of .ply z] */
     up?: 'y' | 'z';
@@ -120,10 +120,16 @@ export interface DewOptions {
     mask?: Uint8Array | { width: number; height: number; data: Uint8Array | Uint8ClampedArray };
     /** Droplets are where the vertices have weights: _WEIGHT or the red of COLOR_0 of glTF, weight or red of PLY */
     vertexWeights?: boolean;
+    /** Droplets also on inner sides, which see less than a tenth of the outside */
+    inside?: boolean;
     /** Random seed [1] */
     seed?: string | number;
     /** Contact angle hysteresis: cosine of the receding minus cosine of the advancing angle; it holds droplets [0.2] */
     hysteresis?: number;
+    /** How much hysteresis varies over the surface, so that droplets stick, slip and wander: standard deviation of its logarithm, 0 to 1.5 [0.5] */
+    pinning?: number;
+    /** Length over which it varies; a number is in m [3mm] */
+    pinningLength?: string | number;
     /** Direction of gravity [0,-1,0] */
     gravityDirection?: string | [number, number, number];
     /** Contact angle of droplets at rest, from 1deg to 179deg; a number is in rad [by preset] */
