@@ -26,6 +26,7 @@
 #include "io/dry_surface.h"
 #include "io/length_unit.h"
 #include "require.h"
+#include "scene/faces.h"
 #include "scene/preview_opacity.h"
 #include "scene/welded_vertices.h"
 
@@ -66,24 +67,6 @@ void requireName(const char* field, const std::string& name)
 {
     if (!isPrintable(name)) {
         refuseValue(field, "'" + printable(name) + "'", "UTF-8 without control characters");
-    }
-}
-
-/// Calls visit(first triangle, corners) for every face in order; quadrilaterals have four corners.
-template <class Visit>
-void forEachFace(const Surface& surface, const Visit& visit)
-{
-    const std::vector<std::uint32_t> quads = quadrilaterals(surface);
-    auto quad = quads.begin();
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-        const auto& [a, b, c] = surface.triangles[t];
-        if (quad != quads.end() && *quad == t) {
-            ++quad;
-            visit(t, std::initializer_list<std::uint32_t>{a, b, c, surface.triangles[t + 1][2]});
-            ++t;
-        } else {
-            visit(t, std::initializer_list<std::uint32_t>{a, b, c});
-        }
     }
 }
 
@@ -134,23 +117,24 @@ std::uint64_t writeObj(const Surface& surface, std::ostream& out, const ObjOptio
         writeLine(bytes, "vn", up.x, up.y, up.z);
     }
     auto part = surface.parts.begin();
-    forEachFace(surface, [&](std::size_t triangle, std::initializer_list<std::uint32_t> corners) {
-        if (!looks.empty() && part != surface.parts.end() && part->first_triangle == triangle) {
-            bytes.text("usemtl " + looks[part->droplet].name + "\n");
-            ++part;
-        }
-        bytes.u8('f');
-        for (const std::uint32_t vertex : corners) {
-            const std::uint64_t own = vertex + std::uint64_t{1};
-            bytes.u8(' ');
-            bytes.digits(welded.number[vertex] + std::uint64_t{1});
-            bytes.u8('/');
-            bytes.digits(own);
-            bytes.u8('/');
-            bytes.digits(own);
-        }
-        bytes.u8('\n');
-    });
+    forEachFace(surface.triangles, quadrilaterals(surface),
+                [&](std::size_t triangle, std::initializer_list<std::uint32_t> corners) {
+                    if (!looks.empty() && part != surface.parts.end() && part->first_triangle == triangle) {
+                        bytes.text("usemtl " + looks[part->droplet].name + "\n");
+                        ++part;
+                    }
+                    bytes.u8('f');
+                    for (const std::uint32_t vertex : corners) {
+                        const std::uint64_t own = vertex + std::uint64_t{1};
+                        bytes.u8(' ');
+                        bytes.digits(welded.number[vertex] + std::uint64_t{1});
+                        bytes.u8('/');
+                        bytes.digits(own);
+                        bytes.u8('/');
+                        bytes.digits(own);
+                    }
+                    bytes.u8('\n');
+                });
     return bytes.finish();
 }
 
@@ -225,12 +209,13 @@ std::uint64_t writePly(const Surface& surface, std::ostream& out)
             bytes.f32(surface.contact_angle[i] / kDegree);
         }
     }
-    forEachFace(surface, [&](std::size_t /*triangle*/, std::initializer_list<std::uint32_t> corners) {
-        bytes.u8(static_cast<std::uint8_t>(corners.size()));
-        for (const std::uint32_t vertex : corners) {
-            bytes.u32(welded.number[vertex]);
-        }
-    });
+    forEachFace(surface.triangles, quadrilaterals(surface),
+                [&](std::size_t /*triangle*/, std::initializer_list<std::uint32_t> corners) {
+                    bytes.u8(static_cast<std::uint8_t>(corners.size()));
+                    for (const std::uint32_t vertex : corners) {
+                        bytes.u32(welded.number[vertex]);
+                    }
+                });
     return bytes.finish();
 }
 

@@ -13,8 +13,6 @@
 
 #include "mesh/aligned_points.h"
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,7 +26,9 @@
 
 #include "droplet/mesh/planar_mesh.h"
 #include "mesh/band.h"
+#include "mesh/harmonic.h"
 #include "mesh/lattice_core.h"
+#include "mesh/triangle_pairs.h"
 
 namespace droplet {
 namespace {
@@ -140,31 +140,16 @@ private:
     /// Finds the triangles beside each other, and one of every vertex.
     void connect()
     {
-        struct HalfEdge {
-            std::uint32_t low, high, triangle, corner;
-        };
-        std::vector<HalfEdge> edges;
-        edges.reserve(3 * triangles_.size());
         triangle_of_.resize(vertices_.size(), 0);
         for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t a = triangles_[t][(k + 1) % 3];
-                const std::uint32_t b = triangles_[t][(k + 2) % 3];
-                edges.push_back({std::min(a, b), std::max(a, b), t, k});
-                triangle_of_[triangles_[t][k]] = t;
+            for (const std::uint32_t v : triangles_[t]) {
+                triangle_of_[v] = t;
             }
         }
-        std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-            return std::pair(a.low, a.high) < std::pair(b.low, b.high);
-        });
         neighbours_.assign(triangles_.size(), {kNone, kNone, kNone});
-        for (std::size_t i = 1; i < edges.size(); ++i) {
-            const HalfEdge& a = edges[i - 1];
-            const HalfEdge& b = edges[i];
-            if (a.low == b.low && a.high == b.high) {
-                neighbours_[a.triangle][a.corner] = b.triangle;
-                neighbours_[b.triangle][b.corner] = a.triangle;
-            }
+        for (const auto& [one, other] : trianglePairs(triangles_)) {
+            neighbours_[one.triangle][one.corner] = other.triangle;
+            neighbours_[other.triangle][other.corner] = one.triangle;
         }
     }
 
@@ -192,45 +177,22 @@ private:
         }
     }
 
-    /// Solves Laplace's equation for the crosses inside, by linear elements.
+    /// Continues the crosses inside.
     void solveCrosses()
     {
-        const auto unknowns = static_cast<Eigen::Index>(vertices_.size() - rim_);
-        if (unknowns == 0) {
-            return;
+        std::vector<Vec3> places;
+        places.reserve(vertices_.size());
+        for (const Vec2 p : vertices_) {
+            places.push_back({p.x, p.y, 0.0});
         }
-        std::vector<Eigen::Triplet<double>> entries;
-        Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(unknowns, 2);
-        const auto row = [&](std::uint32_t v) {
-            return static_cast<Eigen::Index>(v) - static_cast<Eigen::Index>(rim_);
-        };
-        for (const Triangle& t : triangles_) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t a = t[(k + 1) % 3];
-                const std::uint32_t b = t[(k + 2) % 3];
-                const Vec2 u = vertices_[a] - vertices_[t[k]];
-                const Vec2 v = vertices_[b] - vertices_[t[k]];
-                const double weight = 0.5 * dot(u, v) / cross(u, v);
-                for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
-                    if (from < rim_) {
-                        continue;
-                    }
-                    entries.emplace_back(row(from), row(from), weight);
-                    if (to < rim_) {
-                        right(row(from), 0) += weight * crosses_[to].real();
-                        right(row(from), 1) += weight * crosses_[to].imag();
-                    } else {
-                        entries.emplace_back(row(from), row(to), -weight);
-                    }
-                }
-            }
+        Eigen::MatrixX2d rim(static_cast<Eigen::Index>(rim_), 2);
+        for (std::uint32_t v = 0; v < rim_; ++v) {
+            rim.row(static_cast<Eigen::Index>(v)) << crosses_[v].real(), crosses_[v].imag();
         }
-        Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
-        matrix.setFromTriplets(entries.begin(), entries.end());
-        const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
-        const Eigen::MatrixX2d solution = solver.solve(right);
+        const Eigen::MatrixX2d inside = harmonic(places, triangles_, rim);
         for (std::uint32_t v = rim_; v < vertices_.size(); ++v) {
-            crosses_[v] = {solution(row(v), 0), solution(row(v), 1)};
+            const auto row = static_cast<Eigen::Index>(v - rim_);
+            crosses_[v] = {inside(row, 0), inside(row, 1)};
         }
     }
 

@@ -4,7 +4,6 @@
 // the rim exactly.
 #include "droplet/mesh/follow.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +16,7 @@
 #include "droplet/error.h"
 #include "droplet/units.h"
 #include "mesh/curve.h"
+#include "mesh/harmonic.h"
 #include "number_text.h"
 
 namespace droplet {
@@ -348,43 +348,20 @@ PlanarMesh moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
     PlanarMesh moved = mesh;
     moved.lattice = {};
     std::copy(rim.begin(), rim.end(), moved.vertices.begin());
-    const std::size_t inner = mesh.vertices.size() - on_rim;
-    if (inner == 0) {
-        return moved;
+    std::vector<Vec3> places;
+    places.reserve(mesh.vertices.size());
+    for (const Vec2 p : mesh.vertices) {
+        places.push_back({p.x, p.y, 0.0});
     }
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(static_cast<Eigen::Index>(inner), 2);
-    for (const Triangle& t : mesh.triangles) {
-        const double twice = doubleArea(mesh, t);
-        for (std::size_t k = 0; k < 3; ++k) {
-            // Weight of the edge opposite vertex k: half the cotangent of the angle at k.
-            const std::uint32_t a = t[(k + 1) % 3];
-            const std::uint32_t b = t[(k + 2) % 3];
-            const double weight =
-                0.5 * dot(mesh.vertices[a] - mesh.vertices[t[k]], mesh.vertices[b] - mesh.vertices[t[k]]) / twice;
-            for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
-                if (mesh.onRim(from)) {
-                    continue;
-                }
-                const int row = static_cast<int>(from - on_rim);
-                entries.emplace_back(row, row, weight);
-                if (mesh.onRim(to)) {
-                    const Vec2 move = rim[to] - mesh.vertices[to];
-                    right(row, 0) += weight * move.x;
-                    right(row, 1) += weight * move.y;
-                } else {
-                    entries.emplace_back(row, static_cast<int>(to - on_rim), -weight);
-                }
-            }
-        }
+    Eigen::MatrixX2d moves(static_cast<Eigen::Index>(on_rim), 2);
+    for (std::uint32_t v = 0; v < on_rim; ++v) {
+        const Vec2 move = rim[v] - mesh.vertices[v];
+        moves.row(static_cast<Eigen::Index>(v)) << move.x, move.y;
     }
-    Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(inner), static_cast<Eigen::Index>(inner));
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-    const Eigen::MatrixX2d moves = factor.solve(right);
-    for (std::size_t i = 0; i < inner; ++i) {
-        const auto row = static_cast<Eigen::Index>(i);
-        moved.vertices[on_rim + i] = moved.vertices[on_rim + i] + Vec2{moves(row, 0), moves(row, 1)};
+    const Eigen::MatrixX2d inside = harmonic(places, mesh.triangles, moves);
+    for (Eigen::Index i = 0; i < inside.rows(); ++i) {
+        Vec2& vertex = moved.vertices[on_rim + static_cast<std::size_t>(i)];
+        vertex = vertex + Vec2{inside(i, 0), inside(i, 1)};
     }
     return moved;
 }

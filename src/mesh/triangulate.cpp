@@ -205,7 +205,7 @@ std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, dou
                                     Pattern pattern)
 {
     const auto target = static_cast<double>(triangles);
-    double edge = std::sqrt(area / (target * areaPerSquaredEdge(pattern.squares)));
+    double edge = pattern.squares ? std::sqrt(2.0 * area / target) : evenEdge(area, triangles);
     double last_edge = edge;
     double last_count = 0.0;
     // If narrow parts alone need more triangles, longer edges change nothing.

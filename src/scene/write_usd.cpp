@@ -21,6 +21,7 @@
 #include "droplet/error.h"
 #include "droplet/printable.h"
 #include "droplet/version.h"
+#include "scene/faces.h"
 #include "scene/preview_opacity.h"
 #include "scene/welded_vertices.h"
 #include "zip.h"
@@ -255,7 +256,10 @@ public:
           welded_(weldVertices(geometry_.weld))
     {
         for (const ScenePart& part : geometry_.parts) {
-            addFaces(part);
+            forEachFace(part.triangles, part.quads, [&](std::size_t /*triangle*/, const auto& corners) {
+                corners_.insert(corners_.end(), corners);
+                counts_.push_back(static_cast<std::uint32_t>(corners.size()));
+            });
         }
     }
 
@@ -326,20 +330,6 @@ public:
     }
 
 private:
-    void addFaces(const ScenePart& part)
-    {
-        auto quad = part.quads.begin();
-        for (std::size_t t = 0; t < part.triangles.size(); ++t) {
-            corners_.insert(corners_.end(), part.triangles[t].begin(), part.triangles[t].end());
-            counts_.push_back(3);
-            if (quad != part.quads.end() && *quad == t) {
-                corners_.push_back(part.triangles[++t][2]);
-                counts_.back() = 4;
-                ++quad;
-            }
-        }
-    }
-
     template <typename ValueOf>
     void attribute(std::string_view declaration, std::size_t count, const ValueOf& value_of)
     {

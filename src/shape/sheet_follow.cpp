@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Continuation in the place of the rim, with Newton's method as corrector. What the rim's motion has of a translation,
-// a turn and a growth, the sheet takes over exactly; the rest goes inwards harmonically, by the cotangent Laplacian:
-// U. Pinkall, K. Polthier, "Computing discrete minimal surfaces and their conjugates" (1993).
+// a turn and a growth, the sheet takes over exactly; the rest goes inwards harmonically.
 #include "shape/sheet_follow.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstddef>
 #include <utility>
 
+#include "mesh/harmonic.h"
 #include "shape/sheet_energy.h"
 #include "shape/sheet_limits.h"
 #include "shape/sheet_newton.h"
@@ -69,39 +68,6 @@ Similarity nearestSimilarity(const CapillarySurface& sheet, const std::vector<Ve
     return similarity;
 }
 
-/// Harmonic motion of the vertices inside, along the ground.
-/// @param moves  of the rim's vertices, in two columns
-Eigen::MatrixX2d harmonic(const CapillarySurface& sheet, const Eigen::MatrixX2d& moves)
-{
-    const auto inner = static_cast<Eigen::Index>(sheet.vertices.size() - sheet.rimVertexCount());
-    const auto row_of = [&](std::uint32_t v) { return static_cast<int>(v - sheet.rimVertexCount()); };
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(inner, 2);
-    for (const Triangle& t : sheet.triangles) {
-        const double twice = 2.0 * length(areaVector(sheet.vertices, t));
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = t[(k + 1) % 3];
-            const std::uint32_t b = t[(k + 2) % 3];
-            const Vec3& tip = sheet.vertices[t[k]];
-            const double weight = 0.5 * dot(sheet.vertices[a] - tip, sheet.vertices[b] - tip) / twice;
-            for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
-                if (from < sheet.rimVertexCount()) {
-                    continue;
-                }
-                entries.emplace_back(row_of(from), row_of(from), weight);
-                if (to < sheet.rimVertexCount()) {
-                    right.row(row_of(from)) += weight * moves.row(static_cast<Eigen::Index>(to));
-                } else {
-                    entries.emplace_back(row_of(from), row_of(to), -weight);
-                }
-            }
-        }
-    }
-    Eigen::SparseMatrix<double> matrix(inner, inner);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
-}
-
 /// Motion of all vertices when the rim goes to new places.
 std::vector<Vec3> motionOf(const CapillarySurface& sheet, const std::vector<Vec2>& rim, const Similarity& similarity)
 {
@@ -117,7 +83,7 @@ std::vector<Vec3> motionOf(const CapillarySurface& sheet, const std::vector<Vec2
         rest.row(static_cast<Eigen::Index>(v)) << rim[v].x - there.x, rim[v].y - there.y;
         motion[v] = {rim[v].x - sheet.vertices[v].x, rim[v].y - sheet.vertices[v].y, 0.0};
     }
-    const Eigen::MatrixX2d inside = harmonic(sheet, rest);
+    const Eigen::MatrixX2d inside = harmonic(sheet.vertices, sheet.triangles, rest);
     for (std::size_t v = rim.size(); v < motion.size(); ++v) {
         const auto row = static_cast<Eigen::Index>(v - rim.size());
         motion[v] = motion[v] + Vec3{inside(row, 0), inside(row, 1), 0.0};

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "droplet/surface/surface.h"
+#include "mesh/triangle_pairs.h"
 
 namespace droplet {
 namespace {
@@ -96,31 +97,11 @@ private:
 
     static std::vector<Candidate> candidatesOf(std::span<const Triangle> triangles, const std::vector<Vec3>& vertices)
     {
-        struct HalfEdge {
-            std::uint32_t low, high, triangle, corner;
-        };
-        std::vector<HalfEdge> edges;
-        edges.reserve(3 * triangles.size());
-        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-            for (std::uint32_t k = 0; k < 3; ++k) {
-                const std::uint32_t a = triangles[t][(k + 1) % 3];
-                const std::uint32_t b = triangles[t][(k + 2) % 3];
-                edges.push_back({std::min(a, b), std::max(a, b), t, k});
-            }
-        }
-        std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-            return std::array{a.low, a.high, a.triangle} < std::array{b.low, b.high, b.triangle};
-        });
         std::vector<Candidate> candidates;
-        for (std::size_t i = 1; i < edges.size(); ++i) {
-            const HalfEdge& one = edges[i - 1];
-            const HalfEdge& other = edges[i];
-            if (one.low != other.low || one.high != other.high) {
-                continue;
-            }
+        for (const auto& [one, other] : trianglePairs(triangles)) {
             const Triangle& t = triangles[one.triangle];
             const std::uint32_t facing = triangles[other.triangle][other.corner];
-            const auto at = [&](std::uint32_t k) { return vertices[t[(one.corner + k) % 3]]; };
+            const auto at = [&, corner = one.corner](std::uint32_t k) { return vertices[t[(corner + k) % 3]]; };
             // The common edge is the diagonal from a to c.
             if (const auto found = deviation({at(2), at(0), at(1), vertices[facing]})) {
                 candidates.push_back({*found, {one.triangle, other.triangle}});

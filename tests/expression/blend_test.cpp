@@ -11,6 +11,7 @@
 
 #include "droplet/error.h"
 #include "liquid2d/region.h"
+#include "support/loops.h"
 
 namespace {
 
@@ -19,6 +20,7 @@ using droplet::BlendOptions;
 using droplet::LiquidShape;
 using droplet::Loop;
 using droplet::Vec2;
+using droplet::testing::pointsOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
@@ -57,15 +59,6 @@ LiquidShape dropletsOf(std::vector<Loop> loops)
     LiquidShape shape;
     shape.droplets = std::move(loops);
     return shape;
-}
-
-std::vector<std::vector<Vec2>> pointsOf(const std::vector<Loop>& loops)
-{
-    std::vector<std::vector<Vec2>> points;
-    for (const Loop& loop : loops) {
-        points.push_back(loop.points);
-    }
-    return points;
 }
 
 /// Greatest distance of a loop's points from a circle.

@@ -10,6 +10,7 @@
 
 #include "droplet/error.h"
 #include "liquid2d/region.h"
+#include "support/loops.h"
 
 namespace {
 
@@ -19,8 +20,9 @@ using droplet::morph;
 using droplet::MorphOptions;
 using droplet::Region;
 using droplet::Vec2;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using droplet::testing::pointsOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 Region ring()
 {
@@ -54,15 +56,6 @@ std::vector<LiquidShape> framesOf(const std::vector<Region>& footprints, const M
     });
     EXPECT_EQ(all.size(), options.frames);
     return all;
-}
-
-std::vector<std::vector<Vec2>> pointsOf(const std::vector<Loop>& loops)
-{
-    std::vector<std::vector<Vec2>> points;
-    for (const Loop& loop : loops) {
-        points.push_back(loop.points);
-    }
-    return points;
 }
 
 TEST(Morph, AreaFollowsTheWayAndTheEndsAreTheFootprints)

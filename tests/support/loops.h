@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "droplet/outline/outline.h"
 #include "droplet/vector.h"
 
 namespace droplet::testing {
@@ -26,6 +27,16 @@ inline double polygonArea(const std::vector<Vec2>& polygon)
         twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
     }
     return 0.5 * twice;
+}
+
+/// Points of loops, without their corners.
+inline std::vector<std::vector<Vec2>> pointsOf(const std::vector<Loop>& loops)
+{
+    std::vector<std::vector<Vec2>> points;
+    for (const Loop& loop : loops) {
+        points.push_back(loop.points);
+    }
+    return points;
 }
 
 /// Winding number of a polygon around a point.
