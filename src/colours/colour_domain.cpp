@@ -163,13 +163,13 @@ private:
     /// Share of one colour beside another one, from their exact areas.
     [[nodiscard]] double mixed(std::size_t i, std::uint8_t left, std::uint8_t right) const
     {
-        constexpr double kFull = 255.0;
+        constexpr double kWholePixel = 255.0;
         if (labels_[i] != left && labels_[i] != right) {
             return 0.5;
         }
         const PixelMixture& mixture = regions_.mixture[i];
         const bool is_mixed = labels_[i] == regions_.label[i] && mixture.other == (labels_[i] == left ? right : left);
-        const double own = is_mixed ? mixture.share / kFull : 1.0;
+        const double own = is_mixed ? mixture.share / kWholePixel : 1.0;
         return labels_[i] == left ? own : 1.0 - own;
     }
 

@@ -262,9 +262,9 @@ struct FlowAnimation::Content {
     {
         const std::uint32_t frame = histories.frames();
         if (const auto last = pond_of.find(sample.id); last != pond_of.end()) {
-            ShownPond& shown = ponds[last->second];
-            if (shown.looksLike(*sample.pond, shape)) {
-                shown.frames.end = frame + 1;
+            ShownPond& before = ponds[last->second];
+            if (before.looksLike(*sample.pond, shape)) {
+                before.frames.end = frame + 1;
                 now.insert(*last);
                 return;
             }
@@ -274,19 +274,19 @@ struct FlowAnimation::Content {
             ground.push_back(deforms != nullptr ? deforms->faceAt(shape, face) : terrain.surface().faces[face]);
         }
         PondSurface surface = pondSurface(ground, *sample.pond);
-        ShownPond shown{{frame, frame + 1}, *sample.pond, shape, {}};
+        ShownPond pond{{frame, frame + 1}, *sample.pond, shape, {}};
         const std::vector<Vec3>& places = surface.vertices;
         if (!places.empty()) {
             const auto [low, high] = cornersOf(places);
             corners = cornersOf({corners[0], corners[1], low, high});
         }
-        shown.mesh.vertices = std::move(surface.vertices);
-        shown.mesh.normals = std::move(surface.normals);
-        shown.mesh.triangles = std::move(surface.triangles);
+        pond.mesh.vertices = std::move(surface.vertices);
+        pond.mesh.normals = std::move(surface.normals);
+        pond.mesh.triangles = std::move(surface.triangles);
         now.emplace(sample.id, ponds.size());
         constexpr std::size_t kVerticesOfShape = 64;  // of a droplet on the way
-        shapes += 1 + shown.mesh.vertices.size() / kVerticesOfShape;
-        ponds.push_back(std::move(shown));
+        shapes += 1 + pond.mesh.vertices.size() / kVerticesOfShape;
+        ponds.push_back(std::move(pond));
     }
 
     void addPonds(std::size_t object_node, Scene& scene) const
@@ -337,14 +337,14 @@ struct FlowAnimation::Content {
 
     [[nodiscard]] Deforming deforming() const
     {
-        std::vector<MeshShape> shapes;
+        std::vector<MeshShape> all;
         for (std::size_t k = 0; k < deforms->count(); ++k) {
             FlowObject shape = inShape(object, deforms->vertices(k));
-            shapes.push_back({std::move(shape.vertices), std::move(shape.normals)});
+            all.push_back({std::move(shape.vertices), std::move(shape.normals)});
         }
         constexpr double kNear = 5e-5;   // over the size: less than a pixel of a picture that shows all of it
         constexpr double kTurned = 0.1;  // of normals: 6 degrees
-        return {object, terrain, shapeBasis(shapes, {kNear * length(sizeOf(object)), kTurned}), shown};
+        return {object, terrain, shapeBasis(all, {kNear * length(sizeOf(object)), kTurned}), shown};
     }
 
     void include(const ObjectPose& pose)

@@ -32,4 +32,9 @@ using DropletRelease = void(DropletPicture* picture);
 /// @param picture   receives the file's bytes as `pixels`, with their number as width; for dropletRelease
 using DropletEncodeExr = DropletOutcome(const float* values, int width, int height, int channels,
                                         DropletPicture* picture);
+
+// The module's functions.
+DropletDecode dropletDecode;
+DropletEncodeExr dropletEncodeExr;
+DropletRelease dropletRelease;
 }

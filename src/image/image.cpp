@@ -277,7 +277,11 @@ Image decodeImage(std::span<const std::byte> encoded, const DecodeOptions& optio
             return decodeTga(encoded, options);
         case ImageFormat::Webp:
             return decodeWebp(encoded, options);
-        default:
+        case ImageFormat::Tiff:
+        case ImageFormat::Pnm:
+        case ImageFormat::Jpeg2000:
+        case ImageFormat::OpenExr:
+        case ImageFormat::RadianceHdr:
             return decodeWithOpenCv(encoded, format, options);
     }
     ImageHeader header = readImageHeader(encoded, format, options.max_pixels);

@@ -10,7 +10,6 @@
 #include <numbers>
 #include <ostream>
 #include <string>
-#include <string_view>
 #include <type_traits>
 
 #include "byte_stream.h"
@@ -200,7 +199,6 @@ public:
     std::uint64_t finish() { return bytes_.finish(); }
 
 private:
-    void item(std::string_view words) { bytes_.text(words); }
     void item(const char* words) { bytes_.text(words); }
     template <class Number>
     void item(Number value)

@@ -84,7 +84,6 @@ public:
         growSides();
     }
 
-    [[nodiscard]] std::uint32_t rimCount() const { return rim_; }
     [[nodiscard]] Vec2 vertex(std::uint32_t v) const { return vertices_[v]; }
     [[nodiscard]] double side(std::uint32_t v) const { return sides_[v]; }
     /// A triangle of a vertex.

@@ -209,7 +209,7 @@ std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, dou
     double last_edge = edge;
     double last_count = 0.0;
     // If narrow parts alone need more triangles, longer edges change nothing.
-    const auto is_stuck = [](double count, double last_count) { return std::abs(count / last_count - 1.0) < 0.005; };
+    const auto is_stuck = [](double count, double before) { return std::abs(count / before - 1.0) < 0.005; };
     // Cheap predictions come first; they do most of the search without triangulation.
     for (int k = 0; k < 4 || last_count > 1.1 * std::max(kMaxDetailTriangles, target); ++k) {
         const double count = predictTriangles(samplers, edge, pattern);

@@ -2,12 +2,6 @@
 // OpenCV's codecs where they are linked with the program.
 #include "image/open_codecs.h"
 
-extern "C" {
-DropletDecode dropletDecode;
-DropletEncodeExr dropletEncodeExr;
-DropletRelease dropletRelease;
-}
-
 namespace droplet {
 
 const OpenCodecs& openCodecs()

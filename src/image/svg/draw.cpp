@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdint>
@@ -26,6 +27,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "droplet/units.h"
@@ -49,7 +51,7 @@ constexpr double kInch = 25.4 * kMillimetre;
 /// Reason reported to the library instead of a drawing.
 class Refusal : public std::runtime_error {
 public:
-    Refusal(SvgOutcome outcome, const std::string& problem) : std::runtime_error(problem), outcome(outcome) {}
+    Refusal(SvgOutcome reason, const std::string& problem) : std::runtime_error(problem), outcome(reason) {}
 
     SvgOutcome outcome;
 };
@@ -214,20 +216,17 @@ private:
 
     static std::optional<double> metres(const RsvgLength& length)
     {
-        switch (length.unit) {
-            case RSVG_UNIT_IN:
-                return length.length * kInch;
-            case RSVG_UNIT_CM:
-                return length.length * 10.0 * kMillimetre;
-            case RSVG_UNIT_MM:
-                return length.length * kMillimetre;
-            case RSVG_UNIT_PT:
-                return length.length * kInch / 72.0;
-            case RSVG_UNIT_PC:
-                return length.length * kInch / 6.0;
-            default:
-                return std::nullopt;
+        constexpr std::array<std::pair<RsvgUnit, double>, 5> kUnits{{{RSVG_UNIT_IN, kInch},
+                                                                     {RSVG_UNIT_CM, 10.0 * kMillimetre},
+                                                                     {RSVG_UNIT_MM, kMillimetre},
+                                                                     {RSVG_UNIT_PT, kInch / 72.0},
+                                                                     {RSVG_UNIT_PC, kInch / 6.0}}};
+        for (const auto& [unit, metre] : kUnits) {
+            if (length.unit == unit) {
+                return length.length * metre;
+            }
         }
+        return std::nullopt;
     }
 
     RsvgHandle* handle_ = nullptr;
