@@ -103,7 +103,6 @@ public:
     }
 
     [[nodiscard]] std::size_t size() const { return loops_.size(); }
-    [[nodiscard]] const Loop& loop(std::size_t k) const { return *loops_[k]; }
     [[nodiscard]] const Curve& curve(std::size_t k) const { return curves_[k]; }
 
     /// Nearest place within a distance, which is at most half an edge.

@@ -75,7 +75,6 @@ public:
         }
     }
 
-    [[nodiscard]] std::size_t size() const { return points_.size(); }
     [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < points_.size() ? i + 1 : 0; }
     [[nodiscard]] std::size_t previous(std::size_t i) const { return (i > 0 ? i : points_.size()) - 1; }
     [[nodiscard]] std::size_t step(std::size_t i, bool forward) const { return forward ? next(i) : previous(i); }

@@ -894,12 +894,12 @@ void RenderOptions::validate() const
                         *one.thickness, "finite and more than 0 m");
             }
             if (one.absorption) {
-                const auto& [colour, distance] = *one.absorption;
+                const auto& [colour, path] = *one.absorption;
                 const auto is_share = [](double a) { return a > 0.0 && a <= 1.0; };
                 if (!is_share(colour.x) || !is_share(colour.y) || !is_share(colour.z)) {
                     refuse("stand_looks.absorption.colour must be above 0, to 1");
                 }
-                require(distance > 0.0 && std::isfinite(distance), "options.stand_looks.absorption.distance", distance,
+                require(path > 0.0 && std::isfinite(path), "options.stand_looks.absorption.distance", path,
                         "finite and more than 0 m");
             }
             for (const std::optional<Picture>* const picture : {&one.colours, &one.normals, &one.finish}) {

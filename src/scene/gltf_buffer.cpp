@@ -36,7 +36,10 @@ std::string bytesOf(const std::vector<GltfArray>& arrays)
 std::string encoded(const std::string& bytes, std::size_t stride, bool are_indices)
 {
     // The extension needs the second version of the indices' codec; the library would take the first.
-    [[maybe_unused]] static const bool is_set = (meshopt_encodeIndexVersion(1), true);
+    [[maybe_unused]] static const bool is_set = [] {
+        meshopt_encodeIndexVersion(1);
+        return true;
+    }();
     const std::size_t count = bytes.size() / stride;
     std::string code;
     const auto at = [&] { return reinterpret_cast<unsigned char*>(code.data()); };
