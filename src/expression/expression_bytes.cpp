@@ -8,7 +8,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kHead = "droplet-shape expression 2\n";
+constexpr std::string_view kHead = "droplet-shape expression 3\n";
 
 }  // namespace
 
@@ -42,7 +42,7 @@ std::string bytesOf(const ExpressionState& state)
     out.put(std::uint64_t{state.remembers});
     out.put(std::uint64_t{state.holes.size()});
     for (const LiquidHole& hole : state.holes) {
-        out.all(hole.centre, hole.velocity, hole.area, hole.reach, hole.seen, std::uint64_t{hole.shown.has_value()},
+        out.all(hole.centre, hole.area, hole.reach, hole.clearance, hole.seen, std::uint64_t{hole.shown.has_value()},
                 hole.shown.value_or(0.0));
     }
     return out.release();
@@ -89,11 +89,11 @@ ExpressionState expressionFromBytes(std::string_view bytes, const std::string& n
     in.get(remembers);
     in.require(remembers <= 1);
     state.remembers = remembers != 0;
-    state.holes.resize(in.count(9 * sizeof(double)));
+    state.holes.resize(in.count(8 * sizeof(double)));
     for (LiquidHole& hole : state.holes) {
         std::uint64_t is_shown = 0;
         double shown = 0.0;
-        in.all(hole.centre, hole.velocity, hole.area, hole.reach, hole.seen, is_shown, shown);
+        in.all(hole.centre, hole.area, hole.reach, hole.clearance, hole.seen, is_shown, shown);
         in.require(is_shown <= 1);
         hole.shown = is_shown != 0 ? std::optional(shown) : std::nullopt;
     }

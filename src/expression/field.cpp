@@ -454,7 +454,7 @@ Field fieldOf(const std::vector<Drop>& drops, const ExpressionState& state, cons
             owner.emplace_back();
         }
     }
-    for (const OpenHole& hole : openHoles(state)) {
+    for (const OpenHole& hole : openHoles(state, frame.spacing)) {
         LongStamp s;
         s.is_dent = true;
         s.place = scale * hole.centre;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holes that open and close within a frame or two flicker. The next frames are not known, so: a small hole is drawn
-// once it has lasted; a hole that was drawn is held open, by a dent in the field that goes with the liquid around it,
+// once it has lasted; a hole that was drawn is held open, by a dent in the field that goes where the particles around it go,
 // until it has been seen. Large holes, such as the air below a crest that falls, are drawn at once.
 #include "holes.h"
 
@@ -11,6 +11,7 @@
 
 #include "liquid2d/bounds.h"
 #include "liquid2d/cell_grid.h"
+#include "liquid2d/region.h"
 
 namespace droplet {
 namespace {
@@ -21,18 +22,14 @@ constexpr double kWait = 1.9 / 24.0;
 /// Time that a hole is drawn for, at least: at the frame 2/24 s later it is still there [s].
 constexpr double kShown = 2.1 / 24.0;
 
+/// Particles nearer than so many spacings to a hole lie around it.
+constexpr double kAround = 1.5;
+
+/// Radius of a hole that is held open over the clearance around its centre, at most: less of longer ones.
+constexpr double kLongest = 1.2;
+
 /// Area from which on a hole is drawn at once, in areas of a particle.
 constexpr double kLarge = 3.0;
-
-Vec2 placeAfter(const LiquidHole& hole, double time)
-{
-    return hole.centre + time * hole.velocity;
-}
-
-double lastStep(const ExpressionState& state)
-{
-    return state.past.size() > 1 ? state.past[0].time - state.past[1].time : 0.0;
-}
 
 LiquidHole measured(const Loop& rim)
 {
@@ -48,45 +45,67 @@ LiquidHole measured(const Loop& rim)
     }
     hole.centre = origin + (hole.area != 0.0 ? 1.0 / hole.area : 0.0) * moment;
     hole.area = std::abs(hole.area);
+    const bool is_around = contains(Region{{rim.points}}, hole.centre);
+    hole.clearance = is_around ? std::numeric_limits<double>::max() : 0.0;
     for (const Vec2 x : rim.points) {
         hole.reach = std::max(hole.reach, length(x - hole.centre));
+        hole.clearance = std::min(hole.clearance, length(x - hole.centre));
     }
     return hole;
 }
 
-/// Gives holes the mean velocity of the particles along their rims.
-void addVelocities(std::vector<LiquidHole>& holes, const std::vector<Loop>& rims, const ParticleFrame& frame)
+/// Holes of the frame before, where the particles around them have gone to.
+std::vector<LiquidHole> movedHoles(const ExpressionState& state, double spacing)
 {
-    Bounds box;
-    for (const Loop& rim : rims) {
-        box.include(rim.points);
+    std::vector<LiquidHole> holes = state.holes;
+    if (holes.empty() || state.past.size() < 2) {
+        return holes;
     }
-    const double cell = 2.0 * frame.spacing;
-    CellGrid cells(box.lower - Vec2{cell, cell}, box.upper + Vec2{cell, cell}, cell);
-    const std::vector<std::uint32_t> order = cells.sort(frame.position);
-    for (std::size_t k = 0; k < holes.size(); ++k) {
+    const std::vector<Vec2>& now = state.past[0].position;
+    std::vector<Vec2> before;
+    std::vector<Vec2> way;
+    for (std::size_t id = 0; id < state.past[1].position.size(); ++id) {
+        const Vec2 x = state.past[1].position[id];
+        if (!std::isnan(x.x) && !std::isnan(now[id].x)) {
+            before.push_back(x);
+            way.push_back(now[id] - x);
+        }
+    }
+    if (before.empty()) {
+        return holes;
+    }
+    const auto [lower, upper] = boundsOf(before);
+    CellGrid cells(lower, upper, kAround * spacing);
+    const std::vector<std::uint32_t> order = cells.sort(before);
+    for (LiquidHole& hole : holes) {
+        const double reach = hole.reach + kAround * spacing;
+        const Vec2 corner{reach, reach};
+        const Vec2 low = hole.centre - corner;
+        const Vec2 high = hole.centre + corner;
         Vec2 sum;
         double count = 0.0;
-        for (const Vec2 x : rims[k].points) {
-            const int column = cells.column(x.x);
-            const auto [first, last] = cells.range(cells.row(x.y), column, column);
+        for (int row = cells.row(low.y); row <= cells.row(high.y); ++row) {
+            const auto [first, last] = cells.range(row, cells.column(low.x), cells.column(high.x));
             for (std::uint32_t m = first; m < last; ++m) {
-                sum = sum + frame.velocity[order[m]];
-                count += 1.0;
+                if (length(before[order[m]] - hole.centre) < reach) {
+                    sum = sum + way[order[m]];
+                    count += 1.0;
+                }
             }
         }
-        holes[k].velocity = (count > 0.0 ? 1.0 / count : 0.0) * sum;
+        hole.centre = hole.centre + (count > 0.0 ? 1.0 / count : 0.0) * sum;
     }
+    return holes;
 }
 
 }  // namespace
 
-std::vector<OpenHole> openHoles(const ExpressionState& state)
+std::vector<OpenHole> openHoles(const ExpressionState& state, double spacing)
 {
     std::vector<OpenHole> open;
-    for (const LiquidHole& hole : state.holes) {
-        if (hole.shown && state.past.front().time - *hole.shown < kShown) {
-            open.push_back({placeAfter(hole, lastStep(state)), std::sqrt(hole.area / std::numbers::pi)});
+    for (const LiquidHole& hole : movedHoles(state, spacing)) {
+        if (hole.clearance > 0.0 && hole.shown && state.past.front().time - *hole.shown < kShown) {
+            open.push_back({hole.centre, std::min(std::sqrt(hole.area / std::numbers::pi), kLongest * hole.clearance)});
         }
     }
     return open;
@@ -103,8 +122,7 @@ std::vector<LiquidHole> followedHoles(const std::vector<Loop>& rims, const Expre
     for (const Loop& rim : rims) {
         holes.push_back(measured(rim));
     }
-    addVelocities(holes, rims, frame);
-    const double step = lastStep(state);
+    const std::vector<LiquidHole> old = movedHoles(state, frame.spacing);
     struct Pair {
         double distance = 0.0;
         std::size_t before = 0;
@@ -112,10 +130,9 @@ std::vector<LiquidHole> followedHoles(const std::vector<Loop>& rims, const Expre
     };
     std::vector<Pair> pairs;
     for (std::size_t now = 0; now < holes.size(); ++now) {
-        for (std::size_t before = 0; before < state.holes.size(); ++before) {
-            const LiquidHole& old = state.holes[before];
-            const double distance = length(holes[now].centre - placeAfter(old, step));
-            if (distance < holes[now].reach + old.reach + frame.spacing) {
+        for (std::size_t before = 0; before < old.size(); ++before) {
+            const double distance = length(holes[now].centre - old[before].centre);
+            if (distance < holes[now].reach + old[before].reach + frame.spacing) {
                 pairs.push_back({distance, before, now});
             }
         }
@@ -123,13 +140,13 @@ std::vector<LiquidHole> followedHoles(const std::vector<Loop>& rims, const Expre
     std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
     // Nearest pairs first; further parts of a hole that was drawn are drawn too, and begin to last.
     constexpr double kNever = std::numeric_limits<double>::max();
-    std::vector<char> is_taken(state.holes.size(), 0);
+    std::vector<char> is_taken(old.size(), 0);
     for (LiquidHole& hole : holes) {
         hole.seen = kNever;
     }
     for (const Pair& pair : pairs) {
         LiquidHole& hole = holes[pair.now];
-        const LiquidHole& before = state.holes[pair.before];
+        const LiquidHole& before = old[pair.before];
         if (hole.seen == kNever && is_taken[pair.before] == 0) {
             is_taken[pair.before] = 1;
             hole.seen = before.seen;

@@ -14,7 +14,8 @@ struct OpenHole {
 };
 
 /// Holes that were drawn too short a time ago to close at the last frame that `state` has seen.
-std::vector<OpenHole> openHoles(const ExpressionState& state);
+/// @param spacing  of the particles
+std::vector<OpenHole> openHoles(const ExpressionState& state, double spacing);
 
 /// Holes of a frame, in the order of their rims, each followed from the holes that `state` remembers.
 /// @param rims  clockwise

@@ -475,6 +475,57 @@ TEST(Expression, HolesLastThreeFramesOrDoNotOpen)
     EXPECT_THAT(framesWithHole({0, 0, kLarge, kLarge, kLarge, kLarge, 0}), ElementsAre(2, 3, 4, 5));
 }
 
+/// Number of holes of each frame of liquid with a gap that goes to the places of a list.
+std::vector<std::ptrdiff_t> holesOfMoved(const std::vector<double>& places, double radius)
+{
+    const ExpressionOptions options;
+    ExpressionState state;
+    std::vector<std::ptrdiff_t> counts;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        ParticleFrame frame = withGap(0.0, k + 1 < places.size() ? radius : 0.0);
+        frame.time = static_cast<double>(k) / 24.0;
+        for (Vec2& x : frame.position) {
+            x.x += places[k];
+        }
+        state = advanceExpression(std::move(state), frame, options);
+        const LiquidShape shape = liquidShape(state, frame, options);
+        counts.push_back(std::count_if(shape.liquid.begin(), shape.liquid.end(),
+                                       [](const droplet::Loop& loop) { return signedArea(loop) < 0.0; }));
+        state = remember(std::move(state), shape);
+    }
+    return counts;
+}
+
+TEST(Expression, HolesGoWhereTheLiquidGoes)
+{
+    // Liquid that a wall stops, or a gate lets go: no velocity of one frame tells where it is at the next.
+    const double way = 15.0 * kSpacing;
+    EXPECT_THAT(holesOfMoved({0.0, 0.0, way, way}, 2.2 * kSpacing), testing::ElementsAre(1, 1, 1, 0));
+    EXPECT_THAT(holesOfMoved({0.0, way}, 2.2 * kSpacing), testing::ElementsAre(1, 1));
+}
+
+TEST(Expression, HolesThatAreHeldOpenCutNoLiquid)
+{
+    // A slot of 40 spacings by 3 in a bar of 50 by 12.
+    std::vector<Vec2> position;
+    for (const Vec2 x : cluster(5000)) {
+        const double across = std::abs(x.y) / kSpacing;
+        const double along = std::abs(x.x) / kSpacing;
+        if (along < 25.0 && across < 6.0 && (along > 20.0 || across > 1.5)) {
+            position.push_back(x);
+        }
+    }
+    const ExpressionOptions options;
+    const ParticleFrame first = frameOf(0.0, position);
+    ExpressionState state = advanceExpression({}, first, options);
+    const LiquidShape before = liquidShape(state, first, options);
+    ASSERT_EQ(before.liquid.size(), 2U);
+    state = remember(std::move(state), before);
+    const ParticleFrame second = frameOf(1.0 / 24.0, position);
+    state = advanceExpression(std::move(state), second, options);
+    EXPECT_NEAR(liquidShape(state, second, options).area(), before.area(), areaOf(3));
+}
+
 TEST(Expression, BytesDoNotDependOnThreadsAndResumeExactly)
 {
     const ExpressionOptions options = expressionOf(LiquidStyle::Wave);

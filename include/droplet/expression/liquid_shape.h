@@ -19,9 +19,9 @@ enum class LiquidLayer {
 /// Hole of a liquid, followed from frame to frame.
 struct LiquidHole {
     Vec2 centre;                  ///< of its area [m]
-    Vec2 velocity;                ///< of the liquid around it [m/s]
     double area = 0.0;            ///< [m²]
     double reach = 0.0;           ///< largest distance of its rim from the centre [m]
+    double clearance = 0.0;       ///< least distance of its rim from the centre [m]; 0 if that lies outside
     double seen = 0.0;            ///< time at which it opened [s]
     std::optional<double> shown;  ///< time from which on it is drawn [s]; empty: not yet
 
