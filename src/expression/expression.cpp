@@ -136,11 +136,8 @@ LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame
     shape.time = frame.time;
     const double particle = frame.spacing * frame.spacing;
     std::vector<Loop> holes;
-    // Bends shorter than two spacings come from single particles.
-    const int rounds = static_cast<int>(std::lround(options.fairing * 2.0 / (options.resolution * options.resolution)));
     const std::vector<Drop> drops = dropsOf(state, frame, options);
-    for (Loop& loop : isolines(fieldOf(drops, state, frame, options))) {
-        loop.points = smoothed(std::move(loop.points), rounds);
+    for (Loop& loop : smoothed(isolines(fieldOf(drops, state, frame, options)), frame.spacing, options.fairing)) {
         const double area = signedArea(loop);
         if (std::abs(area) < options.min_area * particle) {
             continue;

@@ -3,12 +3,14 @@
 
 #include <vector>
 
-#include "droplet/vector.h"
+#include "droplet/outline/outline.h"
 
 namespace droplet {
 
-/// Smooths a closed polyline without shrinking it: bends shorter than a few points vanish.
-/// @param rounds  number of passes, ≥ 0
-std::vector<Vec2> smoothed(std::vector<Vec2> points, int rounds);
+/// Smooths loops without shrinking them. Wrinkles as long as a few particles vanish as far as they are no higher than
+/// a part of a spacing and of what is thin there, so that corners and tips stay and loops do not cross.
+/// @param spacing  of the particles [m]
+/// @param fairing  0: not at all … 10
+std::vector<Loop> smoothed(std::vector<Loop> loops, double spacing, double fairing);
 
 }  // namespace droplet
