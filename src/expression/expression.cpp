@@ -13,6 +13,7 @@
 #include "isoline.h"
 #include "require.h"
 #include "smooth.h"
+#include "wall_contact.h"
 
 namespace droplet {
 namespace {
@@ -137,7 +138,9 @@ LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame
     const double particle = frame.spacing * frame.spacing;
     std::vector<Loop> holes;
     const std::vector<Drop> drops = dropsOf(state, frame, options);
-    for (Loop& loop : smoothed(isolines(fieldOf(drops, state, frame, options)), frame.spacing, options.fairing)) {
+    std::vector<Loop> loops = smoothed(isolines(fieldOf(drops, state, frame, options)), frame.spacing, options.fairing);
+    meetWalls(loops, frame);
+    for (Loop& loop : loops) {
         const double area = signedArea(loop);
         if (std::abs(area) < options.min_area * particle) {
             continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Holes that open and close within a frame or two flicker. The next frames are not known, so: a small hole is drawn
-// once it has lasted; a hole that was drawn is held open, by a dent in the field that goes where the particles around it go,
-// until it has been seen. Large holes, such as the air below a crest that falls, are drawn at once.
+// once it has lasted; a hole that was drawn is held open, by a dent in the field that goes where the particles around
+// it go, until it has been seen. Large holes, such as the air below a crest that falls, are drawn at once.
 #include "holes.h"
 
 #include <algorithm>

@@ -193,7 +193,11 @@ double longestStep(const FluidState& state, const FluidScene& scene, const Fluid
 
 ParticleFrame frameOf(const FluidState& state, const FluidScene& scene)
 {
-    return {state.time, scene.spacing, state.position, state.velocity, state.id, state.density};
+    ParticleFrame frame{state.time, scene.spacing, state.position, state.velocity, state.id, state.density};
+    for (const Wall& wall : scene.walls) {
+        frame.walls.push_back(wallAt(wall, state.time));
+    }
+    return frame;
 }
 
 std::vector<double> pressures(const FluidState& state, const FluidScene& scene)
