@@ -44,6 +44,10 @@ constexpr double kCell = 2.0;
 /// Longest way in a step, in spacings, if none is asked for.
 constexpr double kCourant = 4.0;
 
+/// One liquid particle in so many may go farther, by this factor at most: few fast ones would shorten the steps of all.
+constexpr std::size_t kFastOnes = 100;
+constexpr double kFaster = 1.5;
+
 /// Longest step at that way, in times in which liquid falls freely through half a cell.
 constexpr double kFall = 0.5;
 
@@ -931,29 +935,34 @@ private:
         state.density.resize(count);
         forSpans(spans_, [&](std::size_t k) { total_[k] = density_[k] + solid_[k]; });
         constexpr std::size_t kParticlesPerBlock = 2048;
-        struct Block {
-            double fastest = 0.0;
-            std::uint64_t rescued = 0;
-        };
-        double fastest = 0.0;
-        for (const Block& block : mapBlocks<Block>(
+        squares_.assign(count, 0.0);
+        for (const std::uint64_t rescued : mapBlocks<std::uint64_t>(
                  count,
                  [&](std::size_t begin, std::size_t end) {
-                     Block result;
+                     std::uint64_t result = 0;
                      for (std::size_t i = begin; i < end; ++i) {
                          const bool is_rescued = flies_[i] != 0 ? fly(state, i) : flow(state, i);
-                         result.rescued += is_rescued ? 1 : 0;
+                         result += is_rescued ? 1 : 0;
                          if (flies_[i] == 0) {
-                             result.fastest = std::max(result.fastest, dot(state.velocity[i], state.velocity[i]));
+                             squares_[i] = dot(state.velocity[i], state.velocity[i]);
                          }
                      }
                      return result;
                  },
                  kParticlesPerBlock)) {
-            fastest = std::max(fastest, block.fastest);
-            state.counts.rescued += block.rescued;
+            state.counts.rescued += rescued;
         }
-        state.approach_speed = std::sqrt(fastest);
+        state.approach_speed = count > 0 ? stepSpeed() : 0.0;
+    }
+
+    /// Speed of liquid that bounds steps, from the squares of the particles' speeds, which it puts into another order.
+    [[nodiscard]] double stepSpeed()
+    {
+        const double fastest = *std::max_element(squares_.begin(), squares_.end());
+        const std::size_t rank = squares_.size() - 1 - squares_.size() / kFastOnes;
+        const auto at = squares_.begin() + static_cast<std::ptrdiff_t>(rank);
+        std::nth_element(squares_.begin(), at, squares_.end());
+        return std::max(std::sqrt(*at), std::sqrt(fastest) / kFaster);
     }
 
     /// Moves a particle that flies, in parts of half a cell, so that it meets walls; returns whether one stopped it.
@@ -1066,7 +1075,8 @@ private:
     std::vector<std::uint8_t> flies_;
     std::vector<float> lanes_x_;  ///< places from the grid's corner, in distances on the lattice
     std::vector<float> lanes_y_;
-    std::vector<Vec2> shift_;  ///< displacements that part particles [m]
+    std::vector<Vec2> shift_;      ///< displacements that part particles [m]
+    std::vector<double> squares_;  ///< of speeds [m²/s²]
 };
 
 }  // namespace

@@ -37,7 +37,7 @@ struct FluidState {
     std::vector<std::array<Vec2, 2>> affine;  ///< gradients of the velocity's x and y [1/s]; DFSPH has none
     std::vector<double> emitted;              ///< length of liquid that each emitter has released [m]
     std::uint32_t next_id = 0;                ///< of the next particle
-    double approach_speed = 0.0;              ///< greatest of two neighbours, at the end of the last step [m/s]
+    double approach_speed = 0.0;              ///< that bounds the next step: of the fastest liquid [m/s]
     double density_error = 0.0;               ///< mean compression at the end of the last step
     double step = 0.0;                        ///< length of the last step [s]
     FluidCounts counts;                       ///< since the start
