@@ -89,9 +89,13 @@ struct StraightPixel {
     return {encoded(straight[0], levels), encoded(straight[1], levels), encoded(straight[2], levels), alpha};
 }
 
-/// Pixels of a tile that are opaque, and whose levels are known without their light.
-struct KnownPixels {
-    std::array<StraightPixel, kTilePixels> pixels;  ///< alpha 0: not known
+using Int4 = std::int32_t __attribute__((vector_size(16)));
+using Short8 = std::uint16_t __attribute__((vector_size(16)));
+
+/// What a tile shows of things that are not blurred.
+struct TileContent {
+    bool has_light = false;
+    TileLight light;  ///< if there is any: premultiplied by what covers the pixels
 };
 
 /// Linear light of levels.
@@ -286,22 +290,33 @@ struct DriversView::Content {
                           });
     }
 
-    /// Draws droplets of a tile that are not blurred; their light is premultiplied by their cover.
-    /// @param known  gets pixels whose light is not needed
-    /// @return       number of moments of blurred droplets; 1: there are none
-    int drawResting(std::size_t tile, TileLight& light, KnownPixels& known) const
+    /// Levels through films, by levels behind them.
+    struct FilmLevels {
+        float reflected = -1.0F;  ///< share of light for which they hold
+        std::array<std::array<std::uint8_t, 256>, 3> levels;
+    };
+
+    /// Draws what is not blurred in a tile.
+    /// @param through  of the last tile, or new
+    /// @param writer   as in drawWaterLeft()
+    /// @return         number of moments of blurred droplets; 1: there are none
+    template <typename Writer>
+    int drawResting(std::size_t tile, FilmLevels& through, TileContent& content, Writer& writer) const
     {
-        light.fill(float4(0.0F));
-        known.pixels.fill({});
+        const bool has_blades = wipers.reachNow(tile);
+        content.has_light =
+            !stills->inTile(tile).empty() || !running->inTile(tile).empty() || splashes.reach(tile) || has_blades;
+        if (content.has_light) {
+            content.light.fill(float4(0.0F));
+        }
+        TileLight& light = content.light;
         const float share = shareOfRay();
         for (const StillSample& sample : stills->inTile(tile)) {
             light[sample.pixel] += float4(share * static_cast<float>(sample.cover)) *
                                    seen(scene.backdrop.at(sample.outside), static_cast<float>(sample.light) / 255.0F);
         }
-        const bool has_blades = wipers.reachNow(tile);
         if (wipers.hasWaterLeft(tile)) {
-            const bool is_last = running->inTile(tile).empty() && !splashes.reach(tile) && !has_blades;
-            drawWaterLeft(tile, light, is_last ? &known : nullptr);
+            drawWaterLeft(tile, through, content, writer);
         }
         int moments = has_blades ? wipers.moments() : 1;
         for (const RaysInTile& in_tile : running->inTile(tile)) {
@@ -336,164 +351,137 @@ struct DriversView::Content {
         }
     }
 
-    /// Refraction of a ray that leaves water on the glass.
-    [[nodiscard]] Interface beyond(const WaterMet& water, const ViewTile& tile, Vec3f ray) const
-    {
-        const auto ior = static_cast<float>(scene.options.ior);
-        Interface out =
-            intoAir(intoWater(toFrame(tile.frame, ray), ior), unit({-water.slope.x, -water.slope.y, 1.0F}), ior);
-        out.transmitted = fromFrame(tile.frame, out.transmitted);
-        return out;
-    }
-
     /// Light through a bead, premultiplied.
     [[nodiscard]] Float4 throughBead(const WaterMet& water, const ViewTile& tile, Vec3f ray) const
     {
-        const Interface out = beyond(water, tile, ray);
+        const Interface out = scene.beyond(water.slope, tile, ray);
         const Float4 outside =
             out.reflected < 1.0F ? scene.backdrop.at(scene.backdrop.placeOf(out.transmitted, 0)) : cabin;
         return float4(water.cover) * seen(outside, 1.0F - out.reflected);
     }
 
-    /// What films of a tile do to its light. A film is so thin that its slope displaces the picture in proportion; the
-    /// second order is a hundredth of that for the steepest films.
-    struct FilmOptics {
-        Vec2f by_x;              ///< displacement for a unit slope along the glass's x [px]
-        Vec2f by_y;              ///< likewise along its y
-        float reflected = 0.0F;  ///< share
-        Float4 cabin{};          ///< what is reflected
-    };
-
-    [[nodiscard]] FilmOptics filmOpticsOf(std::size_t number) const
-    {
-        const Eye& eye = scene.eye;
-        const ViewTile& tile = scene.tiles[number];
-        const auto columns = static_cast<std::size_t>(scene.tiles.columns());
-        const float half = 0.5F * kTile;
-        const std::size_t row = number / columns;
-        const Vec3f ray = unit(
-            eye.rayAt(static_cast<float>(number % columns) * kTile + half, static_cast<float>(row) * kTile + half));
-        const auto through = [&](Vec2f slope) {
-            const Interface out = beyond({1.0F, slope}, tile, ray);
-            const float scale = 1.0F / (std::max(out.transmitted.y, 1e-3F) * eye.tangent());
-            return std::pair(Vec2f{scale * out.transmitted.x, -scale * out.transmitted.z}, out.reflected);
-        };
-        constexpr float kSlope = 0.01F;  // of usual films
-        const auto by = [&](Vec2f slope) {
-            const Vec2f more = through(slope).first;
-            const Vec2f less = through({-slope.x, -slope.y}).first;
-            return Vec2f{(more.x - less.x) / (2.0F * kSlope), (more.y - less.y) / (2.0F * kSlope)};
-        };
-        const float reflected = through({}).second;
-        return {by({kSlope, 0.0F}), by({0.0F, kSlope}), reflected, float4(reflected) * (pane * cabin)};
-    }
-
-    /// Pixel of the bare picture.
-    struct Levels {
-        std::uint8_t red = 0;
-        std::uint8_t green = 0;
-        std::uint8_t blue = 0;
-    };
-
-    /// What a film shows: the bare picture, slightly displaced. Levels, not light, are interpolated: a part of a pixel
-    /// makes no difference that is seen.
+    /// Levels of a place in the bare picture. Levels, not light, are interpolated: a part of a pixel makes no
+    /// difference that is seen.
     /// @param x, y  within the picture [px]
-    [[nodiscard]] Levels levelsAt(float x, float y) const
+    [[nodiscard]] Int4 levelsAt(float x, float y) const
     {
-        const Eye& eye = scene.eye;
-        const int left = std::min(static_cast<int>(x), eye.width() - 2);
-        const int top = std::min(static_cast<int>(y), eye.height() - 2);
-        const std::uint8_t* const above = bare.rgb.data() + 3 * eye.at(left, top);
-        const std::uint8_t* const below = above + 3 * static_cast<std::size_t>(eye.width());
-        const Float4 right = float4(x - static_cast<float>(left));
-        const auto across = [&](const std::uint8_t* at) {
-            // Two words of four bytes have both pixels and nothing beyond them.
-            std::uint32_t first = 0;
-            std::uint32_t last = 0;
-            std::memcpy(&first, at, 4);
-            std::memcpy(&last, at + 2, 4);
-            const Float4 one = floatsOf(first);
-            return one + right * (floatsOf(last >> 8U) - one);
-        };
-        const Float4 upper = across(above);
-        const Float4 level = upper + float4(y - static_cast<float>(top)) * (across(below) - upper) + float4(0.5F);
-        return {static_cast<std::uint8_t>(level[0]), static_cast<std::uint8_t>(level[1]),
-                static_cast<std::uint8_t>(level[2])};
+        constexpr float kParts = 256.0F;  // weights of rows have 8 bits, as levels
+        const auto rows = static_cast<std::int32_t>(kParts * y);
+        const int left = std::min(static_cast<int>(x), scene.eye.width() - 2);
+        const int top = std::min(rows / 256, scene.eye.height() - 2);
+        const std::uint8_t* const above = bare.rgb.data() + 3 * scene.eye.at(left, top);
+        const std::uint8_t* const under = above + 3 * static_cast<std::size_t>(scene.eye.width());
+        // Words of eight bytes have two pixels, and two bytes of pixels that follow or precede them.
+        std::uint64_t upper = 0;
+        std::uint64_t lower = 0;
+        std::memcpy(&upper, above, sizeof(upper));
+        std::memcpy(&lower, under - 2, sizeof(lower));
+        const auto below = static_cast<std::uint16_t>(rows - 256 * top);
+        const Short8 across =
+            shortsOf(upper) * static_cast<std::uint16_t>(256 - below) + shortsOf(lower >> 16U) * below;
+        const Short8 none{};
+        const Float4 one = floatsOf(across);
+        const Float4 other = floatsOf(__builtin_shufflevector(across, none, 3, 4, 5, 6, 7, 8, 9, 10));
+        const Float4 sum = one + float4(x - static_cast<float>(left)) * (other - one);
+        return __builtin_convertvector(float4(1.0F / kParts) * sum + float4(0.5F), Int4);
     }
 
-    /// The lowest three bytes.
-    static Float4 floatsOf(std::uint32_t bytes)
+    static Short8 shortsOf(std::uint64_t bytes)
     {
-        using Int4 = std::int32_t __attribute__((vector_size(16)));
-        const auto byte = [bytes](unsigned k) { return static_cast<std::int32_t>(bytes >> (8U * k) & 255U); };
-        return __builtin_convertvector((Int4{byte(0), byte(1), byte(2), 0}), Float4);
+        using Byte16 = std::uint8_t __attribute__((vector_size(16)));
+        using Long2 = std::uint64_t __attribute__((vector_size(16)));
+        return reinterpret_cast<Short8>(__builtin_shufflevector(reinterpret_cast<Byte16>(Long2{bytes, 0}), Byte16{}, 0,
+                                                                16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23));
     }
 
-    /// Light through a film that covers its pixel.
-    static Float4 throughFilm(Levels behind, const FilmOptics& film)
+    /// The first four.
+    static Float4 floatsOf(Short8 shorts)
     {
-        Float4 light = float4(1.0F - film.reflected) * lightOf(behind.red, behind.green, behind.blue) + film.cabin;
-        light[3] = 1.0F;
-        return light;
+        return __builtin_convertvector(
+            reinterpret_cast<Int4>(__builtin_shufflevector(shorts, Short8{}, 0, 8, 1, 9, 2, 10, 3, 11)), Float4);
+    }
+
+    void setReflected(float reflected, FilmLevels& through) const
+    {
+        if (std::exchange(through.reflected, reflected) == reflected) {
+            return;
+        }
+        const Float4 mirrored = float4(reflected) * (pane * cabin);
+        for (std::size_t level = 0; level < 256; ++level) {
+            const Float4 light = float4((1.0F - reflected) * displayLevels()[level]) + mirrored;
+            for (std::size_t c = 0; c < 3; ++c) {
+                through.levels[c][level] = encoded(light[static_cast<int>(c)]);
+            }
+        }
     }
 
     /// Draws water that wipers have left below the light.
-    /// @param known  gets pixels that have nothing but a film; null: none
-    void drawWaterLeft(std::size_t number, TileLight& light, KnownPixels* known) const
+    /// @param through  of the last tile, or new
+    /// @param writer   gets pixels that show nothing but a film, which need no light
+    template <typename Writer>
+    void drawWaterLeft(std::size_t number, FilmLevels& through, TileContent& content, Writer& writer) const
     {
-        const ViewTile& tile = scene.tiles[number];
         WiperView::WaterLeft left;
         wipers.waterLeft(number, left);
-        const FilmOptics& film = filmOpticsOf(number);
+        setReflected(left.reflected, through);
+        TileLight& light = content.light;
+        if (!left.beads.empty() && !std::exchange(content.has_light, true)) {
+            light.fill(float4(0.0F));
+        }
         const ViewContext::TilePlaces places = scene.placesOf(number);
-        // Displaced places of all pixels.
+        for (const WiperView::BeadMet& bead : left.beads) {
+            const int x = places.left + bead.pixel % kTile;
+            const int y = places.top + bead.pixel / kTile;
+            Float4& behind = light[bead.pixel];
+            behind += float4(1.0F - behind[3]) * throughBead(bead.water, scene.tiles[number], scene.eye.ray(x, y));
+        }
+        const bool is_light = splashes.reach(number) || wipers.reachNow(number);
+        std::array<bool, kTilePixels> is_lit;
+        is_lit.fill(is_light);
+        if (content.has_light && !is_light) {
+            for (std::size_t k = 0; k < kTilePixels; ++k) {
+                is_lit[k] = light[k][3] > 0.0F;
+            }
+            for (const RaysInTile& in_tile : running->inTile(number)) {
+                for (const Ray& ray : *in_tile.rays) {
+                    is_lit[ray.pixel] = true;
+                }
+            }
+        }
+        // Places of the picture that all pixels show.
         std::array<float, kTilePixels> xs;
         std::array<float, kTilePixels> ys;
         const auto max_x = static_cast<float>(scene.eye.width() - 1);
         const auto max_y = static_cast<float>(scene.eye.height() - 1);
-        std::size_t plain = 0;
         for (std::size_t k = 0; k < kTilePixels; ++k) {
-            const float x = static_cast<float>(places.left + static_cast<int>(k % kTile)) +
-                            film.by_x.x * left.slope_x[k] + film.by_y.x * left.slope_y[k];
-            const float y = static_cast<float>(places.top + static_cast<int>(k / kTile)) +
-                            film.by_x.y * left.slope_x[k] + film.by_y.y * left.slope_y[k];
+            const float x = static_cast<float>(places.left + static_cast<int>(k % kTile)) + left.shift_x[k];
+            const float y = static_cast<float>(places.top + static_cast<int>(k / kTile)) + left.shift_y[k];
             xs[k] = std::min(std::max(x, 0.0F), max_x);
             ys[k] = std::min(std::max(y, 0.0F), max_y);
-            plain += left.cover[k] >= 1.0F ? 1 : 0;
         }
-        // Levels by levels behind: worth their while for as many pixels as these.
-        std::array<std::array<std::uint8_t, 256>, 3> through;
-        const bool has_table = known != nullptr && plain > 64;
-        if (has_table) {
-            const EncodedLevels& levels = encodedLevels();
-            const std::array<float, 256>& lights = displayLevels();
-            std::array<int, 256> steps;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const float part = 1.0F - film.reflected;
-                const float rest = film.cabin[static_cast<int>(c)];
-                for (std::size_t level = 0; level < 256; ++level) {
-                    steps[level] = encodedStep(part * lights[level] + rest);
-                }
-                for (std::size_t level = 0; level < 256; ++level) {
-                    through[c][level] = levels[static_cast<std::size_t>(steps[level])];
-                }
-            }
-        }
+        std::size_t count = 0;
+        std::array<std::uint8_t, kTilePixels> wet;
         for (std::size_t k = 0; k < kTilePixels; ++k) {
-            if (!(left.cover[k] > 0.0F)) {
-                continue;
+            wet[count] = static_cast<std::uint8_t>(k);
+            count += left.cover[k] > 0.0F ? 1 : 0;  // without a branch, which would be guessed wrong
+        }
+        std::array<std::array<std::uint8_t, kTilePixels>, 3> seen;
+        for (std::size_t j = 0; j < count; ++j) {
+            const Int4 behind = levelsAt(xs[wet[j]], ys[wet[j]]);
+            for (std::size_t c = 0; c < 3; ++c) {
+                seen[c][j] = through.levels[c][static_cast<std::size_t>(behind[static_cast<int>(c)])];
             }
-            if (left.is_bead[k] != 0) {
-                const int x = places.left + static_cast<int>(k % kTile);
-                const int y = places.top + static_cast<int>(k / kTile);
-                light[k] += float4(1.0F - light[k][3]) * throughBead(left.at(k), tile, scene.eye.ray(x, y));
-                continue;
-            }
-            const Levels behind = levelsAt(xs[k], ys[k]);
-            if (has_table && left.cover[k] >= 1.0F && light[k][3] == 0.0F) {
-                known->pixels[k] = {through[0][behind.red], through[1][behind.green], through[2][behind.blue], 255};
+        }
+        for (std::size_t j = 0; j < count; ++j) {
+            const std::size_t k = wet[j];
+            const StraightPixel straight{seen[0][j], seen[1][j], seen[2][j], level8(left.cover[k])};
+            if (is_lit[k]) {
+                light[k] +=
+                    float4((1.0F - light[k][3]) * left.cover[k]) * lightOf(straight.red, straight.green, straight.blue);
             } else {
-                light[k] += float4(1.0F - light[k][3]) * (float4(left.cover[k]) * throughFilm(behind, film));
+                writer.take(
+                    scene.eye.at(places.left + static_cast<int>(k % kTile), places.top + static_cast<int>(k / kTile)),
+                    straight);
             }
         }
     }
@@ -604,8 +592,8 @@ struct DriversView::Content {
                     }
                 }
             }
-            if (wipers.reachNow(tile)) {
-                drawWipers(tile, moment * wipers.moments() / moments, light,
+            if (const int blade = moment * wipers.moments() / moments; wipers.reachNow(tile, blade)) {
+                drawWipers(tile, blade, light,
                            [&](std::size_t pixel) { touched.push_back(static_cast<std::uint8_t>(pixel)); });
             }
             std::sort(touched.begin(), touched.end());
@@ -620,20 +608,17 @@ struct DriversView::Content {
 
     /// Writes the light of a tile in which nothing is blurred.
     template <typename Writer>
-    void writeTile(int column, int row, const TileLight& light, const KnownPixels& known, const EncodedLevels& levels,
-                   Writer& writer) const
+    void writeTile(int column, int row, const TileLight& light, const EncodedLevels& levels, Writer& writer) const
     {
         const int left = column * kTile;
         const auto across = static_cast<std::size_t>(std::min(kTile, scene.eye.width() - left));
         const int bottom = std::min((row + 1) * kTile, scene.eye.height());
         const Float4* from = light.data();
-        const StraightPixel* known_from = known.pixels.data();
-        for (int y = row * kTile; y < bottom; ++y, from += kTile, known_from += kTile) {
+        for (int y = row * kTile; y < bottom; ++y, from += kTile) {
             const std::size_t first = scene.eye.at(left, y);
             for (std::size_t x = 0; x < across; ++x) {
-                const StraightPixel straight = known_from[x].alpha > 0 ? known_from[x] : straightOf(from[x], levels);
-                if (straight.alpha > 0) {
-                    writer.take(first + x, straight);
+                if (from[x][3] > 0.0F) {
+                    writer.take(first + x, straightOf(from[x], levels));
                 }
             }
         }
@@ -645,8 +630,9 @@ struct DriversView::Content {
     {
         const Tiles& tiles = scene.tiles;
         tbb::parallel_for(0, tiles.rows(), [&](int r) {
-            TileLight light;
-            KnownPixels known;
+            TileContent content;
+            FilmLevels through;
+            const TileLight& light = content.light;
             MomentSums sums;
             const EncodedLevels& levels = encodedLevels();
             for (int c = 0; c < tiles.columns(); ++c) {
@@ -655,13 +641,15 @@ struct DriversView::Content {
                     !splashes.reach(tile)) {
                     continue;
                 }
-                const int moments = drawResting(tile, light, known);
+                const int moments = drawResting(tile, through, content, writer);
                 const auto number = [&](std::size_t pixel) {
                     return scene.eye.at(c * kTile + static_cast<int>(pixel % kTile),
                                         r * kTile + static_cast<int>(pixel / kTile));
                 };
                 if (moments == 1) {
-                    writeTile(c, r, light, known, levels, writer);
+                    if (content.has_light) {
+                        writeTile(c, r, light, levels, writer);
+                    }
                     continue;
                 }
                 const auto look = [&](std::uint8_t pixel, const Float4& seen) {

@@ -15,6 +15,7 @@
 #include "windshield_view/body_relief.h"
 #include "windshield_view/eye.h"
 #include "windshield_view/tiles.h"
+#include "windshield_view/water_optics.h"
 
 namespace droplet {
 
@@ -79,6 +80,7 @@ struct ViewContext {
         const Eye& eye;
         int left = 0;
         int top = 0;
+        float pixel = 0.0F;  ///< as ViewTile::pixel
 
         /// As Eye::place(); NaN beyond the frame.
         Vec2f operator()(std::size_t pixel) const
@@ -92,7 +94,18 @@ struct ViewContext {
     [[nodiscard]] TilePlaces placesOf(std::size_t tile) const
     {
         const auto columns = static_cast<std::size_t>(tiles.columns());
-        return {eye, static_cast<int>(tile % columns) * kTile, static_cast<int>(tile / columns) * kTile};
+        return {eye, static_cast<int>(tile % columns) * kTile, static_cast<int>(tile / columns) * kTile,
+                tiles[tile].pixel};
+    }
+
+    /// Refraction of a ray that leaves water on the glass.
+    /// @param slope  slope of the water along the glass's x and y
+    [[nodiscard]] Interface beyond(Vec2f slope, const ViewTile& tile, Vec3f ray) const
+    {
+        const auto ior = static_cast<float>(options.ior);
+        Interface out = intoAir(intoWater(toFrame(tile.frame, ray), ior), unit({-slope.x, -slope.y, 1.0F}), ior);
+        out.transmitted = fromFrame(tile.frame, out.transmitted);
+        return out;
     }
 
     ViewOptions options;

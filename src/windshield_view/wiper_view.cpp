@@ -16,10 +16,13 @@ namespace {
 
 constexpr float kBladeHalf = 0.0045F;  // half the width of a blade in its middle [m]
 constexpr float kArmHalf = 0.0075F;    // half the width of an arm at its joint [m]
-constexpr float kBesideBlade = 0.06F;  // reach of arm and water [m]
+constexpr float kArmAside = 0.028F;    // distance of an arm from the line of its blade, at its joint [m]
 constexpr float kFilmLasts = 0.75F;    // lifetime of a film [s]
 constexpr float kWedgeLasts = 0.8F;    // lifetime of a wedge [s]
 constexpr float kWidestBead = 0.007F;  // largest width of pushed water [m]
+// How far arm, blade and pushed water reach at either side of the blade's line [m].
+constexpr float kOnArmsSide = -kArmAside - 1.15F * kArmHalf;
+constexpr float kOnOtherSide = kBladeHalf + kWidestBead;
 constexpr float kWidestWedge = 1.7F * kWidestBead * 1.1F;
 
 /// Smooth random field from 0 to 1, and its derivatives.
@@ -77,11 +80,33 @@ constexpr float kRoundAcross = static_cast<float>(kThickAcross) * kWide;  // lik
 constexpr std::int32_t kSamplesAlong = 256;
 constexpr std::int32_t kSamplesAcross = 512;
 
-/// Level below which the glass is bare at an age of the film.
+/// As std::exp(-x) for x >= 0, up to 1e-4, without a call.
+float fallOff(float x)
+{
+    const float root = 1.0F + x * (1.0F / 4.0F + x * (1.0F / 32.0F + x * (1.0F / 384.0F + x * (1.0F / 6144.0F))));
+    return 1.0F / (root * root * root * root);
+}
+
+// Level below which the glass is bare, by the film's age.
 constexpr float kBareAtOnce = 0.12F;
-float brokenAt(float age)
+float bareLevel(float age)
 {
     return kBareAtOnce + (1.0F - kBareAtOnce) * std::sqrt(age / kFilmLasts);
+}
+
+/// Age at which a level is bare.
+float dryAge(float level)
+{
+    const float root = std::max(level - kBareAtOnce, 0.0F) / (1.0F - kBareAtOnce);
+    return kFilmLasts * root * root;
+}
+
+/// Slope of a film over that of its level [m].
+/// @param above  level above the bare one; rims are steeper, as they recede
+float thickness(float age, float above)
+{
+    constexpr float kThick = 4.5e-5F;  // [m]
+    return kThick * (0.35F + 0.65F * fallOff(age / 0.3F)) * (1.0F + 1.2F * fallOff(above / 0.05F));
 }
 
 /// As std::floor(), without a call; for values that fit into an integer.
@@ -89,19 +114,6 @@ std::int32_t floorOf(float value)
 {
     const auto whole = static_cast<std::int32_t>(value);
     return whole - (value < static_cast<float>(whole) ? 1 : 0);
-}
-
-/// Slope of a film over that of its level at an age [m].
-float thicknessAt(float age)
-{
-    constexpr float kThick = 4.5e-5F;  // [m]
-    return kThick * (0.35F + 0.65F * std::exp(-age / 0.3F));
-}
-
-/// Rims are steeper, as they recede.
-float rimAt(float level)
-{
-    return 1.0F + 1.2F * std::exp(-level / 0.05F);
 }
 
 Vec2f toFloats2(Vec2 v)
@@ -158,11 +170,6 @@ WiperView::FilmField::FilmField() : samples_(static_cast<std::size_t>(kSamplesAl
                        (thick_slope.y * thick.by_v + thin_slope.y * thin.by_v) / kRoundAcross, 0.0F};
         }
     });
-    for (std::size_t k = 0; k < ages_.size(); ++k) {
-        const float share = (static_cast<float>(k) + 0.5F) / static_cast<float>(ages_.size());
-        ages_[k] = {brokenAt(share * kFilmLasts), thicknessAt(share * kFilmLasts)};
-        rims_[k] = rimAt(share);
-    }
 }
 
 Float4 WiperView::FilmField::at(float along, float across) const
@@ -184,12 +191,28 @@ Float4 WiperView::FilmField::at(float along, float across) const
     return field;
 }
 
-float WiperView::FilmField::dryAge(float level)
+WiperView::FilmOptics WiperView::filmOpticsOf(std::size_t number) const
 {
-    // The bare level is tabulated by steps of age.
-    constexpr float kMore = 1.01F / static_cast<float>(kSteps);
-    const float root = std::max(level - kBareAtOnce, 0.0F) / (1.0F - kBareAtOnce);
-    return level > kBareAtOnce ? root * root + kMore : 0.0F;
+    const Eye& eye = scene_.eye;
+    const ViewTile& tile = scene_.tiles[number];
+    const auto columns = static_cast<std::size_t>(scene_.tiles.columns());
+    const float half = 0.5F * kTile;
+    const std::size_t row = number / columns;
+    const Vec3f ray =
+        unit(eye.rayAt(static_cast<float>(number % columns) * kTile + half, static_cast<float>(row) * kTile + half));
+    const auto through = [&](Vec2f slope) {
+        const Interface out = scene_.beyond(slope, tile, ray);
+        const float scale = 1.0F / (std::max(out.transmitted.y, 1e-3F) * eye.tangent());
+        return std::pair(Vec2f{scale * out.transmitted.x, -scale * out.transmitted.z}, out.reflected);
+    };
+    constexpr float kSlope = 0.01F;  // of usual films
+    const auto by = [&](Vec2f slope) {
+        const Vec2f more = through(slope).first;
+        const Vec2f less = through({-slope.x, -slope.y}).first;
+        return Vec2f{(more.x - less.x) / (2.0F * kSlope), (more.y - less.y) / (2.0F * kSlope)};
+    };
+    constexpr float kSteps = 512.0F;  // so few that tables of levels serve many tiles
+    return {by({kSlope, 0.0F}), by({0.0F, kSlope}), std::round(kSteps * through({}).second) / kSteps};
 }
 
 WiperView::Blade WiperView::bladeAt(const Wiper& wiper, double time)
@@ -274,9 +297,15 @@ void WiperView::updateTile(std::size_t number)
         }
         const Vec2f middle{tile.low.x + half.x - pivot.x, tile.low.y + half.y - pivot.y};
         for (const Blade& blade : one.blades) {
-            const float aside = std::abs(middle.y * blade.along.x - middle.x * blade.along.y);
-            const float extent = half.x * std::abs(blade.along.y) + half.y * std::abs(blade.along.x);
-            reach.at_blade = reach.at_blade || aside <= kBesideBlade + extent;
+            const float aside = middle.y * blade.along.x - middle.x * blade.along.y;
+            const float along = middle.x * blade.along.x + middle.y * blade.along.y;
+            const float beside = half.x * std::abs(blade.along.y) + half.y * std::abs(blade.along.x) + tile.pixel;
+            const float before = half.x * std::abs(blade.along.x) + half.y * std::abs(blade.along.y) + tile.pixel;
+            // The arm ends in the middle of its blade.
+            const bool has_arm = along - before < 0.5F * static_cast<float>(one.wiper.inner + one.wiper.outer);
+            const bool is_there = aside + beside > (has_arm ? kOnArmsSide : -kOnOtherSide) &&
+                                  aside - beside < kOnOtherSide && along + before > 0.0F;
+            reach.blades |= std::uint64_t{is_there ? 1U : 0U} << (&blade - one.blades.data());
         }
     }
 }
@@ -331,109 +360,93 @@ void WiperView::renew(const WiperState& one, FilmPixels& film, std::size_t tile)
     const Passed last = passed(one, film.last);
     const float age = std::min(first.age, last.age);
     film.is_wet = age < kFilmLasts;
-    if (!film.is_wet || first.way != last.way) {
-        film.way.reset();
+    if (!film.is_wet) {
         return;
     }
     const std::uint32_t way = 2 * one.stroke + first.way;
+    const ViewContext::TilePlaces places = scene_.placesOf(tile);
+    if (first.way != last.way) {
+        film.way.reset();
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            renew(one, film, places, k, 2 * one.stroke + passed(one, film.there[k]).way);
+        }
+        return;
+    }
     if (film.way != way) {
         film.way = way;
-        setField(
-            one, film, tile, [&](std::size_t /*pixel*/) { return first.way; }, film.field);
-        film.lasts =
-            kFilmLasts * FilmField::dryAge(*std::max_element(film.field.level.begin(), film.field.level.end()));
+        film.lasts = 0.0F;
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            renew(one, film, places, k, way);
+            film.lasts = std::max(film.lasts, dryAge(static_cast<float>(film.levels[k]) / FilmPixels::kLevel));
+        }
     }
     film.is_wet = age < film.lasts;
 }
 
-template <typename Way>
-void WiperView::setField(const WiperState& one, const FilmPixels& film, std::size_t tile, const Way& way,
-                         FieldPixels& field) const
+void WiperView::renew(const WiperState& one, FilmPixels& film, const ViewContext::TilePlaces& places, std::size_t pixel,
+                      std::uint32_t way) const
 {
-    const Vec2f pivot = toFloats2(one.wiper.pivot);
-    const ViewContext::TilePlaces places = scene_.placesOf(tile);
-    for (std::size_t k = 0; k < kTilePixels; ++k) {
-        if (film.there[k] < 0.0F) {
-            field.set(k, Float4{-1.0F, 0.0F, 0.0F, 1.0F});
-            continue;
-        }
-        const Vec2f place = places(k);
-        const Vec2f shift = one.film_shifts[way(k)];
-        field.set(k, film_->at(film.along[k] + shift.x, size({place.x - pivot.x, place.y - pivot.y}) + shift.y));
+    // No blade has passed before the first way, which is number 1.
+    if (std::exchange(film.ways[pixel], way) == way || film.there[pixel] < 0.0F || way == 0) {
+        return;
     }
+    const std::uint32_t in_stroke = way - 2 * one.stroke;
+    const Vec2f pivot = toFloats2(one.wiper.pivot);
+    const Vec2f place = places(pixel);
+    const Vec2f from{place.x - pivot.x, place.y - pivot.y};
+    const float far = size(from);
+    const Vec2f moved = one.film_shifts[in_stroke];
+    const Float4 field = film_->at(film.along[pixel] + moved.x, far + moved.y);
+    const Vec2f slope{(field[2] * from.x - field[1] * from.y) / far, (field[2] * from.y + field[1] * from.x) / far};
+    const FilmOptics& optics = film.optics;
+    const auto shifted = [](float shift) {
+        constexpr float kMax = 32767.0F;
+        return static_cast<std::int16_t>(std::clamp(shift / FilmPixels::kShift, -kMax, kMax));
+    };
+    film.passed[pixel] = in_stroke == 1 ? film.there[pixel] : static_cast<float>(one.wiper.stroke) - film.there[pixel];
+    film.levels[pixel] = static_cast<std::uint16_t>(FilmPixels::kLevel * field[0]);
+    film.steepnesses[pixel] =
+        static_cast<std::uint16_t>(std::clamp(FilmPixels::kSteepness * places.pixel * field[3], 1.0F, 65535.0F));
+    film.shifts_x[pixel] = shifted(optics.by_x.x * slope.x + optics.by_y.x * slope.y);
+    film.shifts_y[pixel] = shifted(optics.by_x.y * slope.x + optics.by_y.y * slope.y);
 }
 
-void WiperView::addFilm(const WiperState& one, const FilmPixels& film, std::size_t tile, WaterLeft& left) const
+void WiperView::addFilm(const WiperState& one, const FilmPixels& film, WaterLeft& left) const
 {
+    const auto since = static_cast<float>(one.since);
+    const float later = since + static_cast<float>(one.wiper.period);
     std::array<float, kTilePixels> ages;
-    FieldPixels mixed;
-    const FieldPixels* field = &film.field;
     if (film.way) {
-        const auto stroke = static_cast<float>(one.wiper.stroke);
-        const auto since = static_cast<float>(one.since);
-        const std::uint32_t way = *film.way - 2 * one.stroke;
-        const float later = way == 0 ? since + static_cast<float>(one.wiper.period) : since;
+        const float now = *film.way == 2 * one.stroke ? later : since;
         for (std::size_t k = 0; k < kTilePixels; ++k) {
-            ages[k] = later - (way == 1 ? film.there[k] : stroke - film.there[k]);
+            ages[k] = now - film.passed[k];
         }
     } else {
-        std::array<std::uint32_t, kTilePixels> ways;
         for (std::size_t k = 0; k < kTilePixels; ++k) {
-            const Passed last = passed(one, film.there[k]);
-            ways[k] = last.way;
-            ages[k] = last.age;
+            ages[k] = (film.ways[k] == 2 * one.stroke ? later : since) - film.passed[k];
         }
-        setField(
-            one, film, tile, [&](std::size_t k) { return ways[k]; }, mixed);
-        field = &mixed;
     }
-    std::array<std::int32_t, kTilePixels> steps;
+    left.reflected = film.optics.reflected;
+    // Loops without a branch, which are vectorised.
+    std::array<float, kTilePixels> covers;
+    std::array<float, kTilePixels> scales;
     for (std::size_t k = 0; k < kTilePixels; ++k) {
-        steps[k] = FilmField::stepOf(ages[k] / kFilmLasts);
+        const float age = std::min(std::max(ages[k], 0.0F), kFilmLasts);
+        const float above = static_cast<float>(film.levels[k]) * (1.0F / FilmPixels::kLevel) - bareLevel(age);
+        const float within = above * FilmPixels::kSteepness / static_cast<float>(film.steepnesses[k]);
+        covers[k] = above > 0.0F ? std::min(within + 0.5F, 1.0F) : 0.0F;
+        scales[k] = FilmPixels::kShift * thickness(age, std::max(above, 0.0F));
     }
-
-    // The wet pixels and what their films are made of.
-    std::size_t count = 0;
-    std::array<std::uint32_t, kTilePixels> wet;
-    std::array<float, kTilePixels> level;
+    std::array<float, kTilePixels> is_more;
     for (std::size_t k = 0; k < kTilePixels; ++k) {
-        wet[count] = static_cast<std::uint32_t>(k);
-        level[count] = field->level[k] - film_->ofAge(steps[k]).broken;
-        // Without a branch, which would be guessed wrong.
-        const int is_wet = (level[count] > 0.0F ? 1 : 0) & (ages[k] < kFilmLasts ? 1 : 0);
-        count += static_cast<std::size_t>(is_wet);
+        is_more[k] = covers[k] > left.cover[k] ? 1.0F : 0.0F;
     }
-    const Vec2f pivot = toFloats2(one.wiper.pivot);
-    const ViewContext::TilePlaces places = scene_.placesOf(tile);
-    std::array<float, kTilePixels> x;
-    std::array<float, kTilePixels> y;
-    std::array<float, kTilePixels> along;
-    std::array<float, kTilePixels> across;
-    std::array<float, kTilePixels> steepest;
-    std::array<float, kTilePixels> scale;
-    for (std::size_t j = 0; j < count; ++j) {
-        const std::size_t k = wet[j];
-        const Vec2f place = places(k);
-        x[j] = place.x - pivot.x;
-        y[j] = place.y - pivot.y;
-        along[j] = field->along[k];
-        across[j] = field->across[k];
-        steepest[j] = field->steepest[k];
-        scale[j] = film_->ofAge(steps[k]).thickness * film_->rimOf(FilmField::stepOf(level[j]));
-    }
-    const float pixel = scene_.tiles[tile].pixel;
-    std::array<float, kTilePixels> cover;
-    for (std::size_t j = 0; j < count; ++j) {
-        cover[j] = within(level[j] / std::max(steepest[j], 1e-3F), pixel);
-        scale[j] /= std::sqrt(x[j] * x[j] + y[j] * y[j]);
-    }
-    for (std::size_t j = 0; j < count; ++j) {
-        const std::size_t k = wet[j];
-        if (cover[j] > left.cover[k]) {
-            left.cover[k] = cover[j];
-            left.slope_x[k] = scale[j] * (across[j] * x[j] - along[j] * y[j]);
-            left.slope_y[k] = scale[j] * (across[j] * y[j] + along[j] * x[j]);
-        }
+    for (std::size_t k = 0; k < kTilePixels; ++k) {
+        const float own = is_more[k] * scales[k];
+        const float others = 1.0F - is_more[k];
+        left.cover[k] = std::max(left.cover[k], covers[k]);
+        left.shift_x[k] = own * static_cast<float>(film.shifts_x[k]) + others * left.shift_x[k];
+        left.shift_y[k] = own * static_cast<float>(film.shifts_y[k]) + others * left.shift_y[k];
     }
 }
 
@@ -495,12 +508,12 @@ bool WiperView::reachWedge(const WiperState& one, const ViewTile& tile)
 void WiperView::waterLeft(std::size_t tile, WaterLeft& left) const
 {
     left.cover.fill(0.0F);
-    left.slope_x.fill(0.0F);
-    left.slope_y.fill(0.0F);
-    left.is_bead.fill(0);
+    left.shift_x.fill(0.0F);
+    left.shift_y.fill(0.0F);
+    left.beads.clear();
     for (std::size_t k = 0; k < states_.size(); ++k) {
         if (const FilmPixels* film = films_[k][tile].get(); film != nullptr && film->is_wet) {
-            addFilm(states_[k], *film, tile, left);
+            addFilm(states_[k], *film, left);
         }
     }
     addWedges(tile, left);
@@ -510,24 +523,24 @@ void WiperView::addWedges(std::size_t tile, WaterLeft& left) const
 {
     const ViewTile& seen = scene_.tiles[tile];
     const ViewContext::TilePlaces places = scene_.placesOf(tile);
-    for (const WiperState& one : states_) {
-        if (!reachWedge(one, seen)) {
-            continue;
-        }
-        const Vec2f pivot = toFloats2(one.wiper.pivot);
-        for (std::size_t k = 0; k < kTilePixels; ++k) {
-            const Vec2f place = places(k);
-            if (std::isnan(place.x) || left.is_bead[k] != 0) {
-                continue;
+    if (std::none_of(states_.begin(), states_.end(), [&](const WiperState& one) { return reachWedge(one, seen); })) {
+        return;
+    }
+    for (std::size_t k = 0; k < kTilePixels; ++k) {
+        const Vec2f place = places(k);
+        const auto at_place = [&](const WiperState& one) {
+            const Vec2f pivot = toFloats2(one.wiper.pivot);
+            const WaterMet bead = reachWedge(one, seen) && !std::isnan(place.x)
+                                      ? wedge(one, {place.x - pivot.x, place.y - pivot.y}, seen.pixel)
+                                      : WaterMet();
+            if (!(bead.cover > 0.0F) || isInOtherField(one, place)) {
+                return false;
             }
-            const WaterMet bead = wedge(one, {place.x - pivot.x, place.y - pivot.y}, seen.pixel);
-            if (bead.cover > 0.0F && !isInOtherField(one, place)) {
-                left.cover[k] = bead.cover;
-                left.slope_x[k] = bead.slope.x;
-                left.slope_y[k] = bead.slope.y;
-                left.is_bead[k] = 1;
-            }
-        }
+            left.beads.push_back({bead, static_cast<std::uint8_t>(k)});
+            left.cover[k] = 0.0F;
+            return true;
+        };
+        static_cast<void>(std::any_of(states_.begin(), states_.end(), at_place));
     }
 }
 
@@ -539,6 +552,12 @@ void WiperView::placeFilms()
         const Vec2f pivot = toFloats2(wiper.pivot);
         tbb::parallel_for(std::size_t{0}, tiles.count(), [&](std::size_t tile) {
             auto film = std::make_unique<FilmPixels>();
+            film->ways.fill(std::numeric_limits<std::uint32_t>::max());
+            film->passed.fill(-std::numeric_limits<float>::infinity());
+            film->levels.fill(0);
+            film->steepnesses.fill(1);
+            film->shifts_x.fill(0);
+            film->shifts_y.fill(0);
             const ViewContext::TilePlaces places = scene_.placesOf(tile);
             for (std::size_t k = 0; k < kTilePixels; ++k) {
                 const Vec2f place = places(k);
@@ -551,6 +570,7 @@ void WiperView::placeFilms()
                 }
             }
             if (film->last >= 0.0F) {
+                film->optics = filmOpticsOf(tile);
                 films[tile] = std::move(film);
             }
         });
@@ -567,7 +587,7 @@ WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
         const Vec2f from{place.x - pivot.x, place.y - pivot.y};
         const float along = from.x * blade.along.x + from.y * blade.along.y;
         const float aside = from.y * blade.along.x - from.x * blade.along.y;
-        if (std::abs(aside) > kBesideBlade) {
+        if (aside + pixel < kOnArmsSide || aside - pixel > kOnOtherSide) {
             continue;
         }
         const auto inner = static_cast<float>(wiper.inner);
@@ -579,7 +599,7 @@ WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
         const float on_blade = std::min(within(half - std::abs(aside), pixel), within(end, pixel));
         // The arm runs from the pivot beside the blade and meets it in its middle.
         const float joint = std::clamp(along / middle, 0.0F, 1.0F);
-        const float arm_aside = aside + 0.028F * (1.0F - joint);
+        const float arm_aside = aside + kArmAside * (1.0F - joint);
         const float arm_half = kArmHalf * (1.15F - 0.5F * joint);
         const float on_arm =
             std::min(within(arm_half - std::abs(arm_aside), pixel), within(std::min(along, middle - along), pixel));

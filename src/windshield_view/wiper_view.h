@@ -40,21 +40,28 @@ public:
     /// Whether water that wipers have left may be visible in a tile (upper bound).
     [[nodiscard]] bool hasWaterLeft(std::size_t tile) const { return !tiles_.empty() && tiles_[tile].has_water_left; }
     /// Whether blades or arms, or the water that they push, may be visible in a tile (upper bound).
-    [[nodiscard]] bool reachNow(std::size_t tile) const { return !tiles_.empty() && tiles_[tile].at_blade; }
+    [[nodiscard]] bool reachNow(std::size_t tile) const { return !tiles_.empty() && tiles_[tile].blades != 0; }
+    [[nodiscard]] bool reachNow(std::size_t tile, int moment) const
+    {
+        return !tiles_.empty() && (tiles_[tile].blades >> moment & 1U) != 0;
+    }
     /// Number of moments at which blades are drawn while the shutter is open.
     [[nodiscard]] int moments() const { return moments_; }
 
-    /// Water that wipers have left in the pixels of a tile: films and wedges.
+    /// Wedge in a pixel.
+    struct BeadMet {
+        WaterMet water;
+        std::uint8_t pixel = 0;
+    };
+    /// Water that wipers have left in the pixels of a tile; none has both a film and a wedge. A film is so thin that
+    /// its slope shifts the picture behind it in proportion; the second order is a hundredth of that for the steepest
+    /// films.
     struct WaterLeft {
-        std::array<float, kTilePixels> cover;  ///< as WaterMet, also what follows
-        std::array<float, kTilePixels> slope_x;
-        std::array<float, kTilePixels> slope_y;
-        std::array<std::uint8_t, kTilePixels> is_bead;
-
-        [[nodiscard]] WaterMet at(std::size_t pixel) const
-        {
-            return {cover[pixel], {slope_x[pixel], slope_y[pixel]}, is_bead[pixel] != 0};
-        }
+        std::array<float, kTilePixels> cover;    ///< share of a pixel that a film covers
+        std::array<float, kTilePixels> shift_x;  ///< of the picture behind it [px]
+        std::array<float, kTilePixels> shift_y;
+        float reflected = 0.0F;  ///< share of light that films reflect into the cabin
+        std::vector<BeadMet> beads;
     };
     void waterLeft(std::size_t tile, WaterLeft& left) const;
     /// Wiper at a place and moment.
@@ -69,7 +76,7 @@ private:
         float pushed = 0.0F;   ///< amount of pushed water, 0 … 1
     };
     /// Level of a film and its slopes: a random field over the way of a blade and along it, which repeats. It is
-    /// sampled once, as are the functions of age and level.
+    /// sampled once.
     class FilmField {
     public:
         FilmField();
@@ -78,29 +85,8 @@ private:
         /// @param across  [m]
         [[nodiscard]] Float4 at(float along, float across) const;
 
-        struct Age {
-            float broken = 0.0F;     ///< level below which the glass is bare
-            float thickness = 0.0F;  ///< slope of the film over that of its level [m]
-        };
-        /// @param step  age over the film's lifetime, in steps
-        [[nodiscard]] const Age& ofAge(std::int32_t step) const { return ages_[static_cast<std::size_t>(step)]; }
-        /// Age at which a level is bare, or a little more, over the film's lifetime.
-        [[nodiscard]] static float dryAge(float level);
-        /// How much steeper rims are at a level above the bare one.
-        /// @param step  the level in steps
-        [[nodiscard]] float rimOf(std::int32_t step) const { return rims_[static_cast<std::size_t>(step)]; }
-        /// Step of a share from 0 to 1; beyond it, the nearest.
-        static std::int32_t stepOf(float share)
-        {
-            return static_cast<std::int32_t>(std::min(std::max(share * kSteps, 0.0F), static_cast<float>(kSteps - 1)));
-        }
-
     private:
-        static constexpr std::size_t kSteps = 1024;
-
         std::vector<Float4> samples_;
-        std::array<Age, kSteps> ages_;
-        std::array<float, kSteps> rims_;
     };
     /// Water where a blade has turned.
     struct Wedge {
@@ -125,32 +111,35 @@ private:
         float there = -1.0F;  ///< when the blade passes on its way there [s after its start]; below 0: never
         float along = 0.0F;   ///< along the way of the blade's outer end [m]
     };
-    /// Field of a film in the pixels of a tile, as FilmField::at().
-    struct FieldPixels {
-        std::array<float, kTilePixels> level;  ///< below 0: no film
-        std::array<float, kTilePixels> along;
-        std::array<float, kTilePixels> across;
-        std::array<float, kTilePixels> steepest;
-
-        void set(std::size_t pixel, const Float4& field)
-        {
-            level[pixel] = field[0];
-            along[pixel] = field[1];
-            across[pixel] = field[2];
-            steepest[pixel] = field[3];
-        }
+    /// What a slope of a film does to the picture behind it.
+    struct FilmOptics {
+        Vec2f by_x;              ///< displacement for a unit slope along the glass's x [px]
+        Vec2f by_y;              ///< likewise along its y
+        float reflected = 0.0F;  ///< share of light that is reflected into the cabin
     };
     /// Film of a wiper in the pixels of a tile. A way of the blade gives a pixel a part of the field until the next
     /// way.
     struct FilmPixels {
         std::array<float, kTilePixels> there;  ///< as FilmPlace
         std::array<float, kTilePixels> along;
-        float first = 0.0F;                     ///< least time `there` of the pixels that the blade passes
-        float last = -1.0F;                     ///< largest one; below 0: it passes none
-        bool is_wet = false;                    ///< now (upper bound)
-        std::optional<std::uint32_t> way = {};  ///< last one over all pixels, if the film has been wet since then
-        FieldPixels field;                      ///< of that way
-        float lasts = 0.0F;                     ///< time until all of that film has dried, or a little more [s]
+        float first = 0.0F;  ///< least time `there` of the pixels that the blade passes
+        float last = -1.0F;  ///< largest one; below 0: it passes none
+        FilmOptics optics;
+        bool is_wet = false;                          ///< now (upper bound)
+        std::optional<std::uint32_t> way;             ///< last one, if it is the same for all pixels
+        std::array<std::uint32_t, kTilePixels> ways;  ///< last one over each pixel
+        // What it has left there. All of this is read for every frame, so it is small.
+        std::array<float, kTilePixels> passed;          ///< when [s after the stroke's begin]
+        std::array<std::uint16_t, kTilePixels> levels;  ///< of the field, in 1/kLevel
+        std::array<std::uint16_t, kTilePixels>
+            steepnesses;                                 ///< steepest slope of the level, in 1/kSteepness of a pixel
+        std::array<std::int16_t, kTilePixels> shifts_x;  ///< shift of the picture behind for a unit slope ...
+        std::array<std::int16_t, kTilePixels> shifts_y;  ///< ... over that of the level, in kShift px/m
+        float lasts = 0.0F;                              ///< time until all films of `way` have dried [s]
+
+        static constexpr float kLevel = 65535.0F;
+        static constexpr float kSteepness = 16384.0F;
+        static constexpr float kShift = 50.0F;  // for the steepest rims 0.005 px
     };
     /// Last way of a blade over a place.
     struct Passed {
@@ -161,14 +150,14 @@ private:
     void placeFilms();
     [[nodiscard]] static FilmPlace filmPlaceOf(const Wiper& wiper, Vec2f from);
     [[nodiscard]] static Passed passed(const WiperState& one, float there);
+    [[nodiscard]] FilmOptics filmOpticsOf(std::size_t tile) const;
     /// Takes the film of a tile to the present time.
     void renew(const WiperState& one, FilmPixels& film, std::size_t tile) const;
-    /// @param way  way(pixel) is the last one over a pixel, as Passed::way
-    template <typename Way>
-    void setField(const WiperState& one, const FilmPixels& film, std::size_t tile, const Way& way,
-                  FieldPixels& field) const;
+    /// Takes the film of a pixel to a way.
+    void renew(const WiperState& one, FilmPixels& film, const ViewContext::TilePlaces& places, std::size_t pixel,
+               std::uint32_t way) const;
     /// Adds a film where it covers more than what is there.
-    void addFilm(const WiperState& one, const FilmPixels& film, std::size_t tile, WaterLeft& left) const;
+    void addFilm(const WiperState& one, const FilmPixels& film, WaterLeft& left) const;
     void addWedges(std::size_t tile, WaterLeft& left) const;
     [[nodiscard]] static Wedge wedgeOf(const WiperState& one);
     /// Whether a wedge may be visible in a tile (upper bound).
@@ -183,7 +172,7 @@ private:
     std::vector<std::vector<std::unique_ptr<FilmPixels>>> films_;  ///< for each wiper: of every tile in its field
     struct TileReach {
         bool has_water_left = false;
-        bool at_blade = false;  ///< at any moment
+        std::uint64_t blades = 0;  ///< a bit for each moment, of which there are at most 64
     };
     std::vector<TileReach> tiles_;
     int moments_ = 1;

@@ -346,6 +346,19 @@ TEST_F(VisibleWipers, BladesAreWhereTheyWipe)
     EXPECT_EQ(view_->frame(), over(layer_, view_->bare()));
 }
 
+TEST_F(VisibleWipers, GlassAheadOfTheFirstStrokeIsDry)
+{
+    Wiper wiper = parameters_.wipers[1];
+    wiper.period = wiper.stroke;  // so that a stroke before it would have ended just now
+    options_.wipers = {wiper};
+    for (const double time : {0.1, 0.15, 0.2, 0.25}) {
+        look(time);
+        const double angle = wiper.angleAt(time);
+        EXPECT_GT(covered(wiper, wiper.first, angle + 0.1), 100) << time;
+        EXPECT_EQ(covered(wiper, angle + 0.1, wiper.last), 0) << time;
+    }
+}
+
 TEST_F(VisibleWipers, TheWedgeOfPushedWaterLiesOnlyAtThePillar)
 {
     // The eye sees both turning points.
