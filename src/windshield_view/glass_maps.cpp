@@ -20,10 +20,15 @@ namespace droplet {
 namespace {
 
 /// Nearest level; what is half way is rounded up.
-std::uint16_t unsignedLevel(double share)
+std::uint16_t levelOf(double value)
 {
     constexpr double kHalf = 0.5;  // a call of lround() for every value takes as long as the map
-    return static_cast<std::uint16_t>(65535.0 * std::min(std::max(share, 0.0), 1.0) + kHalf);
+    return static_cast<std::uint16_t>(std::min(std::max(value, 0.0), 65535.0) + kHalf);
+}
+
+std::uint16_t unsignedLevel(double share)
+{
+    return levelOf(65535.0 * share);
 }
 
 std::uint16_t signedLevel(double value)
@@ -136,9 +141,9 @@ struct GlassMapFrames::Content {
             std::copy(kStill.begin(), kStill.end(), moving);
             return;
         }
-        const Vec2 velocity = velocityOf(motion);
-        moving[0] = signedLevel(velocity.x / options.full_speed);
-        moving[1] = signedLevel(velocity.y / options.full_speed);
+        const double scale = 1.0 / (motion.cover * options.full_speed);
+        moving[0] = signedLevel(scale * motion.velocity[0]);
+        moving[1] = signedLevel(scale * motion.velocity[1]);
         moving[2] = unsignedLevel(runsOf(motion));
     }
 
@@ -146,16 +151,16 @@ struct GlassMapFrames::Content {
     void writeThickness(std::size_t row)
     {
         const auto columns = static_cast<std::size_t>(width());
-        const double step = options.full_thickness / 65535.0;
-        double left_over = 0.0;
+        const double scale = 65535.0 * WaterPixel::kThickness / options.full_thickness;
+        double left_over = 0.0;  // in steps, as what follows
         for (std::size_t at = row * columns; at < (row + 1) * columns; ++at) {
             const WaterPixel& water = sums.water()[at];
             std::uint16_t& level = maps.thickness.levels[at];
             level = 0;
             if (water.cover != 0 && water.thickness > 0) {
-                const double wanted = thicknessOf(water) + left_over;
-                level = unsignedLevel(wanted / options.full_thickness);
-                left_over = std::clamp(wanted - level / 65535.0 * options.full_thickness, -step, step);
+                const double wanted = scale * static_cast<double>(water.thickness) + left_over;
+                level = levelOf(wanted);
+                left_over = std::min(std::max(wanted - level, -1.0), 1.0);
             }
         }
     }
