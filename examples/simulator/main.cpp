@@ -101,26 +101,14 @@ struct Mesh {
         }
     }
 
-    void add(const droplet::Glass& glass, Vec2 position)
+    /// @param position  on the unrolled glass
+    void add(const droplet::Glass& glass, Vec2 position, const droplet::GlassPlace& place)
     {
-        const Vec2 inside{std::clamp(position.x, 0.0, glass.width()), std::clamp(position.y, 0.0, glass.height())};
-        const auto place = glass.place(inside);
-        if (!place) {
-            throw std::runtime_error("the glass has holes");
-        }
-        const Vec3 point = place->point + (position.x - inside.x) * place->across + (position.y - inside.y) * place->up;
-        for (const Vec3& v : {point, place->normal, place->across, place->up}) {
+        for (const Vec3& v : {place.point, place.normal, place.across, place.up}) {
             numbers.insert(numbers.end(), {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
         }
-        numbers.push_back(static_cast<float>(inside.x / glass.width()));
-        numbers.push_back(static_cast<float>(1.0 - inside.y / glass.height()));
-    }
-
-    void addQuad(const droplet::Glass& glass, Vec2 a, Vec2 b, Vec2 c, Vec2 d)
-    {
-        for (const Vec2 p : {a, b, c, a, c, d}) {
-            add(glass, p);
-        }
+        numbers.push_back(static_cast<float>(position.x / glass.width()));
+        numbers.push_back(static_cast<float>(1.0 - position.y / glass.height()));
     }
 
     void draw(GLenum usage)
@@ -134,11 +122,10 @@ struct Mesh {
 
 void addGlass(Mesh& mesh, const droplet::Glass& glass)
 {
-    constexpr int kColumns = 64;
-    const double step = glass.width() / kColumns;
-    for (int k = 0; k < kColumns; ++k) {
-        mesh.addQuad(glass, {k * step, 0.0}, {(k + 1) * step, 0.0}, {(k + 1) * step, glass.height()},
-                     {k * step, glass.height()});
+    for (const droplet::GlassTriangle& triangle : glass.triangles()) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            mesh.add(glass, triangle.positions[k], triangle.places[k]);
+        }
     }
 }
 
@@ -149,7 +136,13 @@ void addBlade(Mesh& mesh, const droplet::Glass& glass, const droplet::Wiper& wip
     const Vec2 half = 0.005 * Vec2{-along.y, along.x};
     const Vec2 from = wiper.pivot + wiper.inner * along;
     const Vec2 to = wiper.pivot + wiper.outer * along;
-    mesh.addQuad(glass, from - half, to - half, to + half, from + half);
+    for (const Vec2 p : {from - half, to - half, to + half, from - half, to + half, from + half}) {
+        // Blades rest below the glass, where its edge goes on straight.
+        const Vec2 inside{std::clamp(p.x, 0.0, glass.width()), std::clamp(p.y, 0.0, glass.height())};
+        droplet::GlassPlace place = glass.place(inside).value();
+        place.point = place.point + (p.x - inside.x) * place.across + (p.y - inside.y) * place.up;
+        mesh.add(glass, inside, place);
+    }
 }
 
 struct Driver {
