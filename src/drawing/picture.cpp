@@ -333,6 +333,27 @@ Picture decodePicture(std::span<const std::byte> encoded, std::size_t max_pixels
     }
 }
 
+Layer decodeLayer(std::span<const std::byte> encoded, std::size_t max_pixels)
+{
+    try {
+        const Image image = decodeImage(encoded, {.max_pixels = max_pixels, .keeps_colour = true});
+        Layer layer{image.width, image.height, {}};
+        layer.rgba.reserve(4 * image.colour.size());
+        for (std::size_t i = 0; i < image.colour.size(); ++i) {
+            const std::uint32_t alpha = image.alpha.empty() ? 65535U : image.alpha[i];
+            for (const std::uint32_t level : image.colour[i]) {
+                const std::uint32_t own =
+                    image.premultiplied && alpha > 0 ? (level * 65535U + alpha / 2) / alpha : level;
+                layer.rgba.push_back(static_cast<std::uint8_t>(std::min(255U, own)));
+            }
+            layer.rgba.push_back(static_cast<std::uint8_t>((alpha * 255U + 32767U) / 65535U));
+        }
+        return layer;
+    } catch (const std::bad_alloc&) {
+        throwOutOfMemory();
+    }
+}
+
 Picture readPicture(const std::filesystem::path& path, std::size_t max_pixels)
 {
     return fromImageFile(path, [&](std::span<const std::byte> encoded) { return decodePicture(encoded, max_pixels); });

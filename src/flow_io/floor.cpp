@@ -125,6 +125,9 @@ FlowObject onFloor(FlowObject object, Floor floor, std::vector<std::vector<Vec3>
     if (!object.uvs.empty()) {
         object.uvs.resize(object.vertices.size());
     }
+    if (!object.colours.empty()) {
+        object.colours.resize(object.vertices.size(), {1.0, 1.0, 1.0});
+    }
     for (const auto& [a, b, c] : mesh.triangles) {
         object.triangles.push_back({first + a, first + b, first + c});
         object.materials.push_back(material);

@@ -7,10 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <utility>
 
+#include "drawing/tone.h"
 #include "droplet/error.h"
 #include "droplet/io/read_surface.h"
 #include "file_bytes.h"
@@ -126,14 +130,14 @@ ObjectMotion motionOf(const FileMotion& from)
 /// Takes a texture's picture, and its bytes where files can have them. What cannot be shown is a warning.
 /// @param name      of the object's file
 /// @param warnings  get a line
-std::optional<Picture> takeTexture(const FileTexture& texture, const std::string& name, std::string& bytes,
-                                   std::vector<std::string>& warnings)
+std::optional<Layer> takeTexture(const FileTexture& texture, const std::string& name, std::string& bytes,
+                                 std::vector<std::string>& warnings)
 {
-    std::optional<Picture> picture;
+    std::optional<Layer> picture;
     std::string fault = texture.fault;
     if (!texture.image.empty()) {
         try {
-            picture = decodePicture(texture.image);
+            picture = decodeLayer(texture.image);
             const std::string_view image(reinterpret_cast<const char*>(texture.image.data()), texture.image.size());
             if (image.starts_with("\x89PNG") || image.starts_with("\xff\xd8")) {
                 bytes = image;
@@ -149,12 +153,59 @@ std::optional<Picture> takeTexture(const FileTexture& texture, const std::string
     return picture;
 }
 
-/// Whether a PNG has a channel of alpha: its colour type, section 11.2.2 of its specification.
-bool hasAlpha(const Bytes& image)
+constexpr std::size_t kAlpha = 3;  // channel of a layer
+
+bool hasAlpha(const Layer& layer)
 {
-    constexpr std::size_t kColourType = 25;
-    const std::string_view bytes(reinterpret_cast<const char*>(image.data()), image.size());
-    return bytes.starts_with("\x89PNG") && bytes.size() > kColourType && (bytes[kColourType] & 4) != 0;
+    bool has_alpha = false;
+    for (std::size_t i = kAlpha; i < layer.rgba.size(); i += kAlpha + 1) {
+        has_alpha = has_alpha || layer.rgba[i] < 255;
+    }
+    return has_alpha;
+}
+
+/// Colours of a layer, or its alpha as grey.
+std::optional<Picture> pictureOf(const std::optional<Layer>& layer, bool of_alpha = false)
+{
+    if (!layer) {
+        return std::nullopt;
+    }
+    Picture picture{layer->width, layer->height, {}};
+    for (std::size_t i = 0; i < layer->rgba.size(); i += kAlpha + 1) {
+        for (std::size_t c = 0; c < kAlpha; ++c) {
+            picture.rgb.push_back(layer->rgba[i + (of_alpha ? kAlpha : c)]);
+        }
+    }
+    return picture;
+}
+
+/// Colours with the alpha of another layer, or with the mean of its channels if it has none, as large as the larger.
+/// @param colours  empty: white
+Layer withAlpha(const std::optional<Layer>& colours, const Layer& alpha)
+{
+    const bool is_grey = !hasAlpha(alpha);
+    const Layer& large = colours && colours->width > alpha.width ? *colours : alpha;
+    Layer both{large.width, large.height, {}};
+    const auto pixel_of = [&](const Layer& layer, int x, int y) {
+        const auto scaled = [](int at, int from, int to) {
+            return static_cast<std::size_t>(static_cast<std::int64_t>(at) * to / from);
+        };
+        return layer.rgba.begin() +
+               static_cast<std::ptrdiff_t>(
+                   (kAlpha + 1) * (scaled(y, both.height, layer.height) * static_cast<std::size_t>(layer.width) +
+                                   scaled(x, both.width, layer.width)));
+    };
+    for (int y = 0; y < both.height; ++y) {
+        for (int x = 0; x < both.width; ++x) {
+            for (std::ptrdiff_t c = 0; c < static_cast<std::ptrdiff_t>(kAlpha); ++c) {
+                both.rgba.push_back(colours ? pixel_of(*colours, x, y)[c] : std::uint8_t{255});
+            }
+            const auto from = pixel_of(alpha, x, y);
+            both.rgba.push_back(is_grey ? static_cast<std::uint8_t>((from[0] + from[1] + from[2] + 1) / 3)
+                                        : from[static_cast<std::ptrdiff_t>(kAlpha)]);
+        }
+    }
+    return both;
 }
 
 /// Whether a picture is of directions: its colours differ, and are bluish on average. Heights are grey.
@@ -200,18 +251,33 @@ void takeLook(const FileMaterial& material, double plate, const std::string& nam
                   .opacity = material.opacity,
                   .thickness = material.refracts ? std::optional(material.thickness.value_or(plate)) : std::nullopt,
                   .absorption = material.absorption,
-                  .relief = material.relief});
-    look.colours = takeTexture(material.colours, name, images.colours, object.warnings);
-    look.normals = takeTexture(material.normals, name, images.normals, object.warnings);
-    look.finish = takeTexture(material.finish, name, images.finish, object.warnings);
-    if (look.colours && (material.cutoff || (material.blends && hasAlpha(material.colours.image)))) {
-        object.warnings.push_back(name + ": pictures do not show the alpha of " + material.colours.name);
+                  .relief = material.relief,
+                  .glow = material.glow});
+    std::optional<Layer> colours = takeTexture(material.colours, name, images.colours, object.warnings);
+    look.normals = pictureOf(takeTexture(material.normals, name, images.normals, object.warnings));
+    look.finish = pictureOf(takeTexture(material.finish, name, images.finish, object.warnings));
+    look.glows = pictureOf(takeTexture(material.glows, name, images.glows, object.warnings));
+    std::string encoded;
+    const std::optional<Layer> coverage = takeTexture(material.coverage, name, encoded, object.warnings);
+    if (coverage) {
+        colours = withAlpha(colours, *coverage);
+        std::ostringstream png;
+        writePng(*colours, png);
+        images.colours = std::move(png).str();
+        images.blends = true;
     }
+    if (colours && (images.blends || images.cutoff) && hasAlpha(*colours)) {
+        look.coverage = pictureOf(colours, true);
+        look.cutoff = images.cutoff;
+    }
+    look.colours = pictureOf(colours);
     // A look has one place for all of its pictures.
     std::optional<TexturePlace> place;
-    for (const auto& [texture, is_shown] : {std::pair{&material.colours, look.colours.has_value()},
+    for (const auto& [texture, is_shown] : {std::pair{&material.colours, !material.colours.image.empty()},
                                             {&material.normals, look.normals.has_value()},
-                                            {&material.finish, look.finish.has_value()}}) {
+                                            {&material.finish, look.finish.has_value()},
+                                            {&material.glows, look.glows.has_value()},
+                                            {&material.coverage, coverage.has_value()}}) {
         if (is_shown && place && !(*place == texture->place)) {
             object.warnings.push_back(name + ": " + texture->name + " is shown at the place of another texture");
         }
@@ -234,6 +300,26 @@ struct Reading {
     std::vector<std::uint32_t> weld = {};
     std::vector<std::vector<Vec3>> shapes = {};  ///< of an animation that is sampled [m]
 };
+
+/// Makes colours of vertices linear. Where no material is known they are seen on white ones.
+void giveColoursLooks(FileMesh& mesh)
+{
+    const auto light = [](double level) { return static_cast<double>(toLinear(static_cast<float>(level))); };
+    for (Vec3& colour : mesh.colours) {
+        colour = mesh.colours_are_levels ? Vec3{light(colour.x), light(colour.y), light(colour.z)} : colour;
+    }
+    mesh.colours_are_levels = false;
+    if (mesh.colours.empty() || !mesh.looks.empty()) {
+        return;
+    }
+    if (mesh.materials.empty()) {
+        mesh.materials.resize(mesh.triangles.size());
+        mesh.material_names = {"object"};
+    }
+    FileMaterial white = plainMaterial();
+    white.look.colour = {1.0, 1.0, 1.0};
+    mesh.looks.assign(mesh.material_names.size(), white);
+}
 
 bool isYUp(const std::filesystem::path& path, const FlowObjectOptions& options)
 {
@@ -265,6 +351,7 @@ FlowObject readObject(const std::filesystem::path& path, const FlowObjectOptions
     for (std::vector<Vec3>& shape : reading.shapes) {
         std::transform(shape.begin(), shape.end(), shape.begin(), [&](Vec3 p) { return reading.factor * p; });
     }
+    giveColoursLooks(mesh);
     const std::vector<double> plates = platesOf(mesh);
     FlowObject object;
     if (mesh.ignores_animation) {
@@ -285,6 +372,7 @@ FlowObject readObject(const std::filesystem::path& path, const FlowObjectOptions
     object.normals = std::move(mesh.normals);
     object.uvs = std::move(mesh.uvs);
     object.weights = std::move(mesh.weights);
+    object.colours = std::move(mesh.colours);
     object.triangles = std::move(mesh.triangles);
     object.materials = std::move(mesh.materials);
     object.material_names = std::move(mesh.material_names);

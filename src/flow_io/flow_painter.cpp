@@ -98,6 +98,7 @@ struct FlowPainter::Content {
         if (!object.looks.empty() && !own.materials.empty()) {
             render.stand_looks = object.looks;
             render.stand_materials = std::move(own.materials);
+            render.stand_colours = std::move(own.colours);
             render.shows_room = isSeenThrough();
         }
         render.stand_openness = openness();

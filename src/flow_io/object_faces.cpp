@@ -43,6 +43,9 @@ FlowObject onFaces(const FlowObject& object, const FlowSurface& surface)
             if (!object.uvs.empty()) {
                 result.uvs.push_back(mixed(object.uvs, triangle, weights[k]));
             }
+            if (!object.colours.empty()) {
+                result.colours.push_back(mixed(object.colours, triangle, weights[k]));
+            }
         }
         result.triangles.push_back({first, first + 1, first + 2});
         if (!object.materials.empty()) {

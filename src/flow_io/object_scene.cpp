@@ -2,6 +2,7 @@
 #include "flow_io/object_scene.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,9 @@ std::size_t addObject(const FlowObject& object, Scene& scene, const std::vector<
     geometry.vertices = sceneVectors(object.vertices);
     geometry.normals = sceneVectors(object.normals);
     geometry.uvs = sceneCoordinates(object.uvs);
+    std::transform(object.colours.begin(), object.colours.end(), std::back_inserter(geometry.colours), [](Vec3 colour) {
+        return Float3{static_cast<float>(colour.x), static_cast<float>(colour.y), static_cast<float>(colour.z)};
+    });
     for (const MeshShape& change : changes) {
         geometry.targets.push_back({sceneVectors(change.vertices), sceneVectors(change.normals)});
         mesh.targets.push_back("motion " + std::to_string(mesh.targets.size() + 1));
@@ -52,6 +56,8 @@ std::size_t addObject(const FlowObject& object, Scene& scene, const std::vector<
                             .normal_image = images.normals,
                             .relief = look.relief,
                             .finish_image = images.finish,
+                            .glow = look.glow,
+                            .glow_image = images.glows,
                             .place = look.place};
                 material.look.name = names[i];
             }

@@ -145,6 +145,7 @@ struct ObjMaterial {
     std::optional<Vec3> filter;  ///< Tf
     bool has_opacity = false;
     bool has_roughness = false;
+    bool has_glow = false;
     int illumination = 2;
 
     FileMaterial finish() &&
@@ -157,12 +158,16 @@ struct ObjMaterial {
             material.look.colour = filter.value_or(material.look.colour);
             material.look.roughness = has_roughness ? material.look.roughness : 0.0;
         }
+        if (!has_glow && !material.glows.image.empty()) {
+            material.glow = {1.0, 1.0, 1.0};
+        }
         return std::move(material);
     }
 };
 
 /// Channels of a colour; those that are missing are the first.
-std::optional<Vec3> colourIn(std::istringstream& line)
+/// @param max  of a channel
+std::optional<Vec3> colourIn(std::istringstream& line, double max = 1.0)
 {
     Vec3 colour;
     if (!(line >> colour.x)) {
@@ -171,7 +176,7 @@ std::optional<Vec3> colourIn(std::istringstream& line)
     if (!(line >> colour.y >> colour.z)) {
         colour.y = colour.z = colour.x;
     }
-    const auto share = [](double a) { return std::isfinite(a) ? std::clamp(a, 0.0, 1.0) : 1.0; };
+    const auto share = [max](double a) { return std::isfinite(a) ? std::clamp(a, 0.0, max) : 1.0; };
     return Vec3{share(colour.x), share(colour.y), share(colour.z)};
 }
 
@@ -213,8 +218,15 @@ void readStatement(std::string key, std::istringstream& line, const std::filesys
         if (const auto value = number(); value && *value >= 1.0 && *value <= 4.0) {
             look.ior = *value;
         }
+    } else if (key == "Ke") {
+        material.glow = colourIn(line, kMaxGlow).value_or(material.glow);
+        to.has_glow = true;
     } else if (key == "map_kd") {
         material.colours = readTexture(textureLine(line), folder);
+    } else if (key == "map_ke") {
+        material.glows = readTexture(textureLine(line), folder);
+    } else if (key == "map_d") {
+        material.coverage = readTexture(textureLine(line), folder);
     } else if (key == "norm" || key == "map_bump" || key == "bump") {
         const TextureLine texture = textureLine(line);
         material.normals = readTexture(texture, folder);

@@ -22,6 +22,9 @@ struct FileTexture {
     std::string fault;  ///< why it is not, or not wholly, as the file wants it; or empty
 };
 
+/// Brightest light of a material's own that is read.
+inline constexpr double kMaxGlow = 1e6;
+
 /// Look of triangles in a file.
 struct FileMaterial {
     Look look;
@@ -35,6 +38,9 @@ struct FileMaterial {
     FileTexture normals;                         ///< directions in tangent space, as in glTF
     double relief = 1.0;                         ///< factor on the parts of these along the surface
     FileTexture finish;                          ///< its green multiplies the roughness, its blue the metal
+    Vec3 glow;                                   ///< light of its own, as in StandLook
+    FileTexture glows;                           ///< its colours multiply the glow
+    FileTexture coverage;  ///< its alpha, or levels if it has none, are the share that is there; alpha blends
 };
 
 /// What stands for a material of which nothing is known: grey and matt.
@@ -47,9 +53,9 @@ struct ObjMaterials {
 };
 
 /// Materials that an OBJ names (Wavefront, "Advanced Visualizer Manual", appendix B1; Pr, Pm and norm as in Clara.io's
-/// extension): Kd, Tf, d or Tr, illum 6 and 7 for matter that refracts, Ns, Pr, Pm, Ni, map_Kd, norm, and map_Bump
-/// where that is a picture of directions, as Blender writes it. Files must lie beside the OBJ or in folders there; of
-/// other paths the end is looked for there.
+/// extension): Kd, Ke, Tf, d or Tr, illum 6 and 7 for matter that refracts, Ns, Pr, Pm, Ni, map_Kd, map_Ke, map_d,
+/// norm, and map_Bump where that is a picture of directions, as Blender writes it. Files must lie beside the OBJ or in
+/// folders there; of other paths the end is looked for there.
 /// @param text    of the OBJ
 /// @param folder  of the OBJ
 ObjMaterials objMaterials(std::string_view text, const std::filesystem::path& folder);

@@ -159,6 +159,13 @@ void addPolygon(FileMesh& mesh, const std::vector<std::uint64_t>& corners, const
     }
 }
 
+constexpr Vec3 kWhite{1.0, 1.0, 1.0};
+
+Vec3 shares(Vec3 levels)
+{
+    return {std::clamp(levels.x, 0.0, 1.0), std::clamp(levels.y, 0.0, 1.0), std::clamp(levels.z, 0.0, 1.0)};
+}
+
 // -------------------------------------------------------------------------------------------------------- OBJ
 
 /// Reader of OBJ. Every distinct combination of position, normal and uv in a face becomes a vertex.
@@ -177,6 +184,9 @@ public:
                     *to = number(nextWord(line), lines.where());
                 }
                 (key == "v" ? places_ : directions_).push_back(a);
+                if (key == "v" && options_.looks) {
+                    readColour(line, lines.where());
+                }
             } else if (key == "vt" && options_.uvs) {
                 const double u = number(nextWord(line), lines.where());
                 const std::string_view v = nextWord(line);
@@ -189,6 +199,9 @@ public:
         }
         if (uvs_.empty()) {
             mesh_.uvs.clear();
+        }
+        if (colours_.empty()) {
+            mesh_.colours.clear();
         }
         mesh_.lacks_uv = lacks_uv_ && !uvs_.empty();
         if (mesh_.material_names.size() == 1 && mesh_.material_names.front().empty()) {
@@ -215,6 +228,19 @@ private:
         }
     };
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+    /// Reads the colour after a vertex's place: three numbers, as ZBrush and MeshLab write them; one alone is a weight.
+    void readColour(std::string_view line, const std::string& where)
+    {
+        std::array<std::string_view, 3> words;
+        std::generate(words.begin(), words.end(), [&] { return nextWord(line); });
+        const bool is_colour = std::none_of(words.begin(), words.end(),
+                                            [](std::string_view word) { return word.empty() || word[0] == '#'; });
+        if (is_colour) {
+            colours_.resize(places_.size(), kWhite);
+            colours_.back() = shares({number(words[0], where), number(words[1], where), number(words[2], where)});
+        }
+    }
 
     void useMaterial(std::string_view line)
     {
@@ -262,6 +288,7 @@ private:
         if (is_new) {
             mesh_.vertices.push_back(places_[corner.place]);
             mesh_.normals.push_back(corner.direction != kNone ? directions_[corner.direction] : Vec3{});
+            mesh_.colours.push_back(corner.place < colours_.size() ? colours_[corner.place] : kWhite);
             if (options_.uvs) {
                 mesh_.uvs.push_back(corner.uv != kNone ? uvs_[corner.uv] : Vec2{});
                 lacks_uv_ = lacks_uv_ || corner.uv == kNone;
@@ -287,6 +314,7 @@ private:
     std::vector<Vec3> places_;
     std::vector<Vec3> directions_;
     std::vector<Vec2> uvs_;
+    std::vector<Vec3> colours_;  ///< of the first places; the others are white
     bool lacks_uv_ = false;
     std::unordered_map<Corner, std::uint32_t, CornerHash> vertices_;
     std::unordered_map<std::string, std::uint32_t> materials_;
@@ -423,12 +451,14 @@ void readPlyVertices(const PlyElement& element, PlyNumbers& numbers, const FileM
     const bool uvs = options.uvs && uv_names != kUvs.end();
     const char* const weight_name = has("weight") ? "weight" : "red";
     const bool weights = options.weights && has(weight_name);
+    const bool colours = options.looks && has("red") && has("green") && has("blue") && (!weights || has("weight"));
     for (std::uint64_t i = 0; i < element.count; ++i) {
         Vec3 p;
         Vec3 n;
         Vec2 uv;
         double angle = 0.0;
         double weight = 0.0;
+        Vec3 colour;
         double other = 0.0;
         for (const PlyProperty& property : element.properties) {
             for (std::uint64_t left = property.count ? numbers.nextWhole(*property.count) : 0; left > 0; --left) {
@@ -445,13 +475,18 @@ void readPlyVertices(const PlyElement& element, PlyNumbers& numbers, const FileM
                          : name == "ny"                    ? n.y
                          : name == "nz"                    ? n.z
                          : name == "contact_angle"         ? angle
-                         : name == weight_name             ? weight
+                         : weights && name == weight_name  ? weight
+                         : colours && name == "red"        ? colour.x
+                         : colours && name == "green"      ? colour.y
+                         : colours && name == "blue"       ? colour.z
                          : uvs && name == uv_names->first  ? uv.x
                          : uvs && name == uv_names->second ? uv.y
                                                            : other;
             to = numbers.next(property.scalar);
-            if (name == weight_name && property.scalar == Scalar::U8) {
-                weight /= 255.0;
+            constexpr double kMaxLevel = 255.0;
+            const std::array<const double*, 4> shares{&weight, &colour.x, &colour.y, &colour.z};
+            if (property.scalar == Scalar::U8 && std::find(shares.begin(), shares.end(), &to) != shares.end()) {
+                to /= kMaxLevel;
             }
         }
         mesh.vertices.push_back(p);
@@ -466,6 +501,9 @@ void readPlyVertices(const PlyElement& element, PlyNumbers& numbers, const FileM
         }
         if (weights) {
             mesh.weights.push_back(std::clamp(weight, 0.0, 1.0));
+        }
+        if (colours) {
+            mesh.colours.push_back(shares(colour));
         }
     }
 }
@@ -752,6 +790,9 @@ void completeNormals(FileMesh& mesh, bool creases)
             if (!mesh.weights.empty()) {
                 mesh.weights.push_back(mesh.weights[v]);
             }
+            if (!mesh.colours.empty()) {
+                mesh.colours.push_back(mesh.colours[v]);
+            }
         }
     }
     fillNormals(mesh.vertices, mesh.triangles, mesh.weld, mesh.normals);
@@ -777,6 +818,7 @@ FileMesh readFileMesh(const std::filesystem::path& path, const FileMeshOptions& 
         const Bytes bytes = readBytes(path, kMaxBytes, [](std::byte) { return true; });
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         mesh = readAs(format, text, options);
+        mesh.colours_are_levels = !mesh.colours.empty();
         if (format == Format::Obj && options.looks && !mesh.material_names.empty()) {
             takeLooks(objMaterials(text, path.parent_path()), mesh);
         }

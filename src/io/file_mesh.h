@@ -37,6 +37,7 @@ struct FileMesh {
     std::vector<Vec2> uvs;                    ///< (0,0) top left; 0 for vertices without uv; empty: none has uv
     std::vector<float> contact_angles;        ///< [rad]; 0 for vertices without one; may be empty
     std::vector<double> weights;              ///< 0 … 1, if asked for and any vertex has one; or empty
+    std::vector<Vec3> colours;                ///< 0 … 1, if looks are asked for and any vertex has one; or empty
     std::vector<Triangle> triangles;          ///< indices of vertices
     std::vector<std::uint32_t> weld;          ///< index of the first vertex at the same place
     std::vector<std::uint32_t> materials;     ///< of every triangle, in material_names; empty: none has one
@@ -51,6 +52,7 @@ struct FileMesh {
     bool deforms = false;                      ///< the file has skins or morph targets, which are ignored
     bool ignores_animation = false;            ///< the file has an animation that `motion` does not hold
     bool lacks_uv = false;                     ///< some triangles have no uv, but others have
+    bool colours_are_levels = false;           ///< sRGB levels; false: linear light
 };
 
 /// Frames at which an animation is sampled, from time 0 on.
@@ -75,7 +77,8 @@ struct FileMeshOptions {
     bool creases = false;  ///< divide vertices without a normal, and all of STL, at creases; see
                            ///< divideAtCreases. Otherwise those at one place share a normal, and STL has
                            ///< its facets'
-    bool looks = false;    ///< read materials and their images
+    bool looks = false;    ///< read materials and their images, and the vertices' colours: COLOR_0 of glTF, unless it
+                           ///< is read as weights; red, green and blue of PLY; six numbers of a vertex of OBJ
     bool motion = false;   ///< read the animation of the node of a glTF scene that carries all meshes
     std::optional<FileSampling> sampling = {};  ///< sample an animation of glTF that deforms the mesh: nodes that move
                                                 ///< apart, scales, skins, morph targets

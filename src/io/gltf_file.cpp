@@ -267,6 +267,7 @@ struct ReadMaterial {
     ReadTexture colours;
     ReadTexture normals;
     ReadTexture finish;
+    ReadTexture glows;
 };
 
 ReadTexture textureOf(const Json& root, const Json& from)
@@ -299,8 +300,8 @@ ReadTexture textureOf(const Json& root, const Json& from)
     return read;
 }
 
-/// Metallic-roughness materials, KHR_materials_transmission, KHR_materials_volume and KHR_materials_ior. What is not as
-/// specified is left out.
+/// Metallic-roughness materials, KHR_materials_transmission, KHR_materials_volume, KHR_materials_ior and
+/// KHR_materials_emissive_strength. What is not as specified is left out.
 std::vector<ReadMaterial> materialsOf(const Json& root)
 {
     std::vector<ReadMaterial> materials;
@@ -346,6 +347,14 @@ std::vector<ReadMaterial> materialsOf(const Json& root)
             const auto passes = [&](std::size_t k) { return std::max(share(tint[k], 1.0), kDark); };
             material.absorption = Attenuation{{passes(0), passes(1), passes(2)}, *distance};
         }
+        const Json& glow = memberOf(from, "emissiveFactor");
+        if (glow.is_array() && glow.size() == 3) {
+            const Json& strength =
+                memberOf(memberOf(extensions, "KHR_materials_emissive_strength"), "emissiveStrength");
+            const double factor = std::min(positive(strength).value_or(strength == 0 ? 0.0 : 1.0), kMaxGlow);
+            material.glow = factor * Vec3{share(glow[0], 0.0), share(glow[1], 0.0), share(glow[2], 0.0)};
+        }
+        read.glows = textureOf(root, memberOf(from, "emissiveTexture"));
         read.colours = textureOf(root, memberOf(surface, "baseColorTexture"));
         read.finish = textureOf(root, memberOf(surface, "metallicRoughnessTexture"));
         const Json& normals = memberOf(from, "normalTexture");
@@ -419,6 +428,7 @@ std::vector<FileMaterial> withImages(std::vector<ReadMaterial> all, const tinygl
         material.colours = withImage(read.colours, model, folder);
         material.normals = withImage(read.normals, model, folder);
         material.finish = withImage(read.finish, model, folder);
+        material.glows = withImage(read.glows, model, folder);
     }
     return materials;
 }

@@ -497,6 +497,9 @@ private:
         if (!has_weights_) {
             mesh_.weights.clear();
         }
+        if (!has_colours_) {
+            mesh_.colours.clear();
+        }
         const std::size_t names = file_.material_names.size();
         const auto none = static_cast<std::uint32_t>(names);
         mesh_.material_names = file_.material_names;
@@ -596,9 +599,10 @@ private:
         const std::optional<Column> normals = column("NORMAL", TINYGLTF_TYPE_VEC3);
         const std::optional<Column> angles = column("_CONTACT_ANGLE", TINYGLTF_TYPE_SCALAR);
         const std::optional<Column> weights = options_.weights ? weightsOf(primitive) : std::nullopt;
+        const std::optional<Column> colours = options_.looks ? coloursOf(primitive) : std::nullopt;
         const std::size_t count = vertices.size();
         const auto fits = [count](const std::optional<Column>& one) { return !one || one->size() == count; };
-        if (!fits(uvs) || !fits(normals) || !fits(angles) || (weights && weights->size() != count)) {
+        if (!fits(uvs) || !fits(normals) || !fits(angles) || !fits(weights) || !fits(colours)) {
             throw Damage(name + " has attributes of different lengths");
         }
         const std::vector<Triangle> triangles = trianglesOf(primitive.mode, indicesOf(primitive, count, name));
@@ -619,6 +623,11 @@ private:
             mesh_.contact_angles.push_back(static_cast<float>(kDegree * angle));
             const double weight = weights ? weights->number(v) : 0.0;
             mesh_.weights.push_back(std::isfinite(weight) ? std::clamp(weight, 0.0, 1.0) : 0.0);
+            const auto share = [&](std::size_t k) {
+                const double light = colours ? colours->number(v, k) : 1.0;
+                return std::isfinite(light) ? std::clamp(light, 0.0, 1.0) : 1.0;
+            };
+            mesh_.colours.push_back({share(0), share(1), share(2)});
         }
         vertex_count_ += count;
         Part& part = parts_.emplace_back(Part{name, node, first, mesh_.triangles.size(), vertices, normals});
@@ -627,6 +636,7 @@ private:
         }
         (uvs ? has_uv_ : lacks_uv_) = true;
         has_weights_ = has_weights_ || weights;
+        has_colours_ = has_colours_ || colours;
         const std::size_t materials = file_.material_names.size();
         const bool has_material = primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < materials;
         mesh_.materials.insert(
@@ -687,6 +697,17 @@ private:
         return std::nullopt;
     }
 
+    /// Column of colours, unless these are read as weights.
+    [[nodiscard]] std::optional<Column> coloursOf(const tinygltf::Primitive& primitive) const
+    {
+        const auto found = primitive.attributes.find("COLOR_0");
+        if (found == primitive.attributes.end() || (options_.weights && !primitive.attributes.contains("_WEIGHT"))) {
+            return std::nullopt;
+        }
+        const int type = entry(model_.accessors, found->second, "accessors").type;
+        return Column(model_, found->second, type == TINYGLTF_TYPE_VEC3 ? type : TINYGLTF_TYPE_VEC4);
+    }
+
     [[nodiscard]] std::vector<std::uint32_t> indicesOf(const tinygltf::Primitive& primitive, std::size_t count,
                                                        const std::string& name) const
     {
@@ -723,6 +744,7 @@ private:
     bool has_uv_ = false;
     bool lacks_uv_ = false;
     bool has_weights_ = false;
+    bool has_colours_ = false;
     FileMesh mesh_;
 };
 

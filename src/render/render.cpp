@@ -95,10 +95,13 @@ public:
             stand_looks_.push_back(
                 {one, options.ground ? std::nullopt : pyramid(one.colours, PicturePyramid::Levels::Colours),
                  pyramid(one.normals, PicturePyramid::Levels::Numbers),
-                 pyramid(one.finish, PicturePyramid::Levels::Numbers), mediumOf(one, scene_.scale())});
+                 pyramid(one.finish, PicturePyramid::Levels::Numbers),
+                 pyramid(one.glows, PicturePyramid::Levels::Colours),
+                 pyramid(one.coverage, PicturePyramid::Levels::Numbers), mediumOf(one, scene_.scale())});
         }
-        if (std::any_of(stand_looks_.begin(), stand_looks_.end(),
-                        [](const ShownLook& look) { return look.colours || look.normals || look.finish; })) {
+        if (std::any_of(stand_looks_.begin(), stand_looks_.end(), [](const ShownLook& look) {
+                return look.colours || look.normals || look.finish || look.glows || look.coverage;
+            })) {
             charts_ = chartsOf(*options.stand);
         }
         const Vec3f size = scene_.high() - scene_.low();
@@ -163,6 +166,8 @@ private:
         std::optional<PicturePyramid> colours;
         std::optional<PicturePyramid> normals;
         std::optional<PicturePyramid> finish;
+        std::optional<PicturePyramid> glows;
+        std::optional<PicturePyramid> coverage;
         Medium inside;  // of what light enters
     };
 
@@ -345,8 +350,23 @@ private:
             return {};
         }
         const float width = pixelWidth(ray, met, way);
-        const bool wet = way.inside;
         const ShownLook* const shown = studio_.uniform() ? nullptr : lookOfStand(met);
+        if (shown != nullptr && shown->coverage) {
+            const float here = coverageAt(*shown, met, width);
+            if (here < 1.0F) {
+                const Vec3f behind = (1.0F - here) * throughHole(ray, met, way, 1.0F - here);
+                return here > 0.0F ? behind + here * onMatter(ray, met, way, shown) : behind;
+            }
+        }
+        return onMatter(ray, met, way, shown);
+    }
+
+    // Ground that is there.
+    // @param shown  null: it has no look
+    [[nodiscard]] Vec3f onMatter(const RayF& ray, const Meeting& met, const Way& way, const ShownLook* shown) const
+    {
+        const float width = pixelWidth(ray, met, way);
+        const bool wet = way.inside;
         const std::optional<Matter> matter =
             shown == nullptr ? std::nullopt : std::optional(matterAt(*shown, met, width));
         const Vec3f colour = matter ? matter->colour : albedo(met, width);
@@ -357,8 +377,12 @@ private:
         if (shown != nullptr && shown->normals) {
             meeting.normal = withRelief(*shown, met, width);
         }
+        Vec3f glow = shown == nullptr ? Vec3f{} : glowAt(*shown, met, width);
+        if (wet) {
+            glow = glow * wetness(colour, squeezed_[way.droplet], way.droplet);
+        }
         if (matter && matter->clear >= 1.0F) {
-            return throughClear(*matter, ray, meeting, way, {});
+            return glow + throughClear(*matter, ray, meeting, way, {});
         }
         const Vec3f light = light_ ? light_->at(meeting.place) : lightOnStand(meeting, ray);
         Vec3f seen = colour * light;
@@ -373,10 +397,10 @@ private:
             seen = faded(seen, meeting.place);
         }
         if (matter && matter->clear > 0.0F) {
-            return throughClear(*matter, ray, meeting, way, seen);
+            return glow + throughClear(*matter, ray, meeting, way, seen);
         }
         if (matter) {
-            seen = finished(*matter, ray, meeting, way, seen);
+            seen = glow + finished(*matter, ray, meeting, way, seen);
         }
         return film_ && !wet && media_.of(0).clear ? underFilm(ray, meeting, way, seen, colour) : seen;
     }
@@ -439,6 +463,42 @@ private:
         return unit((relief * (2.0F * level.x - 1.0F)) * along_surface(chart.right) +
                     (relief * (2.0F * level.y - 1.0F)) * along_surface(chart.up) +
                     std::max(2.0F * level.z - 1.0F, 1e-3F) * meeting.normal);
+    }
+
+    // Share of a stand's surface that is there.
+    [[nodiscard]] float coverageAt(const ShownLook& shown, const Meeting& meeting, float width) const
+    {
+        // Means of a cut picture would shrink what is thin.
+        const double area = shown.from.cutoff ? 0.0 : inTexture(meeting, width);
+        const float share = shown.coverage->repeatedAt(inPictureOf(shown, meeting), area).x;
+        return shown.from.cutoff ? (share < static_cast<float>(*shown.from.cutoff) ? 0.0F : 1.0F) : share;
+    }
+
+    [[nodiscard]] Vec3f glowAt(const ShownLook& shown, const Meeting& meeting, float width) const
+    {
+        const Vec3f glow = level_.y / kPi * toFloats(shown.from.glow);
+        return shown.glows ? glow * shown.glows->repeatedAt(inPictureOf(shown, meeting), inTexture(meeting, width))
+                           : glow;
+    }
+
+    // Light through ground that is not there. A droplet ends where the ground would be.
+    [[nodiscard]] Vec3f throughHole(const RayF& ray, const Meeting& meeting, const Way& way, float share) const
+    {
+        const auto behind = dot(ray.direction, meeting.facet) < 0.0F ? std::nullopt : dropletBehind(ray, meeting);
+        const float near = way.inside ? media_.of(way.droplet).ior : 1.0F;
+        const float far = behind ? media_.of(*behind).ior : 1.0F;
+        const Interface split = atInterface(ray.direction, facing(ray.direction, meeting.normal), near / far);
+        Way next = way;
+        next.inside = behind.has_value();
+        next.droplet = behind.value_or(way.droplet);
+        if (split.reflected >= 1.0F) {
+            return onward(towards(meeting, ray, false, way.inside),
+                          mirrored(ray.direction, facing(ray.direction, meeting.normal)), way, share, way.inside);
+        }
+        if (near == far) {
+            --next.meetings;  // a hole is no meeting: behind it is the backdrop
+        }
+        return onward(towards(meeting, ray, true, next.inside), split.transmitted, next, share, next.inside);
     }
 
     // Matter of a stand at a place.
@@ -670,6 +730,18 @@ private:
         return mix(pool * seen, kDistance, haze);
     }
 
+    // Colour of a stand's vertices at a place.
+    [[nodiscard]] Vec3f colourOfVertices(const Meeting& meeting) const
+    {
+        const std::vector<Vec3>& colours = options_.stand_colours;
+        if (colours.empty()) {
+            return grey(1.0F);
+        }
+        const auto [a, b, c] = options_.stand->triangles[meeting.triangle];
+        return (1.0F - meeting.u - meeting.v) * toFloats(colours[a]) + meeting.u * toFloats(colours[b]) +
+               meeting.v * toFloats(colours[c]);
+    }
+
     [[nodiscard]] Vec3f albedo(const Meeting& meeting, float width) const
     {
         if (picture_) {
@@ -679,7 +751,7 @@ private:
             return grey(1.0F);
         }
         if (const ShownLook* const shown = lookOfStand(meeting)) {
-            const Vec3f colour = toFloats(shown->from.look.colour);
+            const Vec3f colour = toFloats(shown->from.look.colour) * colourOfVertices(meeting);
             return shown->colours
                        ? colour * shown->colours->repeatedAt(inPictureOf(*shown, meeting), inTexture(meeting, width))
                        : colour;
@@ -902,11 +974,29 @@ void RenderOptions::validate() const
                 require(path > 0.0 && std::isfinite(path), "options.stand_looks.absorption.distance", path,
                         "finite and more than 0 m");
             }
-            for (const std::optional<Picture>* const picture : {&one.colours, &one.normals, &one.finish}) {
+            const auto is_light = [](double a) { return a >= 0.0 && std::isfinite(a); };
+            if (!is_light(one.glow.x) || !is_light(one.glow.y) || !is_light(one.glow.z)) {
+                refuse("stand_looks.glow must be finite and at least 0");
+            }
+            if (one.cutoff) {
+                require(*one.cutoff >= 0.0 && *one.cutoff <= 1.0, "options.stand_looks.cutoff", *one.cutoff,
+                        "from 0 to 1");
+            }
+            for (const std::optional<Picture>* const picture :
+                 {&one.colours, &one.normals, &one.finish, &one.glows, &one.coverage}) {
                 if (*picture) {
                     (*picture)->validate();
                 }
             }
+        }
+    }
+    if (!stand_colours.empty()) {
+        const auto is_share = [](double a) { return a >= 0.0 && a <= 1.0; };
+        if (!stand || stand_looks.empty() || stand_colours.size() != stand->vertices.size() ||
+            !std::all_of(stand_colours.begin(), stand_colours.end(), [&](const Vec3& colour) {
+                return is_share(colour.x) && is_share(colour.y) && is_share(colour.z);
+            })) {
+            refuse("stand_colours must be from 0 to 1, one for each vertex of a stand with stand_looks");
         }
     }
     if (stand_water) {

@@ -37,6 +37,8 @@ struct SceneMaterial {
     std::string normal_image = {};  ///< directions in tangent space
     double relief = 1.0;            ///< factor on their parts along the surface
     std::string finish_image = {};  ///< green multiplies the roughness, blue the metal
+    Vec3 glow = {};                 ///< light of its own, >= 0; 1 is as bright as white in full light
+    std::string glow_image = {};    ///< multiplies it
     TexturePlace place = {};        ///< of the images
 };
 
@@ -63,6 +65,7 @@ struct SceneGeometry {
     std::vector<Float3> vertices;           ///< [m]
     std::vector<Float3> normals;            ///< unit vectors
     std::vector<Float2> uvs = {};           ///< origin at the upper left; or empty
+    std::vector<Float3> colours = {};       ///< linear, 0 … 1, multiply those of the materials; or empty
     std::vector<float> angles = {};         ///< contact angles [degrees]; or empty
     std::vector<std::uint32_t> weld = {};   ///< smallest index of a vertex at the same place; empty: every vertex alone
     std::vector<SceneTarget> targets = {};  ///< one for each name of the mesh

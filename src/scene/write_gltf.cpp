@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Khronos Group, "glTF 2.0 Specification" (2021), and its extensions KHR_materials_transmission, KHR_materials_ior,
-// KHR_materials_volume, KHR_mesh_quantization and EXT_meshopt_compression.
+// KHR_materials_volume, KHR_materials_emissive_strength, KHR_mesh_quantization and EXT_meshopt_compression.
 #include "scene/write_gltf.h"
 
 #include <meshoptimizer.h>
@@ -87,6 +87,13 @@ tinygltf::Material materialOf(const SceneMaterial& from, double side)
     const bool has_volume = look.transmission > 0.0 && from.thickness;
     if (!has_volume || !look.tinted) {
         material.pbrMetallicRoughness.baseColorFactor = {look.colour.x, look.colour.y, look.colour.z, from.opacity};
+    }
+    // The factor ends at 1; a strength is beyond it.
+    const double strength = std::max({from.glow.x, from.glow.y, from.glow.z, 1.0});
+    material.emissiveFactor = {from.glow.x / strength, from.glow.y / strength, from.glow.z / strength};
+    if (strength > 1.0) {
+        material.extensions["KHR_materials_emissive_strength"] =
+            Value(Value::Object{{"emissiveStrength", Value(strength)}});
     }
     if (look.transmission > 0.0) {
         material.extensions["KHR_materials_transmission"] =
@@ -222,6 +229,7 @@ void optimize(Copies& copies)
     reorder(geometry.vertices, order);
     reorder(geometry.normals, order);
     reorder(geometry.uvs, order);
+    reorder(geometry.colours, order);
     reorder(geometry.angles, order);
     reorder(copies.joints, order);
     for (SceneTarget& target : geometry.targets) {
@@ -428,6 +436,9 @@ private:
         attributes["NORMAL"] = addNormals(geometry.normals, cube.has_value());
         if (!geometry.uvs.empty()) {
             attributes["TEXCOORD_0"] = addCoordinates(geometry.uvs, cube.has_value());
+        }
+        if (!geometry.colours.empty()) {
+            attributes["COLOR_0"] = buffer_.add(arrayOf(geometry.colours), GltfContent::Vertices);
         }
         if (!geometry.angles.empty()) {
             attributes["_CONTACT_ANGLE"] = buffer_.add(arrayOf(geometry.angles), GltfContent::Vertices);
@@ -810,6 +821,7 @@ private:
             material.pbrMetallicRoughness.metallicRoughnessTexture.index = index_of(from.finish_image);
             material.normalTexture.index = index_of(from.normal_image);
             material.normalTexture.scale = from.relief;
+            material.emissiveTexture.index = index_of(from.glow_image);
             if (!(from.place == TexturePlace())) {
                 is_moved = true;
                 const Value place(Value::Object{
@@ -819,6 +831,7 @@ private:
                 material.pbrMetallicRoughness.baseColorTexture.extensions[kPlace] = place;
                 material.pbrMetallicRoughness.metallicRoughnessTexture.extensions[kPlace] = place;
                 material.normalTexture.extensions[kPlace] = place;
+                material.emissiveTexture.extensions[kPlace] = place;
             }
         }
         if (is_moved) {

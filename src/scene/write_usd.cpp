@@ -152,6 +152,7 @@ SceneGeometry joined(const SceneMesh& mesh)
         append(all.vertices, one.vertices);
         append(all.normals, one.normals);
         append(all.uvs, one.uvs);
+        append(all.colours, one.colours);
         append(all.angles, one.angles);
         all.targets.resize(one.targets.size());
         for (std::size_t k = 0; k < one.targets.size(); ++k) {
@@ -308,6 +309,13 @@ public:
         if (!geometry_.uvs.empty()) {
             writeTexture();
         }
+        if (!geometry_.colours.empty()) {
+            const std::vector<Float3> colours = coloursOfVertices();
+            attribute("color3f[] primvars:displayColor", colours.size(), [&](std::size_t i) { return colours[i]; });
+            interpolate("faceVarying");
+            attribute("int[] primvars:displayColor:indices", corners_.size(),
+                      [&](std::size_t i) { return corners_[i]; });
+        }
         bytes_.text("\n" + indent_ + "uniform token subdivisionScheme = \"none\"\n");
     }
 
@@ -431,6 +439,22 @@ private:
         }
     }
 
+    /// Colours of vertices times those of their materials, which a shader cannot multiply.
+    [[nodiscard]] std::vector<Float3> coloursOfVertices() const
+    {
+        std::vector<Float3> colours = geometry_.colours;
+        for (const ScenePart& part : geometry_.parts) {
+            const Vec3 factor = scene_.materials[part.material].look.colour;
+            for (const Triangle& triangle : part.triangles) {
+                for (const std::uint32_t v : triangle) {
+                    const Vec3 own = vectorOf(geometry_.colours[v]);
+                    colours[v] = {toFloat(factor.x * own.x), toFloat(factor.y * own.y), toFloat(factor.z * own.z)};
+                }
+            }
+        }
+        return colours;
+    }
+
     const Scene& scene_;
     SceneGeometry geometry_;
     const SceneTrack* weights_;
@@ -441,9 +465,13 @@ private:
     std::vector<std::uint32_t> counts_;   ///< of corners, for every face
 };
 
-/// @param has_picture  whether the colours of the picture multiply that of the look
-void writeMaterial(const SceneMaterial& material, const PrimName& name, bool has_picture, ByteStream& bytes)
+/// What gives a material its colour.
+enum class Coloured { ByLook, ByPicture, ByVertices };
+
+/// @param coloured  a picture's colours multiply that of the look; vertices have colours times that of the look
+void writeMaterial(const SceneMaterial& material, const PrimName& name, Coloured coloured, ByteStream& bytes)
 {
+    const bool has_picture = coloured == Coloured::ByPicture;
     const Look& look = material.look;
     const std::string path = std::string(kRoot) + name.prim;
     const std::array colour{toFloat(look.colour.x), toFloat(look.colour.y), toFloat(look.colour.z)};
@@ -458,9 +486,17 @@ void writeMaterial(const SceneMaterial& material, const PrimName& name, bool has
     bytes.text("            uniform token info:id = \"UsdPreviewSurface\"\n            color3f inputs:diffuseColor");
     if (has_picture) {
         bytes.text(".connect = <" + path + "/picture.outputs:rgb>\n");
+    } else if (coloured == Coloured::ByVertices) {
+        bytes.text(".connect = <" + path + "/colours.outputs:result>\n");
     } else {
         bytes.text(" = ");
         write(bytes, colour);
+        bytes.u8('\n');
+    }
+    const auto [red, green, blue] = material.glow;
+    if (red + green + blue > 0.0 && material.glow_image.empty()) {
+        bytes.text("            color3f inputs:emissiveColor = ");
+        write(bytes, std::array{toFloat(red), toFloat(green), toFloat(blue)});
         bytes.u8('\n');
     }
     input("float inputs:ior", look.ior);
@@ -483,6 +519,12 @@ void writeMaterial(const SceneMaterial& material, const PrimName& name, bool has
         bytes.text(
             "            uniform token info:id = \"UsdPrimvarReader_float2\"\n"
             "            string inputs:varname = \"st\"\n            float2 outputs:result\n        }\n");
+    }
+    if (coloured == Coloured::ByVertices) {
+        beginPrim(bytes, "        ", "Shader", "colours", {});
+        bytes.text(
+            "            uniform token info:id = \"UsdPrimvarReader_float3\"\n"
+            "            string inputs:varname = \"displayColor\"\n            float3 outputs:result\n        }\n");
     }
     bytes.text("    }\n");
 }
@@ -545,7 +587,10 @@ public:
             writeClass(k);
         }
         for (const std::size_t i : written_materials_) {
-            writeMaterial(scene_.materials[i], material_names_[i], scene_.picture.has_value(), bytes_);
+            const Coloured coloured = scene_.picture    ? Coloured::ByPicture
+                                      : has_colours_[i] ? Coloured::ByVertices
+                                                        : Coloured::ByLook;
+            writeMaterial(scene_.materials[i], material_names_[i], coloured, bytes_);
         }
         bytes_.text("}\n");
     }
@@ -571,12 +616,22 @@ private:
         for (const Class& one : classes_) {
             names.push_back(scene_.meshes[scene_.crowds[one.crowd].mesh].name);
         }
+        has_colours_.resize(scene_.materials.size());
+        for (const SceneMesh& mesh : scene_.meshes) {
+            for (const SceneGeometry& geometry : mesh.geometries) {
+                for (const ScenePart& part : geometry.parts) {
+                    has_colours_[part.material] = has_colours_[part.material] || !geometry.colours.empty();
+                }
+            }
+        }
         std::vector<std::size_t> same(scene_.materials.size());
         for (std::size_t i = 0; i < same.size(); ++i) {
             same[i] = i;
             for (const std::size_t k : written_materials_) {
-                if (scene_.materials[k].look == scene_.materials[i].look &&
-                    scene_.materials[k].opacity == scene_.materials[i].opacity) {
+                const SceneMaterial& one = scene_.materials[k];
+                const SceneMaterial& other = scene_.materials[i];
+                if (one.look == other.look && one.opacity == other.opacity && one.glow == other.glow &&
+                    one.glow_image == other.glow_image && has_colours_[k] == has_colours_[i]) {
                     same[i] = k;
                 }
             }
@@ -845,6 +900,7 @@ private:
     std::vector<std::optional<std::size_t>> class_of_;  ///< of every node
     std::vector<PrimName> root_names_;                  ///< of nodes, then of the points
     std::vector<PrimName> class_names_;
+    std::vector<bool> has_colours_;  ///< of every material: its vertices have colours
     std::vector<PrimName> material_names_;
     std::vector<std::string> material_paths_;
     std::vector<std::size_t> written_materials_;

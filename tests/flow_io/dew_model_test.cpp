@@ -18,8 +18,10 @@
 #include <string>
 #include <vector>
 
+#include "droplet/drawing/picture.h"
 #include "droplet/error.h"
 #include "droplet/flow/dew.h"
+#include "droplet/flow_io/flow_object.h"
 #include "support/command.h"
 #include "support/objects.h"
 #include "support/paths.h"
@@ -189,6 +191,79 @@ TEST(DewModel, PassesTheValidator)
     }
     const auto verdict = runProgram(command);
     EXPECT_EQ(verdict.exit_code, 0) << verdict.output << verdict.error;
+}
+
+/// The ball, in two colours, with light of its own from a picture.
+FlowObject glowingBall()
+{
+    FlowObject object = ball();
+    for (const Vec3 p : object.vertices) {
+        object.colours.push_back({p.z > 0.0 ? 0.75 : 0.25, 0.5, 0.0});
+    }
+    StandLook look;
+    look.look.transmission = 0.0;
+    look.look.colour = {0.5, 1.0, 1.0};
+    look.glow = {3.0, 1.5, 0.0};
+    object.materials.assign(object.triangles.size(), 0);
+    object.material_names = {"lamp"};
+    object.looks = {look};
+    std::ostringstream png;
+    writePng(Picture{1, 1, {255, 128, 0}}, png);
+    object.images.resize(1);
+    object.images[0].glows = png.str();
+    return object;
+}
+
+TEST(DewModel, FilesKeepTheObjectsLightAndColours)
+{
+    const testing::ScratchDirectory scratch;
+    const FlowObject object = glowingBall();
+    std::vector<std::string> command{"node", testing::kValidator};
+    for (const Compression compression : {Compression::None, Compression::Quantize, Compression::Meshopt}) {
+        std::ostringstream out;
+        const DewModel nothing(wet().terrain, {}, wet().bodies, wet().options.gravity);
+        nothing.write(object, out, {.file = {.compression = compression}});
+        command.push_back((scratch.path() / (std::string(name(compression)) + ".glb")).string());
+        testing::writeFile(command.back(), out.str());
+        const FlowObject again = readFlowObject(command.back());
+        EXPECT_THAT(again.warnings, ::testing::IsEmpty());
+        ASSERT_EQ(again.looks.size(), 1U);
+        EXPECT_NEAR(length(again.looks[0].glow - object.looks[0].glow), 0.0, 1e-12);
+        EXPECT_EQ(again.images[0].glows, object.images[0].glows);
+        EXPECT_TRUE(again.looks[0].glows);
+        EXPECT_EQ(again.looks[0].look.colour, object.looks[0].look.colour);
+        ASSERT_EQ(again.colours.size(), again.vertices.size());
+        for (std::size_t v = 0; v < again.vertices.size(); ++v) {
+            if (std::abs(again.vertices[v].z) > 1e-3) {
+                EXPECT_EQ(again.colours[v], (Vec3{again.vertices[v].z > 0.0 ? 0.75 : 0.25, 0.5, 0.0}));
+            }
+        }
+    }
+    const auto verdict = runProgram(command);
+    EXPECT_EQ(verdict.exit_code, 0) << verdict.output << verdict.error;
+}
+
+TEST(DewModel, UsdHasTheObjectsLightAndColours)
+{
+    const DewModel nothing(wet().terrain, {}, wet().bodies, wet().options.gravity);
+    FlowObject object = glowingBall();
+    const auto written = [&] {
+        std::ostringstream out;
+        nothing.write(object, out, {.file = {.format = Format::Usda}, .instancing = Instancing::Nodes});
+        return out.str();
+    };
+    // The shader cannot multiply: colours are those of the vertices times that of the material.
+    const std::string with_picture = written();
+    EXPECT_THAT(with_picture, HasSubstr("inputs:diffuseColor.connect = </droplet/lamp/colours.outputs:result>"));
+    EXPECT_THAT(with_picture, HasSubstr("(0.375, 0.5, 0)"));
+    EXPECT_THAT(with_picture, ::testing::Not(HasSubstr("(0.75, 0.5, 0)")));
+    EXPECT_THAT(with_picture, ::testing::Not(HasSubstr("emissiveColor")))
+        << "the picture may be black nearly everywhere";
+    object.images[0].glows.clear();
+    object.colours.clear();
+    const std::string without = written();
+    EXPECT_THAT(without, HasSubstr("color3f inputs:emissiveColor = (3, 1.5, 0)"));
+    EXPECT_THAT(without, ::testing::Not(HasSubstr("displayColor")));
 }
 
 TEST(DewModel, DetailIsInTheNumberOfTriangles)

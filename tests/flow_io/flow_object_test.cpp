@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -522,10 +523,140 @@ TEST_F(FlowObjectFile, GltfHasTheLooksOfItsMaterials)
         R"({"name":"a","alphaMode":"MASK","alphaCutoff":0.25,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})",
         image);
     EXPECT_EQ(leaf.images.at(0).cutoff, 0.25);
-    EXPECT_THAT(leaf.warnings, ElementsAre(HasSubstr("do not show the alpha of a b.png")));
+    EXPECT_FALSE(leaf.looks.at(0).coverage) << "the picture is opaque";
+    EXPECT_THAT(leaf.warnings, IsEmpty());
     EXPECT_THAT(
         with(R"({"name":"a","pbrMetallicRoughness":{"baseColorTexture":{"index":0,"texCoord":1}}})", image).warnings,
         ElementsAre(HasSubstr("a b.png is shown over TEXCOORD_0")));
+}
+
+TEST_F(FlowObjectFile, GltfHasLightAlphaAndColours)
+{
+    std::ostringstream png;
+    writePng(Layer{2, 1, {255, 0, 0, 255, 0, 255, 0, 51}}, png);
+    writeFile(folder() / "holes.png", png.str());
+    Draft draft = triangle();
+    const std::size_t floats = draft.addFloats({0.5F, 0.25F, 0.0F, 1.0F, 1.0F, 1.0F, 0.0F, 2.0F, 1.0F}, "VEC3");
+    const std::size_t bytes = draft.add(std::string("\xff\x00\x33\x80\xff\xff\xff\xff\x00\x00\x00\xff", 12), 5121,
+                                        "VEC4", 3, R"(,"normalized":true)");
+    const auto with = [&](const std::string& material, const std::string& attributes,
+                          const FlowObjectOptions& options = {}) {
+        const std::string list = material.empty() ? "" : R"("materials":[)" + material + R"(],)";
+        return read(
+            "looks.glb",
+            draft.file(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
+                       R"({"POSITION":0)" +
+                       attributes + "}" + (material.empty() ? "" : R"(,"material":0)") + "}]}]," + list +
+                       R"("textures":[{"source":0}],"images":[{"uri":"holes.png"}])"),
+            options);
+    };
+    const FlowObject lamp = with(R"({"emissiveFactor":[1,0.5,0],"emissiveTexture":{"index":0},"extensions":)"
+                                 R"({"KHR_materials_emissive_strength":{"emissiveStrength":4}}})",
+                                 "");
+    ASSERT_EQ(lamp.looks.size(), 1U);
+    EXPECT_EQ(lamp.looks[0].glow, (Vec3{4.0, 2.0, 0.0}));
+    ASSERT_TRUE(lamp.looks[0].glows);
+    EXPECT_EQ(lamp.looks[0].glows->rgb, (std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0}));
+    EXPECT_EQ(lamp.images[0].glows, png.str());
+    EXPECT_EQ(with(R"({"emissiveFactor":[1,0.5,0]})", "").looks.at(0).glow, (Vec3{1.0, 0.5, 0.0}));
+    EXPECT_EQ(with(R"({"emissiveFactor":[1]})", "").looks.at(0).glow, Vec3{});
+    EXPECT_EQ(with(R"({"emissiveFactor":[1,1,1],"extensions":{"KHR_materials_emissive_strength":)"
+                   R"({"emissiveStrength":0}}})",
+                   "")
+                  .looks.at(0)
+                  .glow,
+              Vec3{});
+
+    const std::string base = R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";
+    const FlowObject opaque = with("{" + base, "");
+    EXPECT_FALSE(opaque.looks.at(0).coverage);
+    EXPECT_EQ(opaque.looks[0].colours->rgb, (std::vector<std::uint8_t>{255, 0, 0, 0, 255, 0}))
+        << "not mixed with white";
+    for (const char* const mode : {"BLEND", "MASK"}) {
+        const FlowObject leaf = with(R"({"alphaMode":")" + std::string(mode) + "\"," + base, "");
+        ASSERT_TRUE(leaf.looks.at(0).coverage) << mode;
+        EXPECT_EQ(leaf.looks[0].coverage->rgb, (std::vector<std::uint8_t>{255, 255, 255, 51, 51, 51}));
+        EXPECT_EQ(leaf.looks[0].cutoff.has_value(), mode == std::string("MASK"));
+        EXPECT_THAT(leaf.warnings, IsEmpty());
+    }
+
+    const std::string colour = R"(,"COLOR_0":)";
+    const FlowObject linear = with("{}", colour + std::to_string(floats));
+    EXPECT_THAT(linear.colours, ElementsAre(Vec3{0.5, 0.25, 0.0}, Vec3{1.0, 1.0, 1.0}, Vec3{0.0, 1.0, 1.0}));
+    const FlowObject coded = with("", colour + std::to_string(bytes));
+    EXPECT_THAT(coded.colours, ElementsAre(Vec3{1.0, 0.0, 0.2}, Vec3{1.0, 1.0, 1.0}, Vec3{}));
+    ASSERT_EQ(coded.looks.size(), 1U) << "colours are seen without a material, too";
+    EXPECT_EQ(coded.looks[0].look.colour, (Vec3{1.0, 1.0, 1.0}));
+    EXPECT_THAT(coded.materials, ElementsAre(0));
+    const FlowObject weighted = with("{}", colour + std::to_string(floats), {.weights = true});
+    EXPECT_THAT(weighted.colours, IsEmpty()) << "they are weights";
+    EXPECT_THAT(weighted.weights, ElementsAre(0.5, 1.0, 0.0));
+    EXPECT_THAT(with("{}", "").colours, IsEmpty());
+}
+
+TEST_F(FlowObjectFile, ObjAndPlyHaveColoursOfVertices)
+{
+    // sRGB's level 188 is half the light.
+    const std::string faces = "f 1 2 3\nf 1 3 4\n";
+    const FlowObject obj = read("a.obj", "v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0 0.7353570 0.5 2\nv 0 1 0 0.5\n" + faces);
+    ASSERT_EQ(obj.colours.size(), 4U);
+    expectNear(obj.colours[0], {1.0, 0.0, 0.0});
+    expectNear(obj.colours[1], {1.0, 1.0, 1.0});
+    expectNear(obj.colours[2], {0.5, 0.2140411, 1.0}, 1e-5);
+    expectNear(obj.colours[3], {1.0, 1.0, 1.0});
+    ASSERT_EQ(obj.looks.size(), 1U);
+    EXPECT_THAT(read("a.obj", "v 0 0 0 1\nv 1 0 0 1\nv 1 1 0 1\nv 0 1 0 1\n" + faces).colours, IsEmpty()) << "weights";
+    const auto ply = [&](const std::string& type, const std::string& levels, const FlowObjectOptions& options) {
+        return read("a.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n"
+                    "property " +
+                        type + " red\nproperty " + type + " green\nproperty " + type +
+                        " blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 " + levels +
+                        "\n1 0 0 " + levels + "\n0 1 0 " + levels + "\n3 0 1 2\n",
+                    options);
+    };
+    for (const FlowObject& object : {ply("uchar", "255 188 0", {}), ply("float", "1 0.7353570 0", {})}) {
+        ASSERT_EQ(object.colours.size(), 3U);
+        expectNear(object.colours[2], {1.0, 0.5, 0.0}, 5e-3);
+        EXPECT_EQ(object.vertices[1], (Vec3{1.0, 0.0, 0.0})) << "places in bytes are not levels";
+    }
+    EXPECT_THAT(ply("uchar", "255 188 0", {.weights = true}).colours, IsEmpty());
+    EXPECT_THAT(ply("uchar", "255 188 0", {.weights = true}).weights, ElementsAre(1.0, 1.0, 1.0));
+}
+
+TEST_F(FlowObjectFile, ObjHasOpacityMapsAndLight)
+{
+    writeFile(folder() / "colours.png", pngOf({10, 20, 30}));
+    std::ostringstream holes;
+    writePng(Picture{2, 2, {255, 255, 255, 0, 0, 0, 30, 60, 90, 255, 255, 255}}, holes);
+    writeFile(folder() / "holes.png", holes.str());
+    std::ostringstream alpha;
+    writePng(Layer{1, 1, {255, 255, 255, 77}}, alpha);
+    writeFile(folder() / "alpha.png", alpha.str());
+    writeFile(folder() / "ignored.mtl",
+              "newmtl rough\nmap_Kd colours.png\nmap_d holes.png\nmap_Ke alpha.png\n"
+              "newmtl Wet Glass\nmap_D alpha.png\nKe 2 1 0\nmap_Ke colours.png\n");
+    const FlowObject object = read("wall.obj", kObj);
+    EXPECT_THAT(object.warnings, IsEmpty());
+    ASSERT_EQ(object.looks.size(), 2U);
+    const StandLook& rough = object.looks[1];
+    ASSERT_TRUE(rough.coverage);
+    EXPECT_EQ(rough.coverage->rgb, (std::vector<std::uint8_t>{255, 255, 255, 0, 0, 0, 60, 60, 60, 255, 255, 255}));
+    EXPECT_FALSE(rough.cutoff);
+    EXPECT_EQ(rough.glow, (Vec3{1.0, 1.0, 1.0})) << "a map alone";
+    // Files of glTF have one picture of both, as large as the larger.
+    EXPECT_TRUE(object.images[1].blends);
+    const Layer both = decodeLayer(std::as_bytes(std::span(object.images[1].colours)));
+    EXPECT_EQ(both.width, 2);
+    EXPECT_EQ(both.rgba, (std::vector<std::uint8_t>{10, 20, 30, 255, 10, 20, 30, 0, 10, 20, 30, 60, 10, 20, 30, 255}));
+    const StandLook& glass = object.looks[0];
+    ASSERT_TRUE(glass.coverage) << "its own alpha";
+    EXPECT_EQ(glass.coverage->rgb, (std::vector<std::uint8_t>{77, 77, 77}));
+    EXPECT_EQ(glass.glow, (Vec3{2.0, 1.0, 0.0}));
+    ASSERT_TRUE(glass.glows);
+    EXPECT_EQ(glass.glows->rgb, (std::vector<std::uint8_t>{10, 20, 30}));
+    writeFile(folder() / "ignored.mtl", "newmtl rough\nmap_d -s 2 2 1 holes.png\nmap_Kd colours.png\nmap_d none.png\n");
+    EXPECT_FALSE(read("wall.obj", kObj).looks[1].coverage);
 }
 
 TEST_F(FlowObjectFile, GltfHasWeights)

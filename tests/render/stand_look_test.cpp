@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -195,6 +196,113 @@ TEST(StandLook, OpacityMixes)
     const Picture clear = render(Surface(), optionsOf(clearLook({1.0, 1.0, 1.0}, 1.0)));
     EXPECT_EQ(none, clear) << "what is not there has no colour";
     EXPECT_NE(none, full);
+}
+
+// A glowing plate is as bright as white ground in open light, wherever it looks, and adds to what is lit.
+TEST(StandLook, GlowIsLightOfItsOwn)
+{
+    StandLook look = opaqueLook({0.0, 0.0, 0.0});
+    look.look.ior = 1.0;
+    const Picture black = render(Surface(), optionsOf(look));
+    EXPECT_LE(meanOf(black)[0], 1.0);
+    look.glow = {1.0, 1.0, 1.0};
+    const std::array<double, 3> front = meanOf(render(Surface(), optionsOf(look)));
+    EXPECT_GT(front[0], 200.0);
+    RenderOptions tilted = optionsOf(look);
+    tilted.camera = CameraPlace{-0.5 * std::numbers::pi, 1.0};
+    EXPECT_NEAR(meanOf(render(Surface(), tilted))[0], front[0], 1.0);
+    look.glow = {0.0, 0.25, 0.0};
+    const std::array<double, 3> dim = meanOf(render(Surface(), optionsOf(look)));
+    EXPECT_LE(dim[0], 1.0);
+    EXPECT_GT(dim[1], 50.0);
+    EXPECT_LT(dim[1], front[1] - 20.0);
+    look.look.colour = {0.3, 0.3, 0.3};
+    StandLook unlit = look;
+    unlit.glow = {};
+    const std::array<double, 3> both = meanOf(render(Surface(), optionsOf(look)));
+    const std::array<double, 3> lit = meanOf(render(Surface(), optionsOf(unlit)));
+    EXPECT_NEAR(both[0], lit[0], 1e-9);
+    EXPECT_GT(both[1], std::max(lit[1], dim[1]) + 5.0);
+    // A picture of it: sRGB's level 188 is half the light.
+    look.glow = {0.5, 0.5, 0.5};
+    StandLook pictured = look;
+    pictured.glow = {1.0, 1.0, 1.0};
+    pictured.glows = Picture{1, 1, {188, 188, 188}};
+    expectAlike(render(Surface(), optionsOf(pictured)), render(Surface(), optionsOf(look)));
+    look.glow.x = -1.0;
+    EXPECT_THROW((void)render(Surface(), optionsOf(look)), Error);
+}
+
+// Clear matter and metal glow, too.
+TEST(StandLook, GlowNeedsNoMatter)
+{
+    for (StandLook look : {clearLook({1.0, 1.0, 1.0}, 1.5), opaqueLook({1.0, 1.0, 1.0})}) {
+        look.look.metallic = look.look.transmission > 0.0 ? 0.0 : 1.0;
+        const std::array<double, 3> dark = meanOf(render(Surface(), optionsOf(look)));
+        look.glow = {0.5, 0.0, 0.0};
+        const std::array<double, 3> bright = meanOf(render(Surface(), optionsOf(look)));
+        EXPECT_GT(bright[0], dark[0] + 20.0);
+        EXPECT_NEAR(bright[2], dark[2], 1.0);
+    }
+}
+
+TEST(StandLook, CoverageHasHoles)
+{
+    StandLook look = opaqueLook({0.8, 0.2, 0.2});
+    const auto near = [](RenderOptions options) {
+        options.look_at = Vec3{0.0, 0.0, 0.05};
+        options.distance = 0.2;
+        return options;
+    };
+    RenderOptions empty = near(optionsOf(look));
+    for (Vec3& p : empty.stand->vertices) {
+        p.x += 1.0;
+    }
+    const Picture none = render(Surface(), empty);
+    const Picture full = render(Surface(), near(optionsOf(look)));
+    EXPECT_GT(std::abs(meanOf(full)[0] - meanOf(none)[0]), 30.0);
+    const auto covered = [&](std::uint8_t level, std::optional<double> cutoff = {}) {
+        look.coverage = Picture{1, 1, {level, level, level}};
+        look.cutoff = cutoff;
+        return render(Surface(), near(optionsOf(look)));
+    };
+    expectAlike(covered(255), full);
+    expectAlike(covered(0), none);
+    const std::array<double, 3> half = meanOf(covered(128));
+    EXPECT_GT(half[0], std::min(meanOf(full)[0], meanOf(none)[0]) + 5.0);
+    EXPECT_LT(half[0], std::max(meanOf(full)[0], meanOf(none)[0]) - 5.0);
+    expectAlike(covered(100, 0.5), none);
+    expectAlike(covered(150, 0.5), full);
+    // Left there is nothing.
+    Picture sides = halves(true);
+    for (std::size_t i = 0; i < sides.rgb.size(); i += 3) {
+        sides.rgb[i] = sides.rgb[i + 2];
+    }
+    look.coverage = sides;
+    look.cutoff = 0.5;
+    const Picture right = render(Surface(), near(optionsOf(look)));
+    EXPECT_NEAR(meanOf(right, 12, 28)[0], meanOf(none, 12, 28)[0], 1.0);
+    EXPECT_NEAR(meanOf(right, 36, 52)[0], meanOf(full, 36, 52)[0], 1.0);
+    look.cutoff = 2.0;
+    EXPECT_THROW((void)render(Surface(), optionsOf(look)), Error);
+}
+
+TEST(StandLook, ColoursOfVerticesMultiply)
+{
+    RenderOptions options = optionsOf(opaqueLook({1.0, 1.0, 1.0}));
+    options.stand_colours.assign(options.stand->vertices.size(), {0.25, 0.5, 1.0});
+    const Picture coloured = render(Surface(), options);
+    expectAlike(coloured, render(Surface(), optionsOf(opaqueLook({0.25, 0.5, 1.0}))));
+    for (std::size_t v = 0; v < options.stand_colours.size(); ++v) {
+        options.stand_colours[v] = options.stand->vertices[v].x < 0.0 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 0.0, 1.0};
+    }
+    const Picture graded = render(Surface(), options);
+    EXPECT_GT(meanOf(graded, 12, 20)[0], meanOf(graded, 44, 52)[0] + 30.0);
+    EXPECT_NEAR(meanOf(graded, 31, 33)[0], meanOf(graded, 31, 33)[2], 12.0);
+    options.stand_colours.pop_back();
+    EXPECT_THROW((void)render(Surface(), options), Error);
+    options.stand_colours.push_back({0.0, 0.0, 2.0});
+    EXPECT_THROW((void)render(Surface(), options), Error);
 }
 
 /// A droplet's cap on the plate, open below.

@@ -118,6 +118,9 @@ inline constexpr std::size_t kMaxPicturePixels = std::size_t{1} << 26;
 /// @throws Error      InvalidInput
 Picture decodePicture(std::span<const std::byte> encoded, std::size_t max_pixels = kMaxPicturePixels);
 
+/// The same with its transparency, unmixed.
+Layer decodeLayer(std::span<const std::byte> encoded, std::size_t max_pixels = kMaxPicturePixels);
+
 /// Reads a picture from a file, as decodePicture does.
 /// @param path        file to read
 /// @param max_pixels  size limit, checked in the header

@@ -21,6 +21,7 @@ struct LookImages {
     std::string colours;                ///< PNG or JPEG; "": none
     std::string normals;                ///< the same
     std::string finish;                 ///< the same
+    std::string glows;                  ///< the same
     bool blends = false;                ///< the alpha of `colours` blends
     std::optional<double> cutoff = {};  ///< below this alpha of `colours` there is nothing
 };
@@ -29,12 +30,13 @@ struct LookImages {
 ///
 /// Invariants: numbers are finite; indices are in range; arrays of vertices have one length, but uvs may be empty.
 struct FlowObject {
-    std::vector<Vec3> vertices;            ///< vertices [m], z up
-    std::vector<Vec3> normals;             ///< one per vertex, unit, outward
-    std::vector<Vec2> uvs;                 ///< one per vertex, (0,0) top left of the texture; or empty
-    std::vector<double> weights;           ///< of every vertex, 0 … 1, if asked for and the file has them; or empty
-    std::vector<Triangle> triangles;       ///< indices of vertices
-    std::vector<std::uint32_t> materials;  ///< index of every triangle's material in material_names; or empty
+    std::vector<Vec3> vertices;       ///< vertices [m], z up
+    std::vector<Vec3> normals;        ///< one per vertex, unit, outward
+    std::vector<Vec2> uvs;            ///< one per vertex, (0,0) top left of the texture; or empty
+    std::vector<double> weights;      ///< of every vertex, 0 … 1, if asked for and the file has them; or empty
+    std::vector<Vec3> colours;        ///< one per vertex, linear, 0 … 1, which multiply those of the looks; or empty
+    std::vector<Triangle> triangles;  ///< indices of vertices
+    std::vector<std::uint32_t> materials;     ///< index of every triangle's material in material_names; or empty
     std::vector<std::string> material_names;  ///< from the file
     std::vector<StandLook> looks;             ///< of every material; or empty: the object is plain
     std::vector<LookImages> images;           ///< of every look

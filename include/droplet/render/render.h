@@ -71,6 +71,8 @@ struct RenderOptions {
     std::optional<TexturedMesh> stand = {};            ///< ground instead of the plane z = 0, uv as the droplet's
     std::vector<StandLook> stand_looks = {};           ///< of an object as stand; empty: it is plain
     std::vector<std::uint32_t> stand_materials = {};   ///< in `stand_looks`, of every triangle of the stand
+    std::vector<Vec3> stand_colours = {};              ///< of every vertex of the stand: multiply the looks' colours,
+                                                       ///< linear, 0 … 1; empty: all are 1
     std::optional<StandOpenness> stand_openness = {};  ///< light that reaches a stand that is an object past the object
                                                        ///< itself; empty: all of it
     bool shows_room = false;                           ///< behind all, the room that lights it, as for glass; else dark

@@ -27,7 +27,13 @@ struct StandLook {
     std::optional<Picture> normals = {};
     double relief = 1.0;                 ///< factor on those parts along the surface, finite
     std::optional<Picture> finish = {};  ///< over the same uv: green multiplies the roughness, blue the metal
-    TexturePlace place = {};             ///< of these pictures over uv, finite
+    Vec3 glow = {};  ///< light of its own, linear red, green, blue; 1 is as bright as white ground in open light, >= 0
+    std::optional<Picture> glows = {};  ///< over the same uv: its colours multiply the glow
+    /// Over the same uv: red is the share of the surface that is there, linear. Where nothing is, rays pass as through
+    /// a hole, without a reflection.
+    std::optional<Picture> coverage = {};
+    std::optional<double> cutoff = {};  ///< below this share there is nothing, else all, 0 … 1; empty: shares mix
+    TexturePlace place = {};            ///< of these pictures over uv, finite
 
     /// Share of the light that passes where it is not mirrored, 0 … 1.
     [[nodiscard]] double clearness() const { return std::min(look.transmission + (1.0 - opacity), 1.0); }
