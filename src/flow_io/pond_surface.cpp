@@ -313,16 +313,21 @@ struct Level {
 };
 
 /// Shadow of the base on the level, for a rim that is no set of simple loops.
-Level projected(const Base& base, const Pond& pond)
+Level projected(const Base& base, const std::vector<Edge>& open, const Pond& pond)
 {
     Level level;
+    std::vector<bool> meets(base.vertices.size());  // whether the base ends there
+    for (const auto& [from, to] : open) {
+        meets[from] = base.is_rim[from];
+    }
     double scale = 1.0;
     if (pond.front) {
         const double held = base.held();
         scale = held > 0.0 ? pond.front->volume / held : 0.0;
     }
     for (std::uint32_t v = 0; v < base.vertices.size(); ++v) {
-        level.vertices.push_back(base.vertices[v] + scale * base.depths[v] * pond.up);
+        const double depth = meets[v] ? 0.0 : base.depths[v];
+        level.vertices.push_back(base.vertices[v] + scale * depth * pond.up);
         level.rim.push_back(v);
         level.after.push_back(v);
     }
@@ -434,7 +439,7 @@ PondSurface pondSurface(std::span<const FlowSurface::Face> ground, const Pond& p
     const std::vector<Edge> open = openEdges(base.triangles);
     Level level = levelOver(base, open, pond);
     if (!level.meets(open)) {
-        level = projected(base, pond);
+        level = projected(base, open, pond);
     }
 
     PondSurface made;

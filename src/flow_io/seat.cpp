@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// In the droplet's frame a point (x, y, z) of the flat droplet becomes (x', y', h(x', y') + c z): h is the height of
-// the ground, (x', y') is (x, y) moved with the rim in its direction, by a share that grows from the middle to the rim.
-// The volume is linear in c, so that two of them give the c with which it stays.
+// In the droplet's frame a point (x, y, z) of the flat droplet becomes (x', y', z + H + c (1 - r²)): (x', y') is (x, y)
+// moved with the rim in its direction, by a share that grows from the middle to the rim. H is the harmonic function
+// with the rim's heights, in the unit disc to which the droplet's surface is mapped: r is the distance from its middle.
+// For small slopes the equation of Young and Laplace is linear: surfaces of one pressure over two rims differ by a
+// harmonic function, those of two pressures over one rim by 1 - r². So liquid is smooth, even over ground with edges;
+// its base alone has these. Where the ground would come out of the liquid, it is just covered. The volume is linear in
+// c but for that, so that secants give the c with which it stays.
 #include "flow_io/seat.h"
 
 #include <algorithm>
@@ -168,6 +172,8 @@ public:
 
     struct Place {
         double share = 0.0;   ///< of the way from the middle to the rim
+        double way = 0.0;     ///< from the middle to the rim
+        double turn = 0.0;    ///< around the rim, as the numbers of its vertices grow [rad]
         Vec2 moved;           ///< the rim's way along the plane
         double height = 0.0;  ///< of the seated rim
     };
@@ -186,7 +192,9 @@ public:
         const double u = from != to ? std::clamp(from / (from - to), 0.0, 1.0) : 0.0;
         const Vec2 met = (1.0 - u) * flat_[a] + u * flat_[b];
         const Vec2 end = (1.0 - u) * seated_[a].level + u * seated_[b].level;
-        return {length(met) > 0.0 ? length(p) / length(met) : 0.0, end - met,
+        const double way = length(met);
+        return {way > 0.0 ? length(p) / way : 0.0, way,
+                2.0 * std::numbers::pi * (static_cast<double>(a) + u) / static_cast<double>(count), end - met,
                 (1.0 - u) * seated_[a].height + u * seated_[b].height};
     }
 
@@ -241,6 +249,83 @@ Local groundBelow(const Ground& ground, const Rim& rim, Vec2 p)
     const double expected = share * place.height;
     const auto height = ground.at(level);
     return {level, height && std::abs(*height - expected) <= kMostStep * ground.size() ? *height : expected};
+}
+
+/// A smooth sheet through a rim: a plane, and harmonics of the rim's heights over it.
+class Sheet {
+public:
+    Sheet(const Rim& rim, std::size_t count) : harmonics_(count / 2 + 1)
+    {
+        Vec2 middle;
+        const double share = 1.0 / static_cast<double>(count);
+        for (std::size_t k = 0; k < count; ++k) {
+            middle = middle + share * rim.seated(k).level;
+            height_ += share * rim.seated(k).height;
+        }
+        middle_ = middle;
+        double xx = 0.0;
+        double xy = 0.0;
+        double yy = 0.0;
+        Vec2 moment;
+        for (std::size_t k = 0; k < count; ++k) {
+            const Vec2 d = rim.seated(k).level - middle;
+            xx += d.x * d.x;
+            xy += d.x * d.y;
+            yy += d.y * d.y;
+            moment = moment + (rim.seated(k).height - height_) * d;
+        }
+        const double determinant = xx * yy - xy * xy;
+        constexpr double kThin = 1e-9;  // a rim on a line
+        if (determinant > kThin * (xx + yy) * (xx + yy)) {
+            slope_ = (1.0 / determinant) * Vec2{yy * moment.x - xy * moment.y, xx * moment.y - xy * moment.x};
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            const double rest = share * (rim.seated(k).height - planeAt(rim.seated(k).level));
+            const Vec2 turn = directionOf(2.0 * std::numbers::pi * static_cast<double>(k) * share);
+            Vec2 power{1.0, 0.0};
+            for (std::size_t m = 0; m < harmonics_.size(); ++m) {
+                harmonics_[m] = harmonics_[m] + (m == 0 || 2 * m == count ? rest : 2.0 * rest) * power;
+                power = product(power, turn);
+            }
+        }
+    }
+
+    /// @param level   of the place, moved with the rim
+    /// @param radius  of its image in the unit disc
+    [[nodiscard]] double at(Vec2 level, const Rim::Place& place, double radius) const
+    {
+        double height = planeAt(level);
+        const Vec2 turn = radius * directionOf(place.turn);
+        Vec2 power{1.0, 0.0};
+        for (const Vec2 harmonic : harmonics_) {
+            height += dot(harmonic, power);
+            power = product(power, turn);
+        }
+        return height;
+    }
+
+private:
+    static Vec2 directionOf(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+    /// Of complex numbers.
+    static Vec2 product(Vec2 a, Vec2 b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
+
+    [[nodiscard]] double planeAt(Vec2 level) const { return height_ + dot(slope_, level - middle_); }
+
+    Vec2 middle_;
+    double height_ = 0.0;
+    Vec2 slope_;
+    std::vector<Vec2> harmonics_;  ///< of the cosine and of the sine
+};
+
+/// Distance from the middle of the unit disc to which a cap is mapped conformally, where its rim is the disc's. On a
+/// sphere it is the ratio of tangents of half the angles from the top, which distances to both ends of the rim give.
+/// @param height  of the cap there
+double radiusInDisc(const Rim::Place& place, double height)
+{
+    const double high = place.way > 0.0 ? height / place.way : 0.0;
+    const double sum = std::hypot(1.0 - place.share, high) + std::hypot(1.0 + place.share, high);
+    return std::min(4.0 * place.share / (sum * sum), 1.0);
 }
 
 /// Sums of the normals of the triangles around each vertex, not of unit length.
@@ -318,25 +403,36 @@ struct Shape {
     double volume = 0.0;
 };
 
-/// What is below a droplet, and how its volume depends on the factor on its heights.
+/// What is below a droplet.
 struct Seating {
-    std::vector<Local> below;  ///< each vertex without its height
+    std::vector<Local> below;    ///< each vertex without its height
+    std::vector<double> ground;  ///< height of the ground there
+    std::vector<double> gain;    ///< change of the vertex's height when that of the top changes by all of it
     std::vector<Vec3> base;
-    double empty = 0.0;  ///< volume without height
-    double gain = 0.0;   ///< more of it with the flat droplet's heights
+    double of_base = 0.0;  ///< volume over the base, up to the origin of volumes
 };
-
-Vec3 placed(const Ground& ground, const Local& below, double height)
-{
-    return ground.toSpace({below.level, below.height + height});
-}
 
 Seating seatingOf(const Ground& ground, const Shape& shape, const Rim& rim)
 {
     const std::size_t count = shape.rim.size();
+    const Sheet sheet(rim, count);
+    double top = 0.0;
+    for (const Local& p : shape.flat) {
+        top = std::max(top, p.height);
+    }
     Seating made;
     for (std::size_t v = 0; v < shape.flat.size(); ++v) {
-        made.below.push_back(v < count ? rim.seated(v) : groundBelow(ground, rim, shape.flat[v].level));
+        const Local& flat = shape.flat[v];
+        Local below = v < count ? rim.seated(v) : groundBelow(ground, rim, flat.level);
+        double radius = 1.0;
+        made.ground.push_back(below.height);
+        if (v >= count) {
+            const Rim::Place place = rim.towards(flat.level);
+            radius = radiusInDisc(place, flat.height);
+            below.height = sheet.at(below.level, place, radius);
+        }
+        made.below.push_back(below);
+        made.gain.push_back(top * (1.0 - radius * radius));
     }
     for (std::size_t ring = 0; ring <= kBaseRings; ++ring) {
         const double share = 1.0 - static_cast<double>(ring) / (1 + kBaseRings);
@@ -346,17 +442,43 @@ Seating seatingOf(const Ground& ground, const Shape& shape, const Rim& rim)
         }
     }
     made.base.push_back(ground.toSpace(groundBelow(ground, rim, {})));
-    const double of_base = volumeUnder(made.base, baseTriangles(count), shape.origin);
-    const auto volume_at = [&](double factor) {
-        std::vector<Vec3> vertices;
-        for (std::size_t v = 0; v < shape.flat.size(); ++v) {
-            vertices.push_back(placed(ground, made.below[v], factor * shape.flat[v].height));
-        }
-        return volumeUnder(vertices, shape.triangles, shape.origin) + of_base;
-    };
-    made.empty = volume_at(0.0);
-    made.gain = volume_at(1.0) - made.empty;
+    made.of_base = volumeUnder(made.base, baseTriangles(count), shape.origin);
     return made;
+}
+
+/// Vertices of a seated droplet.
+/// @param factor  on the height of its top
+std::vector<Vec3> placed(const Ground& ground, const Shape& shape, const Seating& seating, double factor)
+{
+    constexpr double kLeastDeep = 0.25;  // of liquid over ground that would come out of it, over its flat height
+    std::vector<Vec3> vertices;
+    for (std::size_t v = 0; v < shape.flat.size(); ++v) {
+        const Local& below = seating.below[v];
+        const double flat = shape.flat[v].height;
+        const double top =
+            std::max(below.height + flat + (factor - 1.0) * seating.gain[v], seating.ground[v] + kLeastDeep * flat);
+        vertices.push_back(ground.toSpace({below.level, v < shape.rim.size() ? below.height : top}));
+    }
+    return vertices;
+}
+
+/// Factor on the height of a droplet's top with which it has its volume.
+double factorOf(const Ground& ground, const Shape& shape, const Seating& seating)
+{
+    constexpr int kSecants = 6;
+    constexpr double kExact = 1e-9;  // of the volume
+    const auto excess = [&](double factor) {
+        return volumeUnder(placed(ground, shape, seating, factor), shape.triangles, shape.origin) + seating.of_base -
+               shape.volume;
+    };
+    std::array<double, 2> factors{0.5, 1.0};
+    std::array<double, 2> over{excess(factors[0]), excess(factors[1])};
+    for (int k = 0; k < kSecants && std::abs(over[1]) > kExact * shape.volume && over[0] != over[1]; ++k) {
+        const double next = factors[1] - over[1] * (factors[1] - factors[0]) / (over[1] - over[0]);
+        factors = {factors[1], std::clamp(next, 0.0, kMostTall)};
+        over = {over[1], excess(factors[1])};
+    }
+    return factors[1];
 }
 
 double halfWidth(const DropletFrame& frame, const FlatDroplet& droplet, Vec3 across)
@@ -459,11 +581,8 @@ std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, Fl
     const Seating seating = seatingOf(ground, shape, Rim(ground, rim_points));
 
     const std::vector<Vec3> before = facing(droplet.vertices, droplet.triangles);
-    const double factor = (volume - seating.empty) / seating.gain;
-    const bool is_likely = factor >= 0.0 && factor <= kMostTall;
-    for (std::size_t v = 0; v < flat.size(); ++v) {
-        droplet.vertices[v] = placed(ground, seating.below[v], (is_likely ? factor : kMostTall) * flat[v].height);
-    }
+    const std::vector<Vec3> seated = placed(ground, shape, seating, factorOf(ground, shape, seating));
+    std::copy(seated.begin(), seated.end(), droplet.vertices.begin());
     const std::vector<Vec3> after = facing(droplet.vertices, droplet.triangles);
     for (std::size_t v = 0; v < flat.size(); ++v) {
         droplet.normals[v] = unit(turned(droplet.normals[v] - unit(before[v])) + unit(after[v]));
