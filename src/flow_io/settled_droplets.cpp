@@ -79,9 +79,42 @@ std::ptrdiff_t toDifference(std::size_t count)
     return static_cast<std::ptrdiff_t>(count);
 }
 
-/// Extends a rim into the ground.
-void extend(Part& part, const std::vector<Edge>& rim, Vec3 up)
+/// Way into the ground below all points of a rim to half its thickness; 0 at a sheet, which has none.
+/// @param down  unit
+/// @param most  longest way
+double wayInto(const FlowTerrain& terrain, const Part& part, const std::vector<Edge>& rim, Vec3 down, double most)
 {
+    constexpr double kOff =
+        0.02;  // begin of a ray off the ground, over the longest way: rims are on it but for rounding
+    double way = most;
+    for (const auto& [from, to] : rim) {
+        const auto top = terrain.firstAlong(part.vertices[from] - kOff * most * down, down);
+        if (!top) {
+            continue;  // the rim is beside the ground
+        }
+        const auto bottom = terrain.firstAlong(top->place + kOff * most * down, down);
+        if (bottom && bottom->face == top->face) {
+            continue;  // the object is too large for its numbers
+        }
+        const bool is_inside = bottom && dot(terrain.surface().faces[bottom->face].normal, down) > 0.0;
+        way = std::min(way, is_inside ? 0.5 * length(bottom->place - top->place) : 0.0);
+    }
+    return way;
+}
+
+/// Extends a rim into the ground, if it has a thickness.
+/// @param up  from the end to the rim
+void extend(const FlowTerrain& terrain, Part& part, const std::vector<Edge>& rim, Vec3 up)
+{
+    const double most = length(up);
+    if (!(most > 0.0)) {
+        return;
+    }
+    const double way = wayInto(terrain, part, rim, (-1.0 / most) * up, most);
+    if (!(way > 0.0)) {
+        return;
+    }
+    up = (way / most) * up;
     std::map<std::uint32_t, std::uint32_t> lowered;
     for (const Edge& edge : rim) {
         lowered.emplace(edge[0], static_cast<std::uint32_t>(part.vertices.size()));
@@ -129,7 +162,7 @@ SettledDroplets settled(const FlowTerrain& terrain, std::span<const FlowSample> 
                     edges.push_back({v, pond.after[v]});
                 }
             }
-            extend(part, edges, kSkirt * std::sqrt(sample.pond->area / std::numbers::pi) * sample.pond->up);
+            extend(terrain, part, edges, kSkirt * std::sqrt(sample.pond->area / std::numbers::pi) * sample.pond->up);
             return;
         }
         const auto from = toDifference(shown[i] * vertex_count);
@@ -147,7 +180,7 @@ SettledDroplets settled(const FlowTerrain& terrain, std::span<const FlowSample> 
         seat(terrain, frame, flat);
         part.base = baseOf(frame, flat);
         part.base->height = height;
-        extend(part, rim, kSkirt * std::sqrt(part.base->half_length * part.base->half_width) * frame.normal);
+        extend(terrain, part, rim, kSkirt * std::sqrt(part.base->half_length * part.base->half_width) * frame.normal);
     });
     Surface& surface = made.surface;
     for (const Part& part : parts) {

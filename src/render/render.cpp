@@ -487,13 +487,14 @@ private:
         const auto behind = dot(ray.direction, meeting.facet) < 0.0F ? std::nullopt : dropletBehind(ray, meeting);
         const float near = way.inside ? media_.of(way.droplet).ior : 1.0F;
         const float far = behind ? media_.of(*behind).ior : 1.0F;
-        const Interface split = atInterface(ray.direction, facing(ray.direction, meeting.normal), near / far);
+        const Vec3f normal = seenNormal(ray, meeting);
+        const Interface split = atInterface(ray.direction, normal, near / far);
         Way next = way;
         next.inside = behind.has_value();
         next.droplet = behind.value_or(way.droplet);
         if (split.reflected >= 1.0F) {
-            return onward(towards(meeting, ray, false, way.inside),
-                          mirrored(ray.direction, facing(ray.direction, meeting.normal)), way, share, way.inside);
+            return onward(towards(meeting, ray, false, way.inside), mirrored(ray.direction, normal), way, share,
+                          way.inside);
         }
         if (near == far) {
             --next.meetings;  // a hole is no meeting: behind it is the backdrop
@@ -538,11 +539,18 @@ private:
         return blur > 0.0F ? mix(sharp, studio_.diffuse(mirror), blur) : sharp;
     }
 
+    // Normal of ground on the side that a ray comes to.
+    [[nodiscard]] static Vec3f seenNormal(const RayF& ray, const Meeting& meeting)
+    {
+        const float side = dot(ray.direction, meeting.facet) < 0.0F ? 1.0F : -1.0F;
+        return facing(ray.direction, side * meeting.normal);
+    }
+
     // Light from matter that lets none pass.
     [[nodiscard]] Vec3f finished(const Matter& matter, const RayF& ray, const Meeting& meeting, const Way& way,
                                  Vec3f scattered) const
     {
-        const Vec3f normal = facing(ray.direction, meeting.normal);
+        const Vec3f normal = seenNormal(ray, meeting);
         const double outside = way.inside ? lookAt(way.droplet).ior : 1.0;
         const float cosine = std::clamp(-dot(ray.direction, normal), 0.0F, 1.0F);
         // Rough matter has no bright edges.

@@ -17,6 +17,7 @@
 
 #include "droplet/flow_io/droplet_surfaces.h"
 #include "droplet/units.h"
+#include "flow_io/settled_droplets.h"
 #include "support/objects.h"
 
 namespace droplet {
@@ -51,12 +52,14 @@ FlowTerrain coarseBall()
 }
 
 /// Box of 4 cm with sharp edges.
-FlowTerrain box()
+/// @param half_height  [m]
+FlowTerrain boxOf(double half_height)
 {
+    constexpr double kHalf = 20e-3;
     std::vector<Vec3> vertices;
     for (std::size_t i = 0; i < 8; ++i) {
-        vertices.push_back(20e-3 *
-                           Vec3{(i & 1U) != 0 ? 1.0 : -1.0, (i & 2U) != 0 ? 1.0 : -1.0, (i & 4U) != 0 ? 1.0 : -1.0});
+        vertices.push_back({(i & 1U) != 0 ? kHalf : -kHalf, (i & 2U) != 0 ? kHalf : -kHalf,
+                            (i & 4U) != 0 ? half_height : -half_height});
     }
     return FlowTerrain(flowSurface(vertices, {{0, 2, 3},
                                               {0, 3, 1},
@@ -70,6 +73,11 @@ FlowTerrain box()
                                               {0, 6, 2},
                                               {1, 3, 7},
                                               {1, 7, 5}}));
+}
+
+FlowTerrain box()
+{
+    return boxOf(20e-3);
 }
 
 std::vector<FlowSample> scattered(const FlowTerrain& terrain, std::size_t count, double volume)
@@ -260,6 +268,31 @@ TEST(SeatedDroplets, AreSmoothOverBluntEdges)
         EXPECT_LE(kept.back(), 1.01) << turn;
         EXPECT_LE(gaps(terrain, made.surface, samples).back(), 0.05) << turn;
     }
+}
+
+// In pictures rims go into the object, so that no light leaks in, but not out of its other side.
+TEST(SettledDroplets, DoNotComeOutOfTheBackOfThinObjects)
+{
+    const auto depth_in = [](const FlowTerrain& terrain) {
+        const FlowTerrain::Point top = *terrain.firstAlong({1e-3, 2e-3, 1.0}, {0.0, 0.0, -1.0});
+        FlowSample sample;
+        sample.contact = FlowContact::Still;
+        sample.face = top.face;
+        sample.place = top.place;
+        sample.normal = {0.0, 0.0, 1.0};
+        sample.volume = 20e-9;
+        const std::vector<FlowSample> samples{sample};
+        const SettledDroplets made = settled(terrain, samples, dropletSurfaces(samples, {bodies(), kGravity}), {true});
+        double lowest = 1.0;
+        for (const Vec3 p : made.surface.vertices) {
+            lowest = std::min(lowest, p.z - top.place.z);
+        }
+        return -lowest;
+    };
+    EXPECT_GT(depth_in(box()), 0.1e-3);
+    EXPECT_LT(depth_in(box()), 0.3e-3);
+    EXPECT_NEAR(depth_in(boxOf(0.05e-3)), 0.05e-3, 1e-8) << "to its middle";
+    EXPECT_NEAR(depth_in(roof(0.0)), 0.0, 1e-12) << "a sheet has no inside";
 }
 
 // Half of its base would be beyond the edge: on the other half it would be a fin of twice the height.

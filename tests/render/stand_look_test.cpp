@@ -246,6 +246,22 @@ TEST(StandLook, GlowNeedsNoMatter)
     }
 }
 
+// The back of a sheet mirrors as its front does; it was seen as if every ray grazed it.
+TEST(StandLook, GlossIsTheSameOnBothSides)
+{
+    StandLook look = opaqueLook({0.2, 0.5, 0.1});
+    look.look.roughness = 0.4;
+    RenderOptions front = optionsOf(look);
+    RenderOptions back = front;
+    for (Vec3& normal : back.stand->normals) {
+        normal = -1.0 * normal;
+    }
+    for (Triangle& triangle : back.stand->triangles) {
+        std::swap(triangle[1], triangle[2]);
+    }
+    expectAlike(render(Surface(), back), render(Surface(), front));
+}
+
 TEST(StandLook, CoverageHasHoles)
 {
     StandLook look = opaqueLook({0.8, 0.2, 0.2});
