@@ -54,6 +54,7 @@ struct DropletSettings {
     std::optional<Materials> materials;  ///< of single droplets, over `material`
     droplet::Nodes nodes = droplet::Nodes::One;
     double sink = 0.0;                                           ///< of the droplet in its file, below the ground [m]
+    std::optional<double> base;                                  ///< thickness of the plate below all droplets [m]
     bool colour_map = false;                                     ///< the picture tints the liquid
     droplet::LengthUnit unit = droplet::LengthUnit::Millimetre;  ///< unit in OBJ and STL
     std::vector<std::string> warnings;                           ///< options without effect

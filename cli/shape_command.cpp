@@ -24,6 +24,7 @@
 #include "droplet/io/evolver.h"
 #include "droplet/io/gltf.h"
 #include "droplet/surface/onto.h"
+#include "droplet/surface/plate.h"
 #include "droplet/units.h"
 #include "droplet_report.h"
 #include "file_droplets.h"
@@ -109,7 +110,8 @@ struct Extras {
     std::vector<droplet::FileDroplet> droplets;
     std::optional<PreviewSubject> subject;
     std::optional<OutputFile> mask;
-    std::string texture;  ///< bytes of a PNG, or empty
+    std::string texture;                       ///< bytes of a PNG, or empty
+    std::optional<droplet::Surface> on_plate;  ///< what OUTPUT holds, if it is not the droplets alone
 };
 
 /// Writes the page with the droplet as a GLB.
@@ -160,7 +162,9 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
     if (options.settings.sink > 0.0 && !options.settings.onto) {
         sunk = lowered(droplet.surface, options.settings.sink);
     }
-    std::vector<OutputFile> files = surfaceFiles(sunk ? *sunk : droplet.surface,
+    std::vector<OutputFile> files = surfaceFiles(extras.on_plate ? *extras.on_plate
+                                                 : sunk          ? *sunk
+                                                                 : droplet.surface,
                                                  {options.output,
                                                   options.format,
                                                   {.material = options.settings.material,
@@ -226,11 +230,22 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
     stages.begin(Stage::Write);
     DescribedShape described = describe(made, options);
     droplet::Report& report = described.report;
-    Extras extras{std::move(described.droplets), {}, {}, textureOf(made)};
-    report.output = describeOutput(made.droplet.surface, options.output, options.format);
+    Extras extras{std::move(described.droplets), {}, {}, textureOf(made), {}};
+    if (const auto base = made.settings.base) {
+        extras.on_plate = droplet::onPlate(made.droplet.solution.droplets, {*base, made.droplet.domain.extent});
+        if (made.settings.droplet.mesh.quads) {
+            droplet::joinTriangles(*extras.on_plate);
+        }
+        if (auto thin = droplet::thinWarning(made.droplet.figures, *base)) {
+            report.warnings.push_back(*std::move(thin));
+        }
+    }
+    const droplet::Surface& written = extras.on_plate ? *extras.on_plate : made.droplet.surface;
+    report.output = describeOutput(written, options.output, options.format);
+    report.output.base = made.settings.base;
     report.output.compression = options.compression;
     if (options.compression != droplet::Compression::None) {
-        report.output.compression_error = droplet::compressionError(made.droplet.surface, options.compression);
+        report.output.compression_error = droplet::compressionError(written, options.compression);
     }
     if (options.footprint.mask_out) {
         extras.mask = {*options.footprint.mask_out,

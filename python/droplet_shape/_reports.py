@@ -103,6 +103,7 @@ class ReportOutput(_Report):
     vertices: int  # Number of vertices
     triangles: int  # Number of triangles
     quads: int  # Number of quadrilaterals in the file, each of two of these triangles
+    base_m: float | None  # Thickness of the plate below all droplets, which makes one solid of them; null without one
     closed: bool  # Whether the surface is closed
     manifold: bool  # Whether the surface is a manifold
     euler: int  # Euler number V - E + F

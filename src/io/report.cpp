@@ -208,6 +208,7 @@ Json outputSection(const OutputReport& output)
             {"vertices", output.vertices},
             {"triangles", output.triangles},
             {"quads", output.quads},
+            {"base_m", orNull(output.base)},
             {"closed", output.topology.closed},
             {"manifold", output.topology.manifold},
             {"euler", output.topology.euler},

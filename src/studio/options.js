@@ -36,6 +36,7 @@ export const kOptions = {
   "format": {"words": ["glb", "gltf", "obj", "ply", "stl", "usda", "usdz", "3mf"], "default": "by OUTPUT's extension"},
   "nodes": {"words": ["one", "each"], "default": "one"},
   "sink": {"min": 1e-09, "max": 1000.0},
+  "base": {"min": 1e-09, "max": 1000.0},
   "compress": {"words": ["none", "quantize", "meshopt"], "default": "none"},
   "view": {"words": ["three-quarter", "top", "side"], "default": "three-quarter"},
   "camera": {"default": "all fits into the picture"},

@@ -30,6 +30,7 @@ using testing::CommandResult;
 using testing::discPicture;
 using ::testing::ElementsAre;
 using testing::greymap;
+using ::testing::Gt;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -673,6 +674,40 @@ TEST_F(ShapeCommandTest, QuadsAreWrittenWhereFilesHoldThem)
     writeFile(directory() / "spot.pgm", discPicture(64, 8.0));
     const json laid = report({"spot.pgm", "laid.obj", "--onto", "cap.glb", "--quads"});
     EXPECT_GT(laid["output"]["quads"].get<double>(), 0.4 * laid["output"]["triangles"].get<double>());
+}
+
+TEST_F(ShapeCommandTest, BaseMakesOneSolidOfAllDroplets)
+{
+    const json apart = report({"two.pgm", "apart.stl"});
+    EXPECT_EQ(apart["output"]["components"], 2);
+    EXPECT_TRUE(apart["output"]["base_m"].is_null());
+    for (const std::string file : {"plate.stl", "plate.3mf", "plate.obj", "plate.glb"}) {
+        const json plate = report({"two.pgm", file, "--base", "1mm"});
+        EXPECT_EQ(plate["output"]["components"], 1);
+        EXPECT_EQ(plate["output"]["euler"], 2);
+        EXPECT_EQ(plate["output"]["closed"], true);
+        EXPECT_EQ(plate["output"]["base_m"], 1e-3);
+        EXPECT_EQ(plate["shape"], apart["shape"]);
+    }
+    EXPECT_THAT(report({"two.pgm", "quads.obj", "--quads", "--base", "1mm"})["output"]["quads"].get<int>(), Gt(1000));
+    EXPECT_THAT(report({"two.pgm", "thin.stl", "--base", "0.1mm"})["warnings"].dump(), HasSubstr("two layers"));
+    EXPECT_THAT(report({"two.pgm", "small.stl", "--base", "1mm", "--width", "2mm"})["warnings"].dump(),
+                HasSubstr("so a print may lose them"));
+    make({"two.pgm", "one.stl", "--base", "1mm", "-j", "1"});
+    make({"two.pgm", "other.stl", "--base", "1mm", "-j", "2"});
+    EXPECT_EQ(bytesOf("one.stl"), bytesOf("other.stl"));
+    for (const std::vector<std::string>& other : {std::vector<std::string>{"--open"},
+                                                  {"--surface", "sphere:R=40mm"},
+                                                  {"--by-colour"},
+                                                  {"--nodes", "each"},
+                                                  {"--sink", "1mm"},
+                                                  {"--no-penetration"}}) {
+        std::vector<std::string> options{"two.pgm", "a.3mf", "--base", "1mm"};
+        options.insert(options.end(), other.begin(), other.end());
+        const auto refused = run(options);
+        EXPECT_EQ(refused.exit_code, 2) << other.front();
+        EXPECT_THAT(refused.error, HasSubstr("--base"));
+    }
 }
 
 TEST_F(ShapeCommandTest, ReportedVerticesAreThoseOfTheFile)

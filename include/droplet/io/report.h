@@ -74,6 +74,7 @@ struct OutputReport {
     TextureMap texture_map = TextureMap::Projection;         ///< of the surface
     Compression compression = Compression::None;             ///< of the file
     std::optional<CompressionError> compression_error = {};  ///< empty without compression
+    std::optional<double> base = {};                         ///< thickness of the plate below all droplets [m]
 };
 
 /// Kind of ground.

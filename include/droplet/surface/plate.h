@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "droplet/shape/capillary_surface.h"
+#include "droplet/shape/figures.h"
+#include "droplet/surface/surface.h"
+
+namespace droplet {
+
+/// Options of onPlate().
+struct PlateOptions {
+    double thickness = 1e-3;  ///< of the plate [m], > 0
+    Vec2 extent;              ///< size of the image, as for loft() [m]; both > 0
+
+    /// Checks all options.
+    /// @throws Error InvalidArgument
+    void validate() const;
+};
+
+/// Puts droplets on a plate, as one closed solid that can be printed.
+///
+/// The plate is a rectangle with rounded corners around all liquid, seen from above, and is two thicknesses wider on
+/// every side; so droplets that lie apart hold together, and the plate has the picture's direction. Its top is z = 0.
+/// Droplets have no bases: the liquid's rim is joined to the plate's top.
+///
+/// Guarantees: the liquid's triangles are those of loft(), and come first; the surface is one part.
+/// @param surfaces  one per droplet, on flat ground, without dry ground; their rims do not touch
+/// @param options   thickness and extent
+/// @throws Error    InvalidArgument: options or surfaces; rims touch or are not at z = 0
+Surface onPlate(const std::vector<CapillarySurface>& surfaces, const PlateOptions& options);
+
+/// Warning about parts that are too thin for a printer with a usual nozzle of 0.4 mm and layers of 0.2 mm: a plate of
+/// less than two layers, droplets lower than one, and droplets that are narrower than the nozzle, by twice their area
+/// over the length of their rim. Nothing if there are none.
+/// @param droplets   figures of every droplet
+/// @param thickness  of the plate [m]
+std::optional<std::string> thinWarning(const std::vector<ShapeFigures>& droplets, double thickness);
+
+}  // namespace droplet

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The union of droplets and a plate below them, without a Boolean operation: the liquid's rims lie in the plane of the
+// plate's top. So the top is the plate's outline with these rims as holes, and also what is dry inside the liquid's own
+// holes: all loops together by the even-odd rule, covered as a droplet's base is.
+
+#include "droplet/surface/plate.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "droplet/error.h"
+#include "droplet/mesh/triangulate.h"
+#include "droplet/surface/loft.h"
+#include "droplet/units.h"
+#include "number_text.h"
+
+namespace droplet {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// Width of the plate beside the liquid, and radius of its corners, in thicknesses.
+constexpr double kMargin = 2.0;
+
+/// Edges of one rounded corner: within 0.5 % of its radius.
+constexpr int kCornerEdges = 8;
+
+/// Loops of edges without a neighbour, with the liquid on their right, as they bound the plate's top.
+std::vector<std::vector<std::uint32_t>> dryLoops(const Surface& surface)
+{
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+    for (const Triangle& t : surface.triangles) {
+        for (std::size_t k = 0; k < t.size(); ++k) {
+            edges.emplace_back(t[k], t[(k + 1) % t.size()]);
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::uint32_t> next(surface.vertices.size(), kNone);
+    for (const auto& [a, b] : edges) {
+        if (std::binary_search(edges.begin(), edges.end(), std::pair(b, a))) {
+            continue;
+        }
+        if (surface.vertices[a].z != 0.0 || next[b] != kNone) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "surfaces must have rims at height 0 that do not touch themselves, to lie on a plate");
+        }
+        next[b] = a;
+    }
+    std::vector<std::vector<std::uint32_t>> loops;
+    for (std::uint32_t start = 0; start < next.size(); ++start) {
+        if (next[start] == kNone) {
+            continue;
+        }
+        loops.emplace_back();
+        for (std::uint32_t v = start; v != kNone;) {
+            loops.back().push_back(v);
+            v = std::exchange(next[v], kNone);
+        }
+        loops.back().pop_back();  // the start, again
+    }
+    return loops;
+}
+
+/// Point of the plate's outline, with the direction outward.
+struct OutlinePoint {
+    Vec2 place;
+    Vec2 outward;
+};
+
+/// Rectangle around the liquid, widened by the margin, counter-clockwise.
+std::vector<OutlinePoint> outlineAround(const std::vector<Vec3>& liquid, double margin)
+{
+    Vec2 lower{liquid.front().x, liquid.front().y};
+    Vec2 upper = lower;
+    for (const Vec3& p : liquid) {
+        lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
+        upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
+    }
+    const Vec2 size = upper - lower;
+    std::vector<OutlinePoint> outline;
+    for (int corner = 0; corner < 4; ++corner) {  // from the upper right one
+        const Vec2 centre{corner == 0 || corner == 3 ? upper.x : lower.x, corner < 2 ? upper.y : lower.y};
+        Vec2 outward;
+        for (int k = 0; k <= kCornerEdges; ++k) {
+            const double angle = 0.5 * std::numbers::pi * (corner + static_cast<double>(k) / kCornerEdges);
+            outward = {std::cos(angle), std::sin(angle)};
+            outline.push_back({centre + margin * outward, outward});
+        }
+        // The side to the next corner has points as well, as a fan of long triangles prints badly and shades worse.
+        const double side = corner % 2 == 0 ? size.x : size.y;
+        const Vec2 along = corner % 2 == 0 ? Vec2{corner == 0 ? -1.0 : 1.0, 0.0} : Vec2{0.0, corner == 1 ? -1.0 : 1.0};
+        const auto pieces = static_cast<int>(std::clamp(std::round(side / margin), 1.0, 100.0));
+        const Vec2 begin = outline.back().place;
+        for (int k = 1; k < pieces; ++k) {
+            outline.push_back({begin + (side * k / pieces) * along, outward});
+        }
+    }
+    return outline;
+}
+
+/// Surface to which a plate is added.
+class PlateBuilder {
+public:
+    PlateBuilder(Surface& surface, const PlateOptions& options) : surface_(surface), options_(options) {}
+
+    /// Adds a vertex.
+    /// @param place   of an earlier vertex, or of its own
+    std::uint32_t add(Vec3 place, Vec3 normal, std::optional<std::uint32_t> same = {})
+    {
+        const auto index = static_cast<std::uint32_t>(surface_.vertices.size());
+        surface_.vertices.push_back(place);
+        surface_.normals.push_back(normal);
+        surface_.uvs.push_back({0.5 + place.x / options_.extent.x, 0.5 - place.y / options_.extent.y});
+        surface_.contact_angle.push_back(0.0F);
+        surface_.weld.push_back(same ? surface_.weld[*same] : index);
+        return index;
+    }
+
+    /// Adds the cover of loops, at one height.
+    /// @param rim  earlier vertices at the loops' points, if there are some
+    /// @return     index of its first vertex
+    std::uint32_t addCover(const PlanarMesh& loops, double height, bool faces_up, const std::vector<std::uint32_t>& rim)
+    {
+        const PlanarMesh mesh = cover(loops);
+        const auto first = static_cast<std::uint32_t>(surface_.vertices.size());
+        for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+            const bool is_copy = v < rim.size() && rim[v] != kNone;
+            const Vec2& p = mesh.vertices[v];
+            add({p.x, p.y, height}, {0.0, 0.0, faces_up ? 1.0 : -1.0}, is_copy ? std::optional(rim[v]) : std::nullopt);
+        }
+        for (const auto& [a, b, c] : mesh.triangles) {
+            surface_.triangles.push_back(faces_up ? Triangle{first + a, first + b, first + c}
+                                                  : Triangle{first + a, first + c, first + b});
+        }
+        return first;
+    }
+
+    /// Adds the side.
+    /// @param top, bottom  first vertices of the outline
+    void addSide(const std::vector<OutlinePoint>& outline, std::uint32_t top, std::uint32_t bottom)
+    {
+        const auto first = static_cast<std::uint32_t>(surface_.vertices.size());
+        const auto count = static_cast<std::uint32_t>(outline.size());
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const Vec3 outward{outline[k].outward.x, outline[k].outward.y, 0.0};
+            add(surface_.vertices[top + k], outward, top + k);
+            add(surface_.vertices[bottom + k], outward, bottom + k);
+        }
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const std::uint32_t here = first + 2 * k;
+            const std::uint32_t next = first + 2 * ((k + 1) % count);
+            surface_.triangles.push_back({here, here + 1, next + 1});
+            surface_.triangles.push_back({here, next + 1, next});
+        }
+    }
+
+private:
+    Surface& surface_;
+    const PlateOptions& options_;
+};
+
+}  // namespace
+
+void PlateOptions::validate() const
+{
+    if (!(thickness > 0.0 && std::isfinite(thickness))) {
+        throw Error(ErrorCode::InvalidArgument, "thickness " + numberText(thickness) + " m must be positive");
+    }
+    if (!(extent.x > 0.0 && extent.y > 0.0 && std::isfinite(extent.x) && std::isfinite(extent.y))) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "extent " + numberText(extent.x) + " m × " + numberText(extent.y) + " m must be positive");
+    }
+}
+
+Surface onPlate(const std::vector<CapillarySurface>& surfaces, const PlateOptions& options)
+{
+    options.validate();
+    Surface surface = loft(surfaces, {.open = true, .extent = options.extent});
+    const std::vector<OutlinePoint> outline = outlineAround(surface.vertices, kMargin * options.thickness);
+    PlanarMesh loops;
+    loops.loop_starts = {0};
+    const auto close_loop = [&] { loops.loop_starts.push_back(static_cast<std::uint32_t>(loops.vertices.size())); };
+    for (const OutlinePoint& point : outline) {
+        loops.vertices.push_back(point.place);
+    }
+    close_loop();
+    const PlanarMesh plate = loops;
+    std::vector<std::uint32_t> rim(outline.size(), kNone);
+    for (const std::vector<std::uint32_t>& loop : dryLoops(surface)) {
+        for (const std::uint32_t v : loop) {
+            loops.vertices.push_back({surface.vertices[v].x, surface.vertices[v].y});
+            rim.push_back(v);
+        }
+        close_loop();
+    }
+    PlateBuilder builder(surface, options);
+    const std::uint32_t top = builder.addCover(loops, 0.0, true, rim);
+    const std::uint32_t bottom = builder.addCover(plate, -options.thickness, false, {});
+    builder.addSide(outline, top, bottom);
+    SurfacePart whole{.vertices = surface.vertices.size(), .triangles = surface.triangles.size()};
+    for (const SurfacePart& part : surface.parts) {
+        whole.volume += part.volume;
+        whole.area += part.area;
+    }
+    surface.parts = {whole};
+    return surface;
+}
+
+std::optional<std::string> thinWarning(const std::vector<ShapeFigures>& droplets, double thickness)
+{
+    constexpr double kNozzle = 0.4e-3;
+    constexpr double kLayer = 0.2e-3;
+    const auto thin = std::count_if(droplets.begin(), droplets.end(), [&](const ShapeFigures& figures) {
+        return figures.volume > 0.0 &&
+               (figures.height_max < kLayer || 2.0 * figures.footprint_area / figures.rim_length < kNozzle);
+    });
+    std::string text;
+    if (thickness < 2.0 * kLayer) {
+        text = fmt::format("the plate is {} mm thick, which is less than two layers of 0.2 mm; make it thicker",
+                           numberText(thickness / kMillimetre, 3));
+    }
+    if (thin > 0) {
+        text += fmt::format(
+            "{}{} of {} droplets {} lower than a layer of 0.2 mm, or narrower than a nozzle of 0.4 mm, "
+            "so a print may lose {}; make the picture wider",
+            text.empty() ? "" : "; ", thin, droplets.size(), thin == 1 ? "is" : "are", thin == 1 ? "it" : "them");
+    }
+    return text.empty() ? std::nullopt : std::optional(text);
+}
+
+}  // namespace droplet
