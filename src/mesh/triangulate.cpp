@@ -12,8 +12,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -46,6 +48,12 @@ constexpr double kMaxDetailTriangles = 1 << 20;
 constexpr double kSlack = 1.1;
 
 constexpr int kMaxGrading = 64;
+
+/// Triangles of one vertex of a cover that make a fan, which is divided. Six are even.
+constexpr std::size_t kManyTriangles = 10;
+
+/// Rounds of dividing fans. Of pictures with up to 22 triangles around a vertex, one leaves 16 and two 13 to 15.
+constexpr int kRounds = 2;
 
 /// Layers that fit into the area over the length of the rim from which on liquid is wide: a disc of a radius of 4.
 constexpr double kWide = 2.0;
@@ -249,6 +257,66 @@ std::vector<PlanarMesh> meshToCount(const std::vector<RimSampler>& samplers, dou
     return best;
 }
 
+/// Vertices around each inner vertex that has many triangles, counter-clockwise, with the vertex itself in front.
+std::vector<std::vector<std::uint32_t>> fansOf(const PlanarMesh& mesh)
+{
+    std::vector<std::size_t> counts(mesh.vertices.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t v : t) {
+            ++counts[v];
+        }
+    }
+    // Edges opposite of a fan's vertex, by the vertex and their first end.
+    std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> opposite;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        for (const auto& [v, from, to] : {Triangle{a, b, c}, Triangle{b, c, a}, Triangle{c, a, b}}) {
+            if (counts[v] > kManyTriangles && !mesh.onRim(v)) {
+                opposite[v].emplace(from, to);
+            }
+        }
+    }
+    std::vector<std::vector<std::uint32_t>> fans;
+    for (const auto& [v, next] : opposite) {
+        fans.push_back({v});
+        std::uint32_t at = next.begin()->first;
+        for (std::size_t k = 0; k < next.size(); ++k) {
+            fans.back().push_back(at);
+            at = next.at(at);
+        }
+    }
+    return fans;
+}
+
+/// Points that divide fans of many triangles: halfway from a fan's vertex to every sixth vertex around it, or fewer, so
+/// that the vertex has not many triangles then. A fan has nothing inside, so the rim is no nearer than what is around.
+/// @param clear  distance of points from the rim, at least [m]
+std::vector<Vec2> pointsInFans(const PlanarMesh& mesh, double clear)
+{
+    constexpr std::size_t kStep = 6;
+    std::vector<Vec2> points;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> halved;  // an edge may be part of two fans
+    for (const std::vector<std::uint32_t>& fan : fansOf(mesh)) {
+        const auto at = [&](std::size_t k) { return mesh.vertices[fan[1 + k % (fan.size() - 1)]]; };
+        const Vec2 centre = mesh.vertices[fan.front()];
+        const std::size_t around = fan.size() - 1;
+        const std::size_t count = std::min(kManyTriangles, (around + kStep - 1) / kStep);
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t i = k * around / count;
+            const Vec2 point = 0.5 * (centre + at(i));
+            bool is_clear = true;
+            for (std::size_t j = 0; j < around && is_clear; ++j) {
+                const Vec2 along = at(j + 1) - at(j);
+                const double part = std::clamp(dot(point - at(j), along) / dot(along, along), 0.0, 1.0);
+                is_clear = length(point - at(j) - part * along) > clear;
+            }
+            if (is_clear && halved.insert(std::minmax(fan.front(), fan[1 + i])).second) {
+                points.push_back(point);
+            }
+        }
+    }
+    return points;
+}
+
 }  // namespace
 
 void TriangulateOptions::validate() const
@@ -350,14 +418,25 @@ PlanarMesh cover(const PlanarMesh& mesh, std::optional<double> edge)
                               mesh.vertices.begin() + mesh.loop_starts[k + 1]);
     }
     // Start at four times the length of rim edges, because nobody looks at the ground from below.
-    const std::vector<Vec2> points =
-        edge ? gradedPoints(polygons, *edge, 1)
-             : gradedPoints(polygons, 4.0 * rimLength(mesh) / static_cast<double>(mesh.rimVertexCount()), kMaxGrading);
+    const double rim_edge = rimLength(mesh) / static_cast<double>(mesh.rimVertexCount());
+    std::vector<Vec2> points =
+        edge ? gradedPoints(polygons, *edge, 1) : gradedPoints(polygons, 4.0 * rim_edge, kMaxGrading);
     PlanarMesh result;
-    result.triangles = triangulateUnrefined(polygons, points);
     result.loop_starts = mesh.loop_starts;
-    result.vertices.assign(mesh.vertices.begin(), mesh.vertices.begin() + mesh.rimVertexCount());
-    result.vertices.insert(result.vertices.end(), points.begin(), points.end());
+    const auto fill = [&] {
+        result.triangles = triangulateUnrefined(polygons, points);
+        result.vertices.assign(mesh.vertices.begin(), mesh.vertices.begin() + mesh.rimVertexCount());
+        result.vertices.insert(result.vertices.end(), points.begin(), points.end());
+    };
+    fill();
+    for (int round = 0; round < kRounds && !edge; ++round) {
+        const std::vector<Vec2> more = pointsInFans(result, rim_edge);
+        if (more.empty()) {
+            break;
+        }
+        points.insert(points.end(), more.begin(), more.end());
+        fill();
+    }
     return result;
 }
 

@@ -113,6 +113,26 @@ TEST(Cover, TakesAtMostSixTrianglesPerRimVertex)
     }
 }
 
+// Points beside a rim of shorter edges would have up to 19 triangles here.
+TEST(Cover, NoVertexHasMoreThanThirteenTriangles)
+{
+    for (const auto& [name, domain] : testing::zoo()) {
+        for (const std::size_t triangles : {3000U, 40000U}) {
+            SCOPED_TRACE(name + " of " + std::to_string(triangles));
+            for (const PlanarMesh& mesh : triangulate(domain, {.triangles = triangles, .edge = {}})) {
+                const PlanarMesh ground = cover(mesh);
+                std::vector<std::size_t> counts(ground.vertices.size());
+                for (const Triangle& t : ground.triangles) {
+                    for (const std::uint32_t v : t) {
+                        ++counts[v];
+                    }
+                }
+                EXPECT_LE(*std::max_element(counts.begin(), counts.end()), 13U);
+            }
+        }
+    }
+}
+
 TEST(Cover, DependsOnTheRimAlone)
 {
     // The lattice and the order of triangles do not matter.
