@@ -132,7 +132,7 @@ void declare(CommandLine& line, Liquid2dOptions& options)
     line.addFlag(kSurface, "--no-crest-gate", "Air enters anywhere at the surface, as in the paper");
     line.add(kSurface, "--smoothing", "NUMBER", "Smoothness of the surface, 0 to 2",
              into(controls.smoothing, {0.0, 2.0, "a number from 0 to 2"}));
-    line.add(kSurface, "--fairing", "NUMBER", "Smoothing of bends as short as a particle, 0 to 10 [2.5, realistic 1]",
+    line.add(kSurface, "--fairing", "NUMBER", "Smoothing of wrinkles of a few particles, 0 to 10 [2.5, realistic 1]",
              into(controls.fairing, {0.0, 10.0, "a number from 0 to 10"}));
     line.add(kSurface, "--resolution", "NUMBER",
              "Grid of the surface, in distances of particles, 0.2 to 1 [0.4, realistic 0.5]",

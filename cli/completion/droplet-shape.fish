@@ -228,7 +228,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l max-air -
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l eraser-share -x -d 'Share of particles that may hold air, 0 to 1'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l no-crest-gate -d 'Air enters anywhere at the surface, as in the paper'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l smoothing -x -d 'Smoothness of the surface, 0 to 2'
-complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l fairing -x -d 'Smoothing of bends as short as a particle, 0 to 10'
+complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l fairing -x -d 'Smoothing of wrinkles of a few particles, 0 to 10'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l resolution -x -d 'Grid of the surface, in distances of particles, 0.2 to 1'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l frame-width -x -d 'Width of drawings and masks in pixels, up to 16384'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l look -x -a 'flat comic ink night' -d 'Colours and lines'

@@ -35,7 +35,7 @@ struct ExpressionOptions {
     double claws = 0.0;          ///< length of the claws at the crests of waves, in spacings, 0 … 100
     bool crest_gate = true;      ///< air enters at the crests of waves alone; false: as in the paper
     double smoothing = 1.0;      ///< radius of the surface's kernel in bulk liquid: (1 + smoothing)·spacing, 0 … 2
-    double fairing = 1.0;        ///< how much bends as short as a particle are smoothed away, 0 … 10
+    double fairing = 1.0;        ///< how much wrinkles of a few particles are smoothed away, 0 … 10
     double resolution = 0.5;     ///< side of the grid's cells in spacings, 0.2 … 1
     double min_area = 0.25;      ///< loops below this area, in areas of a particle, are dropped, ≥ 0
     double droplet_size = 60.0;  ///< detached bodies of up to so many particles count as droplets, ≥ 0
