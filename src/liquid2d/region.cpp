@@ -56,6 +56,19 @@ std::optional<Disc> discOf(const Region& region)
     return Disc{moments.centroid, std::sqrt(moments.area / std::numbers::pi)};
 }
 
+/// Abscissae at which a region's sides cross a horizontal line, in order.
+std::vector<double> crossings(const Region& region, double y)
+{
+    std::vector<double> xs;
+    forSides(region, [&](Vec2 a, Vec2 b) {
+        if ((a.y <= y) != (b.y <= y)) {
+            xs.push_back(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
+        }
+    });
+    std::sort(xs.begin(), xs.end());
+    return xs;
+}
+
 }  // namespace
 
 Region rectangle(Vec2 lower, Vec2 upper)
@@ -74,18 +87,6 @@ Region circle(Vec2 centre, double radius)
         region.loops.front().push_back(centre + outer * Vec2{std::cos(k * kTurn), std::sin(k * kTurn)});
     }
     return region;
-}
-
-std::vector<double> crossings(const Region& region, double y)
-{
-    std::vector<double> xs;
-    forSides(region, [&](Vec2 a, Vec2 b) {
-        if ((a.y <= y) != (b.y <= y)) {
-            xs.push_back(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
-        }
-    });
-    std::sort(xs.begin(), xs.end());
-    return xs;
 }
 
 bool contains(const Region& region, Vec2 point)

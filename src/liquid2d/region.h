@@ -34,9 +34,6 @@ private:
     std::vector<std::vector<std::uint32_t>> strips_;  ///< sides that meet each strip of equal height
 };
 
-/// Abscissae at which a region's sides cross a horizontal line, in order.
-std::vector<double> crossings(const Region& region, double y);
-
 /// Signed area of a region's loops and the centroid of the region.
 struct RegionMoments {
     double area = 0.0;  ///< [m²], ≥ 0

@@ -95,16 +95,20 @@ WallField WallDistance::at(double time, const GridShape& grid) const
     field.distance.assign(grid.corners(), reach);
     field.wall.assign(grid.corners(), 0);
     std::vector<double> near;
-    std::vector<double> crossed;
+    std::vector<std::vector<double>> crossed(rows);  // abscissae at which sides cross each row
     for (std::uint32_t w = 0; w < scene_.walls.size(); ++w) {
         const Wall& wall = scene_.walls[w];
         const Region region = wallAt(wall, time);
         near.assign(grid.corners(), reach);
+        for (std::vector<double>& row : crossed) {
+            row.clear();
+        }
         std::size_t number = 0;
         for (const std::vector<Vec2>& loop : region.loops) {
             for (std::size_t i = 0; i < loop.size(); ++i, ++number) {
                 const Vec2 a = loop[i];
-                const Vec2 along = loop[(i + 1) % loop.size()] - loop[i];
+                const Vec2 b = loop[(i + 1) % loop.size()];
+                const Vec2 along = b - a;
                 const double square = dot(along, along);
                 const double thickened = thin_[w][number] != 0 ? 0.5 * grid.cell : 0.0;
                 const auto [low, high] =
@@ -112,6 +116,9 @@ WallField WallDistance::at(double time, const GridShape& grid) const
                                   grid.bottom, rows);
                 for (std::size_t row = low; row < high; ++row) {
                     const double y = grid.placeOf(0.0, static_cast<double>(row)).y;
+                    if ((a.y <= y) != (b.y <= y)) {
+                        crossed[row].push_back(a.x + along.x * (y - a.y) / along.y);
+                    }
                     // Part of the side within reach of the row.
                     double from = 0.0;
                     double to = 1.0;
@@ -140,11 +147,11 @@ WallField WallDistance::at(double time, const GridShape& grid) const
             }
         }
         for (std::size_t row = 0; row < rows; ++row) {
-            crossed = crossings(region, grid.placeOf(0.0, static_cast<double>(row)).y);
+            std::sort(crossed[row].begin(), crossed[row].end());
             std::size_t passed = 0;
             for (std::size_t column = 0; column < columns; ++column) {
                 const double x = grid.placeOf(static_cast<double>(column), 0.0).x;
-                while (passed < crossed.size() && crossed[passed] <= x) {
+                while (passed < crossed[row].size() && crossed[row][passed] <= x) {
                     ++passed;
                 }
                 const std::size_t k = row * columns + column;
