@@ -36,7 +36,7 @@ struct Drop {
     Vec3 normal;
     double volume = 0.0;
     double radius = 0.0;         ///< seen from above
-    double reach = 0.0;          ///< radius of a ball about the centre that has it, as far as it is off the ground
+    double reach = 0.0;          ///< radius of a ball about the centre that has it, and its equator at the ground
     Vec3 centre;                 ///< of the ellipsoid that has it
     std::array<Vec3, 3> axes{};  ///< of that
 };
@@ -127,22 +127,36 @@ private:
         return true;
     }
 
-    /// Whether no plane across the way between their centres lies between two droplets. Those on the two sides of a
-    /// thin part do not touch.
+    /// Whether two droplets touch: no plane across the way between their centres lies between them, or they are nearer
+    /// than on a plane, as in a dent, where both are bent towards each other. Those on the two sides of a thin part do
+    /// not touch.
     static bool touch(const Drop& a, const Drop& b)
     {
-        const Vec3 way = b.centre - a.centre;
-        if (dot(a.normal, b.normal) <= -0.5) {
+        const double alike = dot(a.normal, b.normal);
+        if (alike <= -0.5) {
             return false;
         }
-        const auto along = [&](const Drop& drop) {
+        const auto along = [](const Drop& drop, Vec3 way) {
             double sum = 0.0;
             for (const Vec3& axis : drop.axes) {
                 sum += dot(axis, way) * dot(axis, way);
             }
             return std::sqrt(sum);
         };
-        return dot(way, way) < along(a) + along(b);
+        const Vec3 way = b.centre - a.centre;
+        if (dot(way, way) < along(a, way) + along(b, way)) {
+            return true;
+        }
+        const auto foot = [](const Drop& drop) {
+            return drop.centre - dot(drop.centre - drop.point.place, drop.normal) * drop.normal;
+        };
+        const Vec3 between = foot(b) - foot(a);
+        const auto over_ground = [&](const Drop& drop) {
+            const Vec3 level = between - dot(between, drop.normal) * drop.normal;
+            const double size = length(level);
+            return size > 0.0 ? along(drop, level) / size : drop.radius;
+        };
+        return alike > 0.0 && length(between) < over_ground(a) + over_ground(b);
     }
 
     [[nodiscard]] double sideOf(int level) const { return 2.0 * smallest_ * std::pow(kRatio, level); }
@@ -350,6 +364,7 @@ private:
         for (const Vec3& axis : extent.axes) {
             reach = std::max(reach, length(axis));
         }
+        reach += std::abs(dot(extent.middle, normal));  // about its foot, too
         return {point, normal, volume, dewRadius(volume, angle), reach, point.place + extent.middle, extent.axes};
     }
 

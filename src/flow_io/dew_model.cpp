@@ -229,6 +229,11 @@ std::optional<Bent> bentOn(const FlowTerrain& terrain, const DropletMesh& mesh, 
     if (std::max(std::abs(heights->mean), length(saddle)) > kMostBent) {
         return std::nullopt;
     }
+    // The rim stays as far from the middle, in space.
+    const double away = std::sqrt(1.0 + heights->mean * heights->mean + 0.5 * dot(saddle, saddle));
+    pose.along = toFloat(static_cast<double>(pose.along) / away);
+    pose.across = toFloat(static_cast<double>(pose.across) / away);
+    pose.up = toFloat(static_cast<double>(pose.up) * away * away);
     const auto step = [](double height) { return static_cast<int>(std::lround(height / kBendStep)); };
     return Bent{{step(heights->mean), step(saddle.x), step(saddle.y)}, pose};
 }

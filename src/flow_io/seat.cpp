@@ -170,6 +170,26 @@ public:
 
     [[nodiscard]] const Local& seated(std::size_t k) const { return seated_[k]; }
 
+    /// Draws points back to where they are as far from the middle, in space, as on a plane: a contact line does not go
+    /// farther on ground that bends.
+    void keepDistances(const Ground& ground)
+    {
+        constexpr double kSlope = 0.1;  // changes a distance by 0.5 %
+        constexpr int kTries = 3;
+        for (std::size_t k = 0; k < flat_.size(); ++k) {
+            const double way = length(flat_[k]);
+            Local& point = seated_[k];
+            for (int i = 0; i < kTries && std::abs(point.height) > kSlope * way; ++i) {
+                const Vec2 level = std::min(way / std::hypot(length(point.level), point.height), 1.0) * point.level;
+                const auto height = ground.at(level);
+                if (!height) {
+                    break;
+                }
+                point = {level, *height};
+            }
+        }
+    }
+
     struct Place {
         double share = 0.0;   ///< of the way from the middle to the rim
         double way = 0.0;     ///< from the middle to the rim
@@ -578,7 +598,9 @@ std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, Fl
                dot(v, frame.normal) * leant.normal;
     };
     const Ground ground(terrain, leant, size);
-    const Seating seating = seatingOf(ground, shape, Rim(ground, rim_points));
+    Rim seated_rim(ground, rim_points);
+    seated_rim.keepDistances(ground);
+    const Seating seating = seatingOf(ground, shape, seated_rim);
 
     const std::vector<Vec3> before = facing(droplet.vertices, droplet.triangles);
     const std::vector<Vec3> seated = placed(ground, shape, seating, factorOf(ground, shape, seating));

@@ -17,6 +17,7 @@
 #include "droplet/flow_io/dew_model.h"
 #include "droplet/units.h"
 #include "flow/footing.h"
+#include "support/objects.h"
 
 namespace droplet {
 namespace {
@@ -235,6 +236,80 @@ TEST(DewEdges, DropletsOnABoxAndACanAreApart)
             EXPECT_EQ(overlapsOf(wet.model.surface()), 0U) << angle << " of " << wet.model.shown().size();
         }
     }
+}
+
+Mesh meshOf(const TexturedMesh& from)
+{
+    return {from.vertices, from.triangles};
+}
+
+/// Sphere of 2 cm.
+Mesh sphere()
+{
+    return meshOf(testing::ball(64, [](Vec3) { return 0.02; }));
+}
+
+/// As a bunny: bumps and dents whose curvature is as strong as that of large droplets.
+Mesh bunny()
+{
+    return meshOf(testing::ball(160, [](Vec3 n) {
+        return 0.02 + 1.5e-3 * std::sin(14.0 * n.x + 1.0) * std::sin(13.0 * n.y) * std::sin(12.0 * n.z + 2.0);
+    }));
+}
+
+/// Ring of 15 mm about a tube of 6 mm: saddles inside, and a hole.
+Mesh torus()
+{
+    testing::Sheet sheet;
+    sheet.columns = 96;
+    sheet.rows = 40;
+    sheet.place = [](Vec2 uv) {
+        const double turn = 2.0 * std::numbers::pi * uv.x;
+        const double tilt = -2.0 * std::numbers::pi * uv.y;
+        const double away = 0.015 + 6e-3 * std::cos(tilt);
+        return Vec3{away * std::cos(turn), away * std::sin(turn), 6e-3 * std::sin(tilt)};
+    };
+    return meshOf(testing::meshOf(sheet));
+}
+
+// Bent droplets lean and stand closer or farther than on a plane.
+TEST(DewEdges, DropletsOnCurvedGroundAreApart)
+{
+    for (const Mesh& mesh : {sphere(), bunny(), torus()}) {
+        for (const double angle : {60.0, 105.0, 140.0}) {
+            DewOptions options;
+            options.coverage = 0.5;
+            options.smallest = 0.4e-3;
+            options.largest = 2e-3;
+            options.forces.wetting.contact_angle = angle * kDegree;
+            const Wet wet(mesh, options);
+            ASSERT_GT(wet.model.shown().size(), 300U);
+            EXPECT_EQ(overlapsOf(wet.model.surface()), 0U) << angle << " of " << wet.model.shown().size();
+        }
+    }
+}
+
+// The count finds what overlaps.
+TEST(DewEdges, OverlapsAreFound)
+{
+    DewOptions options;
+    options.coverage = 0.2;
+    options.smallest = 1e-3;
+    options.largest = 2e-3;
+    const Wet wet(sphere(), options);
+    Surface surface = wet.model.surface();
+    ASSERT_EQ(overlapsOf(surface), 0U);
+    const Surface once = surface;
+    const Vec3 aside = 0.3e-3 * Vec3{0.6, 0.0, 0.8};
+    for (std::size_t v = 0; v < once.vertices.size(); ++v) {
+        surface.vertices.push_back(once.vertices[v] + aside);
+        surface.weld.push_back(once.weld[v] + static_cast<std::uint32_t>(once.vertices.size()));
+    }
+    for (const auto& [a, b, c] : once.triangles) {
+        const auto offset = static_cast<std::uint32_t>(once.vertices.size());
+        surface.triangles.push_back({a + offset, b + offset, c + offset});
+    }
+    EXPECT_GE(overlapsOf(surface), 2 * wet.model.shown().size()) << "each and its copy beside it";
 }
 
 /// A square of 6 cm that leans.
