@@ -8,8 +8,9 @@ const kParameters = ['glass-width', 'glass-height', 'glass-radius', 'slope', 'se
     'contact-angle', 'hysteresis', 'kinetic-fraction', 'viscosity-factor', 'film', 'still-diameter', 'mist', 'splashes'];
 const camelCase = (name) => name.replace(/-(\w)/g, (_, letter) => letter.toUpperCase());
 const kNames = new Map(kParameters.map((name) => [camelCase(name), name]));
-/** Names of those that a mesh has itself. */
-export const kGlassParameters = ['glassWidth', 'glassHeight', 'glassRadius', 'slope'];
+/** Names of all parameters, and of those that a mesh has itself. */
+export const kWindshieldParameters = [...kNames.keys()];
+export const kGlassParameters = kWindshieldParameters.slice(0, 4);
 /** Bytes of the largest structure of the interface, DropletPlace. */
 const kRoom = 96;
 const kMaxBlades = 8;

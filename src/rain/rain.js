@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rain on a windshield in a page: the simulation in fixed steps, its view, and the controls.
-import { kGlassParameters, loadRain } from '../../npm/rain.js';
+import { kGlassParameters, kWindshieldParameters, loadRain } from '../../npm/rain.js';
 import { Recorder, savePicture } from '../live/recorder.js';
 import { Backdrop } from './backdrop.js';
 import { Panel } from './panel.js';
@@ -20,12 +20,8 @@ const kFinger = 16e-3;           // width [m]
 const kBorder = 0.035;           // of the glass [m]
 const kWarmUpAtOnce = 60;        // [ms]
 
-/** Names of the library's parameters that the page sets. */
-const kParameters = ['speed', 'rain', 'noise', 'wiperPeriod', 'seed', 'gravity', 'contactAngle', 'hysteresis', 'kineticFraction',
-    'viscosityFactor', 'film', 'stillDiameter', 'mist', 'splashes', 'glassWidth', 'glassHeight', 'glassRadius', 'slope'];
-
 /** Names of parameters that a glass has, which may be a mesh. */
-const parametersOf = (surface) => (surface ? kParameters.filter((name) => !kGlassParameters.includes(name)) : kParameters);
+const parametersOf = (surface) => (surface ? kWindshieldParameters.filter((name) => !kGlassParameters.includes(name)) : kWindshieldParameters);
 
 /** The mesh of a glass, whose numbers are texts in base64. */
 function meshOf({ positions, normals, uvs, indices }) {
@@ -154,7 +150,7 @@ class Rain {
             this.soon = setTimeout(() => this.ends.signal.aborted || this.restart(), 250);
         } else if (name === 'speed' || name === 'wind') {
             this.#setSpeed();
-        } else if (kParameters.includes(name)) {
+        } else if (kWindshieldParameters.includes(name)) {
             this.windshield.set({ [name]: value });
         }
         this.draws = true;

@@ -41,7 +41,7 @@ out vec4 colour;
 void main() {
     vec2 soft = max(fwidth(side), vec2(0.02));
     vec2 share = 1.0 - smoothstep(1.0 - soft, vec2(1.0), abs(side));
-    float shine = tint.a > 1.0 ? 0.0 : exp(-18.0 * (side.x + 0.45) * (side.x + 0.45));
+    float shine = tint.a > 1.0 ? 0.0 : exp(-18.0 * (side.y - 0.45) * (side.y - 0.45));
     colour = vec4(tint.rgb * (1.0 + 2.5 * shine), share.x * share.y * min(tint.a, 1.0));
 }`;
 
@@ -281,7 +281,8 @@ uniform float spread;
 out vec4 colour;
 void main() {
     float d = length(inside);
-    float share = exp(-3.2 * d * d) * (1.0 - smoothstep(0.9, 1.0, d));
+    float rest = max(1.0 - d * d, 0.0);  // vanishes smoothly: the brightest show an edge otherwise
+    float share = rest * rest * rest;
     if (is_mirrored < 0.5 && spread > 0.0) {
         float soft = max(2.0 * fwidth(d), 0.07);
         share = (1.0 - smoothstep(1.0 - soft, 1.0, d)) * (0.80 + 0.12 * d * d + 0.22 * smoothstep(0.72, 0.95, d));

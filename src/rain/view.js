@@ -18,7 +18,7 @@ const kWide = [1.75, 1.0];
 const kStreetMap = [1024, 576];
 const kPanoramaMap = [2048, 1024];
 /** What lens and film do to a frame, by eye. Pictures have grain of their own. */
-const kLens = { glowing: 0.075, falloff: 0.42 };
+const kLens = { glowing: 0.11, falloff: 0.42 };
 const kFilmLasts = 0.75;      // behind a blade [s]
 const kFilmMap = 1024;        // width of the map of films [px]
 const kBladeHalf = 0.0045;    // half its width, as in the ray-traced view [m]
