@@ -75,6 +75,9 @@ public:
 
     std::optional<FilledHollow> pond()
     {
+        if (!reachesBottom(liquid_.face, dot(up_, liquid_.place))) {
+            return std::nullopt;
+        }
         const double thick = thicknessOf(liquid_);
         const double flat = flatArea(liquid_);
         const End end = flood([&] {
@@ -303,12 +306,22 @@ private:
         return static_cast<std::size_t>(std::min_element(heights.begin(), heights.end()) - heights.begin());
     }
 
-    /// Begins at the bottom of a face, if the droplet reaches it: otherwise it rests on a slope.
+    /// Whether the droplet reaches the bottom of a face: otherwise it rests on a slope.
+    /// @param height  of the droplet, or of the last bottom
+    [[nodiscard]] bool reachesBottom(std::uint32_t face, double height) const
+    {
+        const Vec3 corner = faces_[face].corners[lowestOf(face)];
+        return height - dot(up_, corner) <= slack_ || length(corner - liquid_.place) <= liquid_.radius;
+    }
+
+    /// Begins at the bottom of a face, if the droplet reaches it.
     /// @param height  of the droplet, or of the last bottom
     bool begin(std::uint32_t face, double height)
     {
-        const Vec3 corner = faces_[face].corners[lowestOf(face)];
-        bottom_ = std::min(height, dot(up_, corner));
+        if (!reachesBottom(face, height)) {
+            return false;
+        }
+        bottom_ = std::min(height, heightsOf(face)[lowestOf(face)]);
         level_ = bottom_;
         constexpr double kLevel = 0.9994;  // cosine of 2°
         is_flat_ = height - bottom_ <= slack_ && dot(faces_[face].normal, up_) >= kLevel;
@@ -317,7 +330,7 @@ private:
         is_flooded_.clear();
         passes_ = {};
         flood(face);
-        return height - bottom_ <= slack_ || length(corner - liquid_.place) <= liquid_.radius;
+        return true;
     }
 
     void flood(std::uint32_t face)
