@@ -269,6 +269,36 @@ TEST(PondSurface, OfAPuddleLiesBetweenWalls)
     EXPECT_FALSE(pondAt(terrain, {-0.04, 0.02, 0.0}, 0.1e-6)) << "it touches no wall";
 }
 
+// Two faces of the floor that meet in a corner are left out: the rim touches itself there, below the liquid.
+TEST(PondSurface, OfAPuddleWhoseRimTouchesItselfIsValid)
+{
+    const FlowTerrain terrain = ground(trench);
+    auto pond = pondAt(terrain, {-0.04, 0.02, 0.0}, 6e-6);
+    ASSERT_TRUE(pond && pond->front);
+    const auto& faces = terrain.surface().faces;
+    const auto common = [&](std::uint32_t a, std::uint32_t b) {
+        std::size_t count = 0;
+        for (const Vec3 p : faces[a].corners) {
+            count += static_cast<std::size_t>(std::count(faces[b].corners.begin(), faces[b].corners.end(), p));
+        }
+        return count;
+    };
+    const std::uint32_t middle = terrain.nearest({-0.04, 0.02, 0.0}).face;
+    const auto leave_out = [&](std::uint32_t face) {
+        const auto at = std::find(pond->faces.begin(), pond->faces.end(), face);
+        ASSERT_NE(at, pond->faces.end());
+        pond->front->sources.erase(pond->front->sources.begin() + (at - pond->faces.begin()));
+        pond->faces.erase(at);
+    };
+    const auto opposite = std::find_if(pond->faces.begin(), pond->faces.end(),
+                                       [&](std::uint32_t face) { return common(face, middle) == 1; });
+    ASSERT_NE(opposite, pond->faces.end());
+    leave_out(*opposite);
+    leave_out(middle);
+    const Surface surface = surfaceOf(pondSurface(terrain.surface(), *pond));
+    EXPECT_NO_THROW(surface.validate());
+}
+
 TEST(PondSurface, InACornerIsASectorAsThickAsOnFlatGround)
 {
     const FlowTerrain tray = ground([](Vec2 p) { return std::max(std::abs(p.x), std::abs(p.y)) > 0.04 ? 10e-3 : 0.0; });
