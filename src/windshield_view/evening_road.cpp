@@ -417,7 +417,7 @@ struct DefaultBackground::Content {
             return;
         }
         const Run run = within(streak.at.right, kReach * streak.width);
-        const Float4 light = float4(std::exp(-2.0F * y * y)) * lightOf(streak.radiance);
+        const Float4 middle = float4(std::exp(-2.0F * y * y)) * lightOf(streak.radiance);
         // e^(−2x²) by its ratio from pixel to pixel, which itself has a constant ratio.
         const float step = pixel / streak.width;
         const float x = (rightOf(run.first) - streak.at.right) / streak.width;
@@ -426,7 +426,7 @@ struct DefaultBackground::Content {
         const float turn = std::exp(-4.0F * step * step);
         Float4* const at = row.touch(run);
         for (int k = run.first; k < run.last; ++k) {
-            at[k] += float4(share) * light;
+            at[k] += float4(share) * middle;
             share *= ratio;
             ratio *= turn;
         }
@@ -440,13 +440,13 @@ struct DefaultBackground::Content {
             return;
         }
         const Run run = within(disc.at.right, disc.radius * std::sqrt(kReach * kReach - y * y));
-        const Float4 light = lightOf(disc.radiance);
+        const Float4 full = lightOf(disc.radiance);
         Float4* const at = row.touch(run);
         for (int k = run.first; k < run.last; ++k) {
             const float x = (rightOf(k) - disc.at.right) / disc.radius;
             const float far2 = x * x + y * y;
             // Discs of a lens are a little brighter at the rim.
-            at[k] += float4((1.0F - smoothstep(0.88F, kReach, std::sqrt(far2))) * (0.8F + 0.35F * far2)) * light;
+            at[k] += float4((1.0F - smoothstep(0.88F, kReach, std::sqrt(far2))) * (0.8F + 0.35F * far2)) * full;
         }
     }
 

@@ -83,11 +83,11 @@ struct ViewContext {
         float pixel = 0.0F;  ///< as ViewTile::pixel
 
         /// As Eye::place(); NaN beyond the frame.
-        Vec2f operator()(std::size_t pixel) const
+        Vec2f operator()(std::size_t index) const
         {
             constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-            const int x = left + static_cast<int>(pixel % kTile);
-            const int y = top + static_cast<int>(pixel / kTile);
+            const int x = left + static_cast<int>(index % kTile);
+            const int y = top + static_cast<int>(index / kTile);
             return x < eye.width() && y < eye.height() ? eye.place(x, y) : Vec2f{kNone, kNone};
         }
     };

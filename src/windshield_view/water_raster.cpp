@@ -203,13 +203,13 @@ void WaterRaster::draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) c
         }
         Samples* sum = sums.data() + static_cast<std::size_t>(j / across * columns + begin / across);
         int next = (begin / across + 1) * across;  // first place of the next pixel
-        body.sample({x0, step_x, y}, begin, end, [&](int i, float ahead, float left, float up, float thickness) {
+        body.sample({x0, step_x, y}, begin, end, [&](int i, float ahead, float aside, float up, float thickness) {
             for (; next <= i; next += across) {
                 ++sum;
             }
             ++sum->count;
             sum->ahead += ahead;
-            sum->left += left;
+            sum->left += aside;
             sum->up += up;
             sum->thickness += thickness;
         });
