@@ -5,13 +5,10 @@
 #include <cstdint>
 #include <numbers>
 
+#include "unit_vector.h"
+
 namespace droplet {
 namespace {
-
-Vec3 unit(Vec3 v)
-{
-    return (1.0 / length(v)) * v;
-}
 
 Vec3 at(const BodyGrid& grid, std::size_t ring, std::size_t column)
 {

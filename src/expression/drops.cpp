@@ -17,6 +17,7 @@
 
 #include "other_liquid.h"
 #include "surface_kernel.h"
+#include "unit_vector.h"
 
 namespace droplet {
 namespace {
@@ -44,6 +45,9 @@ constexpr double kClearance = 1.25;
 
 /// Distance of the places at which a tail is tested for that, in spacings.
 constexpr double kSample = 0.2;
+
+/// Direction where there is none.
+constexpr Vec2 kRight{1.0, 0.0};
 
 /// Points at equal distances along a polyline.
 std::vector<Vec2> resampled(const std::vector<Vec2>& way, double size)
@@ -78,12 +82,6 @@ double waterOf(double air)
     return 1.0 - smoothRamp(air, 0.0, kEraserFade);
 }
 
-Vec2 unit(Vec2 a)
-{
-    const double size = length(a);
-    return size > 0.0 ? (1.0 / size) * a : Vec2{1.0, 0.0};
-}
-
 /// Way of a droplet's centroid in the ellipse's space, latest first, as far back as all its particles have been in
 /// flight.
 std::vector<Vec2> wayOf(const DropMembers& members, const DropEllipse& ellipse, const ExpressionState& state,
@@ -108,7 +106,7 @@ std::vector<Vec2> wayOf(const DropMembers& members, const DropEllipse& ellipse, 
             const double last_age = frame.time - state.past[k - 1].time;
             place = way.back() + ((flight - last_age) / (age - last_age)) * (place - way.back());
         }
-        if (way.size() >= 2 && dot(unit(way[1] - way[0]), unit(place - way.back())) < kBend) {
+        if (way.size() >= 2 && dot(unit(way[1] - way[0], kRight), unit(place - way.back(), kRight)) < kBend) {
             break;
         }
         way.push_back(place);
@@ -195,7 +193,7 @@ Teardrop teardropOf(double radius, double length, double slope)
 
 std::vector<Vec2> Drop::outline(double spacing) const
 {
-    const Vec2 ahead = spine.size() > 1 ? unit(spine[0] - spine[1]) : Vec2{1.0, 0.0};
+    const Vec2 ahead = spine.size() > 1 ? unit(spine[0] - spine[1], kRight) : kRight;
     const bool is_disc = !(shape.length > shape.head) || spine.size() < 2;
     const double step = shape.length / static_cast<double>(kPoints - 1);
     // Directions at the points of the spine; between them they turn evenly.
@@ -203,7 +201,7 @@ std::vector<Vec2> Drop::outline(double spacing) const
     for (std::size_t k = 0; k < spine.size(); ++k) {
         const Vec2 before = spine[k == 0 ? 0 : k - 1];
         const Vec2 after = spine[std::min(k + 1, spine.size() - 1)];
-        forward.push_back(unit(before - after));
+        forward.push_back(unit(before - after, kRight));
     }
     const auto place = [&](double along, double side) {
         Vec2 middle = -along * ahead;
@@ -213,7 +211,7 @@ std::vector<Vec2> Drop::outline(double spacing) const
             const auto k = std::min(static_cast<std::size_t>(at), kPoints - 2);
             const double part = at - static_cast<double>(k);
             middle = spine[k] + part * (spine[k + 1] - spine[k]);
-            direction = unit(forward[k] + part * (forward[k + 1] - forward[k]));
+            direction = unit(forward[k] + part * (forward[k + 1] - forward[k]), kRight);
         }
         return middle + side * Vec2{-direction.y, direction.x};
     };

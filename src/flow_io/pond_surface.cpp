@@ -19,6 +19,7 @@
 
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
+#include "unit_vector.h"
 
 namespace droplet {
 namespace {
@@ -398,12 +399,6 @@ Level levelOver(const Base& base, const std::vector<Edge>& open, const Pond& pon
     }
     level.triangles = mesh.triangles;
     return level;
-}
-
-Vec3 unit(Vec3 v, Vec3 otherwise)
-{
-    const double size = length(v);
-    return size > 0.0 ? (1.0 / size) * v : otherwise;
 }
 
 /// Means of the normals of the triangles around vertices, by area.

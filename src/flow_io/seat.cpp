@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "droplet/units.h"
+#include "unit_vector.h"
 
 namespace droplet {
 namespace {
@@ -359,12 +360,6 @@ std::vector<Vec3> facing(std::span<const Vec3> vertices, std::span<const Triangl
         }
     }
     return sums;
-}
-
-Vec3 unit(Vec3 v)
-{
-    const double size = length(v);
-    return size > 0.0 ? (1.0 / size) * v : v;
 }
 
 /// What a rim encloses.

@@ -12,6 +12,7 @@
 #include "droplet/flow/flow_terrain.h"
 #include "flow/following.h"
 #include "flow_io/trail_section.h"
+#include "unit_vector.h"
 
 namespace droplet {
 namespace {
@@ -33,12 +34,6 @@ constexpr std::array<double, 5> kAcross{1.0, 0.55, 0.0, -0.55, -1.0};
 constexpr double kSides = 0.1;
 /// Stations of a round end: distance from the end over the half width.
 constexpr std::array<double, 4> kRoundEnd{0.0, 0.13, 0.5, 1.0};
-
-Vec3 unit(Vec3 v)
-{
-    const double size = length(v);
-    return size > 0.0 ? (1.0 / size) * v : v;
-}
 
 /// Cross-section of a ribbon.
 struct Station {

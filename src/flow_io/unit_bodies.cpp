@@ -10,6 +10,7 @@
 
 #include "axes.h"
 #include "flow_io/seat.h"
+#include "unit_vector.h"
 
 namespace droplet {
 namespace {
@@ -68,13 +69,6 @@ double farthestOnRim(const std::vector<Vec3>& vertices, std::size_t rim, Vec2 di
     return best;
 }
 
-/// A seated base may have triangles without area.
-Vec3 unit(Vec3 v)
-{
-    const double size = length(v);
-    return size > 0.0 ? (1.0 / size) * v : Vec3{0.0, 0.0, -1.0};
-}
-
 /// Sets the normals to the mean of those of the triangles around each vertex.
 void setNormals(DropletMesh& mesh)
 {
@@ -86,7 +80,7 @@ void setNormals(DropletMesh& mesh)
         }
     }
     for (Vec3& normal : mesh.normals) {
-        normal = unit(normal);
+        normal = unit(normal, {0.0, 0.0, -1.0});  // a seated base may have triangles without area
     }
 }
 

@@ -17,6 +17,7 @@
 #include "flow_io/object_faces.h"
 #include "flow_io/wet_spots.h"
 #include "require.h"
+#include "unit_vector.h"
 
 namespace droplet {
 namespace {
@@ -25,12 +26,6 @@ constexpr int kGutter = 4;        // [px]
 constexpr double kOnEdge = 1e-9;  // of a triangle's height
 constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
 constexpr std::int64_t kMaxRepeats = 64;  // of the texture across a triangle
-
-Vec3 unit(Vec3 v)
-{
-    const double size = length(v);
-    return size > 0.0 ? (1.0 / size) * v : v;
-}
 
 /// A triangle in the texture; corners in pixels.
 struct TexelTriangle {

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <span>
 
+#include "unit_vector.h"
+
 namespace droplet {
 namespace {
 
@@ -23,12 +25,7 @@ constexpr double kStep = 4.0;
 
 /// Newton steps for the points' parameters.
 constexpr int kRounds = 4;
-
-Vec2 unit(Vec2 a)
-{
-    const double size = length(a);
-    return size > 0.0 ? (1.0 / size) * a : Vec2{1.0, 0.0};
-}
+constexpr Vec2 kRight{1.0, 0.0};  // direction where there is none
 
 using Curve = std::array<Vec2, 4>;
 
@@ -163,7 +160,7 @@ public:
             return;
         }
         const std::size_t k = worst.index;
-        const Vec2 along = unit(points[k + 1] - points[k - 1]);
+        const Vec2 along = unit(points[k + 1] - points[k - 1], kRight);
         fit(points.first(k + 1), leaving, -1.0 * along);
         fit(points.subspan(k), along, arriving);
     }
@@ -310,9 +307,9 @@ BezierPath fitBezier(const std::vector<Vec2>& polyline, double tolerance)
             const Vec2 next = point(joint.index + 1);
             const Vec2 previous = point(joint.index + count - 1);
             if (joint.is_corner) {
-                return unit(is_leaving ? next - here : previous - here);
+                return unit(is_leaving ? next - here : previous - here, kRight);
             }
-            const Vec2 along = unit(next - previous);
+            const Vec2 along = unit(next - previous, kRight);
             return is_leaving ? along : -1.0 * along;
         };
         fitter.fit(piece, tangent(begin, true), tangent(end, false));

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "liquid2d/cell_grid.h"
+#include "unit_vector.h"
 
 namespace droplet {
 namespace {
@@ -38,12 +39,6 @@ constexpr double kMore = 0.005;
 
 /// Places on a curve, at least.
 constexpr int kLeastPlaces = 4;
-
-Vec2 unit(Vec2 a)
-{
-    const double size = length(a);
-    return size > 0.0 ? (1.0 / size) * a : Vec2{};
-}
 
 struct Cubic {
     Vec2 a, b, c, d;
