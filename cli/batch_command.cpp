@@ -247,6 +247,9 @@ int runBatch(int argc, const char* const* argv)
         if (const auto material = materialFile(item.output, shared.format)) {
             item.others.push_back(*material);
         }
+        for (std::string& level : levelPaths(item.output, shared.format, shared.settings.levels.size())) {
+            item.others.push_back(std::move(level));
+        }
         ShapeOptions job = shared;
         job.input = item.input;
         job.output = item.output;

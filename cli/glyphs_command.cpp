@@ -335,6 +335,9 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
         if (const auto material = materialFile(item.output, options.shape.format)) {
             item.others.push_back(*material);
         }
+        for (std::string& level : levelPaths(item.output, options.shape.format, options.shape.settings.levels.size())) {
+            item.others.push_back(std::move(level));
+        }
         item.open = [&, request, output = item.output, others = item.others] {
             BatchWork work;
             work.fingerprint = fingerprintOf({settings, std::to_string(request.glyph)});

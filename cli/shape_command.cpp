@@ -25,6 +25,7 @@
 #include "droplet/io/gltf.h"
 #include "droplet/surface/onto.h"
 #include "droplet/surface/plate.h"
+#include "droplet/surface/simplify.h"
 #include "droplet/units.h"
 #include "droplet_report.h"
 #include "file_droplets.h"
@@ -149,6 +150,31 @@ PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings
     return subject;
 }
 
+/// Makes the levels of detail but the first, and reports them.
+std::vector<droplet::Surface> makeLevels(const droplet::Surface& whole, const ShapeOptions& options,
+                                         droplet::Report& report)
+{
+    constexpr double kFew = 1.1;
+    const std::vector<std::size_t>& wanted = options.settings.levels;
+    const std::vector<std::string> paths = levelPaths(options.output, options.format, wanted.size());
+    std::vector<droplet::Surface> levels;
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        auto [level, error] = droplet::simplify(whole, wanted[k]);
+        const std::size_t triangles = level.triangles.size();
+        if (static_cast<double>(triangles) > kFew * static_cast<double>(wanted[k])) {
+            report.warnings.push_back(
+                fmt::format("level {} has {} triangles, not {}: fewer would close holes or join "
+                            "what is apart",
+                            k + 1, triangles, wanted[k]));
+        }
+        const droplet::OutputReport made = describeOutput(level, options.output, options.format);
+        report.output.levels.push_back(
+            {k < paths.size() ? std::optional(paths[k]) : std::nullopt, triangles, made.vertices, error});
+        levels.push_back(std::move(level));
+    }
+    return levels;
+}
+
 /// Writes the surface and, if given, the mask, the datafile for Surface Evolver, the page, the pictures and the report.
 void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, StageClock& clock,
           droplet::Report& report)
@@ -162,9 +188,9 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
     if (options.settings.sink > 0.0 && !options.settings.onto) {
         sunk = lowered(droplet.surface, options.settings.sink);
     }
-    std::vector<OutputFile> files = surfaceFiles(extras.on_plate ? *extras.on_plate
-                                                 : sunk          ? *sunk
-                                                                 : droplet.surface,
+    const droplet::Surface& written = extras.on_plate ? *extras.on_plate : sunk ? *sunk : droplet.surface;
+    const std::vector<droplet::Surface> levels = makeLevels(written, options, report);
+    std::vector<OutputFile> files = surfaceFiles(written,
                                                  {options.output,
                                                   options.format,
                                                   {.material = options.settings.material,
@@ -173,7 +199,8 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
                                                    .nodes = options.settings.nodes,
                                                    .droplets = extras.droplets,
                                                    .texture = extras.texture,
-                                                   .compression = options.compression}},
+                                                   .compression = options.compression,
+                                                   .levels = levels}},
                                                  report.output.bytes);
     if (extras.mask) {
         files.push_back(*extras.mask);
@@ -487,6 +514,9 @@ RunFiles filesOf(const ShapeOptions& options, const std::string& input_name)
     files.reads("--environment", environmentPicture(options));
     files.writes("OUTPUT", options.output);
     files.writes("OUTPUT's material", materialFile(options.output, options.format));
+    for (const std::string& path : levelPaths(options.output, options.format, options.settings.levels.size())) {
+        files.writes("OUTPUT's level", path);
+    }
     files.writes("--json", options.json);
     files.writes("--mask-out", options.footprint.mask_out);
     files.writes("--export-evolver", options.evolver);

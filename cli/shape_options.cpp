@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shape_options.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <utility>
 
 #include "common_options.h"
@@ -93,10 +95,38 @@ void requireFiles(const ShapeOptions& options)
     clash("--preview", options.preview ? options.preview->path : "");
 }
 
+bool inGltf(droplet::Format format)
+{
+    return format == droplet::Format::Glb || format == droplet::Format::Gltf;
+}
+
 /// Whether an output is glTF; the page contains one.
 bool inGltf(const ShapeOptions& options)
 {
-    return options.html || options.format == droplet::Format::Glb || options.format == droplet::Format::Gltf;
+    return options.html || inGltf(options.format);
+}
+
+/// Reads --lod.
+void readLevels(const CommandLine& line, ShapeOptions& options)
+{
+    const auto given = line.value("--lod");
+    if (!given) {
+        return;
+    }
+    constexpr std::size_t kMaxLevels = 8;
+    std::vector<std::size_t> levels;
+    for (const Given& part : partsOf(*given)) {
+        levels.push_back(count(part, {1, kMaxTriangles, "100M, such as 5000, 5k or 1M"}));
+    }
+    const bool descends = std::adjacent_find(levels.begin(), levels.end(), std::less_equal<>()) == levels.end();
+    if (levels.size() < 2 || levels.size() > kMaxLevels || !descends) {
+        refuse(*given, "2 to 8 numbers of triangles, each smaller than the one before, such as 40k,10k,2k");
+    }
+    if (isStream(options.output) && !inGltf(options.format)) {
+        refuse("--lod and OUTPUT - exclude each other: only glb and gltf hold all levels in one file");
+    }
+    options.settings.droplet.mesh.triangles = levels.front();
+    options.settings.levels.assign(levels.begin() + 1, levels.end());
 }
 
 /// Reads --fill-range. A slider needs a file format that can hold it.
@@ -187,6 +217,12 @@ void declareDroplets(CommandLine& line, ShapeOptions& options)
             line.exclude({"--base", other});
         }
     }
+    line.add("Surface", "--lod", "N,N,...",
+             "Levels of detail: --triangles of the first, and the largest number of triangles of every other one, such "
+             "as 40k,10k,2k. In glTF by MSFT_lod, otherwise in files of their own: logo-lod1.obj");
+    for (const char* other : {"--triangles", "--edge", "--quads"}) {
+        line.exclude({"--lod", other});
+    }
     declareCompression(line, "Surface");
 }
 
@@ -246,6 +282,7 @@ void readDroplets(const CommandLine& line, ShapeOptions& options, const std::str
     if (options.settings.base && options.settings.nodes == droplet::Nodes::Each) {
         refuse("--base and --nodes each exclude each other: the plate makes all droplets one");
     }
+    readLevels(line, options);
     readFillRange(line, options);
     options.compression = readCompression(line, options.format);
 }

@@ -22,6 +22,23 @@ std::optional<std::string> materialFile(const std::string& path, droplet::Format
     return file.string();
 }
 
+std::string levelPath(const std::string& path, std::size_t number)
+{
+    std::filesystem::path file(path);
+    const std::string extension = file.extension().string();
+    file.replace_extension();
+    return file.string() + "-lod" + std::to_string(number) + extension;
+}
+
+std::vector<std::string> levelPaths(const std::string& path, droplet::Format format, std::size_t count)
+{
+    std::vector<std::string> paths;
+    for (std::size_t k = 1; format != droplet::Format::Glb && format != droplet::Format::Gltf && k <= count; ++k) {
+        paths.push_back(levelPath(path, k));
+    }
+    return paths;
+}
+
 droplet::Surface lowered(droplet::Surface surface, double depth)
 {
     for (droplet::Vec3& position : surface.vertices) {
@@ -40,6 +57,12 @@ std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTar
     files.push_back({target.path, [&surface, &bytes, target](std::ostream& out) {
                          bytes = droplet::writeSurface(surface, out, target.format, target.options);
                      }});
+    const std::vector<std::string> paths = levelPaths(target.path, target.format, target.options.levels.size());
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+        files.push_back({paths[k], [k, target](std::ostream& out) {
+                             droplet::writeSurface(target.options.levels[k], out, target.format, target.options);
+                         }});
+    }
     if (material_file) {
         std::vector<droplet::Look> looks = droplet::looksOf(target.options.droplets);
         if (looks.empty()) {

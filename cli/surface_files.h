@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,6 +17,13 @@ namespace cli {
 /// @throws droplet::Error InvalidArgument: the .obj cannot hold its name
 std::optional<std::string> materialFile(const std::string& path, droplet::Format format);
 
+/// Path of a surface with fewer triangles beside the whole one: `logo-lod1.obj`.
+/// @param number  from 1
+std::string levelPath(const std::string& path, std::size_t number);
+
+/// Paths of the surfaces with fewer triangles; none in glTF, whose file holds them.
+std::vector<std::string> levelPaths(const std::string& path, droplet::Format format, std::size_t count);
+
 /// Surface that lies deeper in the ground.
 /// @param depth  [m]
 droplet::Surface lowered(droplet::Surface surface, double depth);
@@ -27,7 +35,8 @@ struct SurfaceTarget {
     droplet::WriteOptions options;
 };
 
-/// Files of a surface and, in OBJ, its material. `surface` and `bytes` must live until they are written.
+/// Files of a surface and, in OBJ, its material; and of its levels. `surface`, levels and `bytes` must live until they
+/// are written.
 /// @param bytes  receives the size of the surface's file
 std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTarget target, std::uint64_t& bytes);
 

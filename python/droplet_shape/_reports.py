@@ -94,6 +94,16 @@ class ReportInput(_Report):
 
 
 @dataclass(frozen=True)
+class ReportLevels(_Report):
+    """ReportLevels of a report."""
+
+    path: str | None  # File; null if it is in that of the first level
+    triangles: int  # Number of triangles
+    vertices: int  # Number of vertices
+    error_rms_m: float
+
+
+@dataclass(frozen=True)
 class ReportOutput(_Report):
     """The file that was written."""
 
@@ -104,6 +114,7 @@ class ReportOutput(_Report):
     triangles: int  # Number of triangles
     quads: int  # Number of quadrilaterals in the file, each of two of these triangles
     base_m: float | None  # Thickness of the plate below all droplets, which makes one solid of them; null without one
+    levels: tuple[ReportLevels, ...]  # Levels of detail but the first
     closed: bool  # Whether the surface is closed
     manifold: bool  # Whether the surface is a manifold
     euler: int  # Euler number V - E + F

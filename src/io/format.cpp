@@ -17,9 +17,10 @@ std::uint64_t writeSurface(const Surface& surface, std::ostream& out, Format for
         case Format::Glb:
         case Format::Gltf: {
             const bool closed = options.closed ? *options.closed : isDry(surface) || isClosed(surface);
-            return writeGltf(surface, out,
-                             {format == Format::Glb, options.material, closed, options.nodes, options.droplets,
-                              options.texture, format == Format::Glb ? options.compression : Compression::None});
+            return writeGltf(
+                surface, out,
+                {format == Format::Glb, options.material, closed, options.nodes, options.droplets, options.texture,
+                 format == Format::Glb ? options.compression : Compression::None, options.levels});
         }
         case Format::Obj:
             return writeObj(surface, out,

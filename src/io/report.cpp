@@ -200,6 +200,18 @@ Json inputSection(const InputReport& input)
             {"type", nullptr}};
 }
 
+Json levelsSection(const std::vector<LevelReport>& levels)
+{
+    Json section = Json::array();
+    for (const LevelReport& level : levels) {
+        section.push_back({{"path", orNull(level.path)},
+                           {"triangles", level.triangles},
+                           {"vertices", level.vertices},
+                           {"error_rms_m", level.error}});
+    }
+    return section;
+}
+
 Json outputSection(const OutputReport& output)
 {
     return {{"path", output.path},
@@ -209,6 +221,7 @@ Json outputSection(const OutputReport& output)
             {"triangles", output.triangles},
             {"quads", output.quads},
             {"base_m", orNull(output.base)},
+            {"levels", levelsSection(output.levels)},
             {"closed", output.topology.closed},
             {"manifold", output.topology.manifold},
             {"euler", output.topology.euler},

@@ -91,6 +91,7 @@ struct SceneNode {
     std::array<double, 4> rotation = {0.0, 0.0, 0.0, 1.0};  ///< quaternion, x first, w last
     std::array<double, 3> scale = {1.0, 1.0, 1.0};
     std::vector<SceneProperty> properties = {};
+    std::vector<std::size_t> levels = {};  ///< nodes that take its place from afar, the nearest first; no roots
 };
 
 /// Vertices in place of a mesh's own.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Khronos Group, "glTF 2.0 Specification" (2021), and its extensions KHR_materials_transmission, KHR_materials_ior,
-// KHR_materials_volume, KHR_materials_emissive_strength, KHR_mesh_quantization and EXT_meshopt_compression.
+// KHR_materials_volume, KHR_materials_emissive_strength, KHR_mesh_quantization, EXT_meshopt_compression and MSFT_lod.
 #include "scene/write_gltf.h"
 
 #include <meshoptimizer.h>
@@ -291,6 +291,14 @@ private:
         model_.extensionsRequired.emplace_back(extension);
     }
 
+    void use(const std::string& extension)
+    {
+        std::vector<std::string>& used = model_.extensionsUsed;
+        if (std::find(used.begin(), used.end(), extension) == used.end()) {
+            used.push_back(extension);
+        }
+    }
+
     void findCrowds()
     {
         crowd_of_.assign(scene_.meshes.size(), nullptr);
@@ -343,10 +351,7 @@ private:
         for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
             model_.materials.push_back(materialOf(scene_.materials[i], is_small[i] ? cube_->side : 1.0));
             for (const auto& [extension, value] : model_.materials.back().extensions) {
-                std::vector<std::string>& used = model_.extensionsUsed;
-                if (std::find(used.begin(), used.end(), extension) == used.end()) {
-                    used.push_back(extension);
-                }
+                use(extension);
             }
         }
     }
@@ -572,6 +577,14 @@ private:
                 node.scale.assign(from.scale.begin(), from.scale.end());
             }
             setExtras(node.extras, objectOf(from.properties));
+            if (!from.levels.empty()) {
+                Value::Array levels;
+                for (const std::size_t level : from.levels) {
+                    levels.emplace_back(static_cast<int>(level));
+                }
+                node.extensions["MSFT_lod"] = Value(Value::Object{{"ids", Value(std::move(levels))}});
+                use("MSFT_lod");
+            }
             model_.nodes.push_back(std::move(node));
         }
         mesh_nodes_.resize(scene_.nodes.size());

@@ -29,6 +29,7 @@ using testing::CommandOptions;
 using testing::CommandResult;
 using testing::discPicture;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using testing::greymap;
 using ::testing::Gt;
 using ::testing::HasSubstr;
@@ -708,6 +709,67 @@ TEST_F(ShapeCommandTest, BaseMakesOneSolidOfAllDroplets)
         EXPECT_EQ(refused.exit_code, 2) << other.front();
         EXPECT_THAT(refused.error, HasSubstr("--base"));
     }
+}
+
+TEST_F(ShapeCommandTest, LevelsOfDetailAreInTheGlbOrBesideTheFile)
+{
+    const auto done = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), "two.pgm");
+        const auto result = run(options);
+        return result.exit_code == 0 ? "" : result.error;
+    };
+    ASSERT_EQ(done({"lod.gltf", "--lod", "8k,2k,500", "--nodes", "each", "--json", "lod.json"}), "");
+    const json file = json::parse(bytesOf("lod.gltf"));
+    EXPECT_THAT(file["extensionsUsed"].dump(), HasSubstr("MSFT_lod"));
+    EXPECT_EQ(file["scenes"][0]["nodes"], json::array({0, 1}));
+    EXPECT_EQ(file["materials"].size(), 2U);
+    const auto triangles_of = [&](const json& node) {
+        const json& mesh = file["meshes"][node["mesh"].get<std::size_t>()];
+        const auto indices = mesh["primitives"][0]["indices"].get<std::size_t>();
+        return file["accessors"][indices]["count"].get<std::size_t>() / 3;
+    };
+    std::vector<std::size_t> counts(3);
+    for (const json& root : file["scenes"][0]["nodes"]) {
+        const json& node = file["nodes"][root.get<std::size_t>()];
+        const json& levels = node["extensions"]["MSFT_lod"]["ids"];
+        ASSERT_EQ(levels.size(), 2U);
+        EXPECT_EQ(node["extras"]["MSFT_screencoverage"].size(), 3U);
+        counts[0] += triangles_of(node);
+        for (std::size_t k = 0; k < 2; ++k) {
+            const json& level = file["nodes"][levels[k].get<std::size_t>()];
+            counts[k + 1] += triangles_of(level);
+            EXPECT_EQ(level["name"], node["name"].get<std::string>() + "_lod" + std::to_string(k + 1));
+        }
+    }
+    const json output = json::parse(bytesOf("lod.json"))["output"];
+    EXPECT_EQ(output["triangles"], counts[0]);
+    ASSERT_EQ(output["levels"].size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const json& level = output["levels"][k];
+        EXPECT_EQ(level["triangles"], counts[k + 1]);
+        EXPECT_LE(counts[k + 1], k == 0 ? 2000U : 500U);
+        EXPECT_TRUE(level["path"].is_null());
+        EXPECT_GT(level["error_rms_m"], 0.0);
+        EXPECT_LT(level["error_rms_m"], 1e-3);
+    }
+    for (const std::string compression : {"quantize", "meshopt"}) {
+        ASSERT_EQ(done({"small.glb", "--lod", "8k,2k", "--compress", compression}), "");
+        EXPECT_THAT(bytesOf("small.glb"), HasSubstr("MSFT_lod"));
+    }
+    ASSERT_EQ(done({"lod.obj", "--lod", "8k,2k,500", "--base", "1mm", "--json", "obj.json"}), "");
+    const json obj = json::parse(bytesOf("obj.json"))["output"];
+    EXPECT_THAT(obj["levels"][1]["path"].get<std::string>(), EndsWith("lod-lod2.obj"));
+    for (const std::string name : {"lod-lod1.obj", "lod-lod2.obj"}) {
+        EXPECT_THAT(bytesOf(name), HasSubstr("mtllib lod.mtl"));
+    }
+    EXPECT_LT(bytesOf("lod-lod2.obj").size(), bytesOf("lod-lod1.obj").size());
+    EXPECT_TRUE(report({"two.pgm", "plain.obj"})["output"]["levels"].empty());
+    for (const char* list : {"8k", "2k,8k", "8k,8k", "8k,0", "8k,x"}) {
+        EXPECT_EQ(run({"two.pgm", "a.glb", "--lod", list}).exit_code, 2) << list;
+    }
+    EXPECT_EQ(run({"two.pgm", "-", "--format", "stl", "--lod", "8k,2k"}).exit_code, 2);
+    EXPECT_EQ(run({"two.pgm", "a.glb", "--lod", "8k,2k", "--triangles", "8k"}).exit_code, 2);
+    EXPECT_EQ(run({"two.pgm", "a.obj", "--lod", "8k,2k", "--json", "a-lod1.obj"}).exit_code, 2);
 }
 
 TEST_F(ShapeCommandTest, ReportedVerticesAreThoseOfTheFile)

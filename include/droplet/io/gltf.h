@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct GltfOptions {
     std::vector<FileDroplet> droplets = {};  ///< by SurfacePart::droplet; empty: all are alike, of `material`
     std::string texture = {};  ///< bytes of a PNG over the surface's uv, which tints the liquid; empty: none
     Compression compression = Compression::None;  ///< of a GLB
+    std::span<const Surface> levels = {};  ///< the surface with ever fewer triangles, as of simplify(), for MSFT_lod
 };
 
 /// Writes a surface as glTF 2.0: metres, +Y up, the image's lower edge toward +Z, float attributes POSITION, NORMAL
@@ -41,6 +43,9 @@ struct GltfOptions {
 /// With `texture`, the PNG is embedded as the base colour of every material. Liquid multiplies the light that passes by
 /// it, as KHR_materials_transmission says.
 ///
+/// With `levels`, every node names those that take its place where it is smaller (MSFT_lod). They are in no scene.
+/// Their shares of the picture are those of their triangles, so that triangles are as large on the screen.
+///
 /// A compressed file requires the extensions of its Compression, and its nodes have one scale and one translation, so
 /// that vertices that droplets share stay together. Changes by a refill are compressed, too. Meshopt gives vertices and
 /// triangles another order.
@@ -48,7 +53,8 @@ struct GltfOptions {
 /// Guarantees: the same surface gives the same bytes; the stream is left failed if it did not take everything.
 /// @return       bytes handed to the stream
 /// @throws Error InvalidArgument if the surface is invalid, beyond float's range, or has parts that `droplets` lacks;
-///               if Nodes::Each has no `droplets`; if text would be compressed; or if the file would reach 2 GiB
+///               if Nodes::Each has no `droplets`; if levels have other parts; if text would be compressed; or if the
+///               file would reach 2 GiB
 std::uint64_t writeGltf(const Surface& surface, std::ostream& out, const GltfOptions& options = {});
 
 }  // namespace droplet

@@ -6,6 +6,7 @@
 #include <functional>
 #include <iosfwd>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,7 @@ struct WriteOptions {
     std::vector<FileDroplet> droplets = {};         ///< glTF, USD and 3MF as in their options; OBJ takes their looks
     std::string texture = {};                       ///< glTF and USDZ
     Compression compression = Compression::None;    ///< GLB
+    std::span<const Surface> levels = {};           ///< glTF
 };
 
 /// Writes a surface to a stream in the given format. A surface without vertices (a frame without liquid) gives a file

@@ -62,6 +62,14 @@ struct InputReport {
     std::optional<CssColour> background = {};        ///< as in ColourRegions
 };
 
+/// Level of detail beside the whole surface.
+struct LevelReport {
+    std::optional<std::string> path = {};  ///< of its file; empty if it is in that of the surface
+    std::size_t triangles = 0;             ///< of the surface
+    std::size_t vertices = 0;              ///< as the format counts them
+    double error = 0.0;                    ///< as in SimplifiedSurface [m]
+};
+
 /// Output file.
 struct OutputReport {
     std::string path;             ///< as given
@@ -74,6 +82,7 @@ struct OutputReport {
     TextureMap texture_map = TextureMap::Projection;         ///< of the surface
     Compression compression = Compression::None;             ///< of the file
     std::optional<CompressionError> compression_error = {};  ///< empty without compression
+    std::vector<LevelReport> levels = {};                    ///< but the first, which is the surface
     std::optional<double> base = {};                         ///< thickness of the plate below all droplets [m]
 };
 
