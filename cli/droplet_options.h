@@ -56,6 +56,7 @@ struct DropletSettings {
     double sink = 0.0;                                           ///< of the droplet in its file, below the ground [m]
     std::optional<double> base;                                  ///< thickness of the plate below all droplets [m]
     std::vector<std::size_t> levels;                             ///< triangles of the levels of detail but the first
+    bool weld = false;                                           ///< one vertex for each place, in glTF
     bool colour_map = false;                                     ///< the picture tints the liquid
     droplet::LengthUnit unit = droplet::LengthUnit::Millimetre;  ///< unit in OBJ and STL
     std::vector<std::string> warnings;                           ///< options without effect

@@ -111,8 +111,8 @@ struct Extras {
     std::vector<droplet::FileDroplet> droplets;
     std::optional<PreviewSubject> subject;
     std::optional<OutputFile> mask;
-    std::string texture;                       ///< bytes of a PNG, or empty
-    std::optional<droplet::Surface> on_plate;  ///< what OUTPUT holds, if it is not the droplets alone
+    std::string texture;                      ///< bytes of a PNG, or empty
+    std::optional<droplet::Surface> in_file;  ///< what OUTPUT holds, if it is not the droplets alone
 };
 
 /// Writes the page with the droplet as a GLB.
@@ -186,9 +186,9 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
     // Previews and the page have a ground of their own; an object's droplets were lowered before they were laid on it.
     std::optional<droplet::Surface> sunk;
     if (options.settings.sink > 0.0 && !options.settings.onto) {
-        sunk = lowered(droplet.surface, options.settings.sink);
+        sunk = lowered(extras.in_file ? *extras.in_file : droplet.surface, options.settings.sink);
     }
-    const droplet::Surface& written = extras.on_plate ? *extras.on_plate : sunk ? *sunk : droplet.surface;
+    const droplet::Surface& written = sunk ? *sunk : extras.in_file ? *extras.in_file : droplet.surface;
     const std::vector<droplet::Surface> levels = makeLevels(written, options, report);
     std::vector<OutputFile> files = surfaceFiles(written,
                                                  {options.output,
@@ -259,15 +259,21 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
     droplet::Report& report = described.report;
     Extras extras{std::move(described.droplets), {}, {}, textureOf(made), {}};
     if (const auto base = made.settings.base) {
-        extras.on_plate = droplet::onPlate(made.droplet.solution.droplets, {*base, made.droplet.domain.extent});
+        extras.in_file = droplet::onPlate(made.droplet.solution.droplets, {*base, made.droplet.domain.extent});
         if (made.settings.droplet.mesh.quads) {
-            droplet::joinTriangles(*extras.on_plate);
+            droplet::joinTriangles(*extras.in_file);
         }
         if (auto thin = droplet::thinWarning(made.droplet.figures, *base)) {
             report.warnings.push_back(*std::move(thin));
         }
     }
-    const droplet::Surface& written = extras.on_plate ? *extras.on_plate : made.droplet.surface;
+    if (made.settings.weld) {
+        extras.in_file = droplet::welded(extras.in_file ? *extras.in_file : made.droplet.surface);
+        if (hasSliderInPageOnly(options)) {
+            extras.in_file->refill.reset();
+        }
+    }
+    const droplet::Surface& written = extras.in_file ? *extras.in_file : made.droplet.surface;
     report.output = describeOutput(written, options.output, options.format);
     report.output.base = made.settings.base;
     report.output.compression = options.compression;

@@ -223,6 +223,11 @@ void declareDroplets(CommandLine& line, ShapeOptions& options)
     for (const char* other : {"--triangles", "--edge", "--quads"}) {
         line.exclude({"--lod", other});
     }
+    line.addFlag("Surface", "--weld",
+                 "One vertex for each place in glTF, for mesh tools: the rim has the liquid's normals, not two. Other "
+                 "formats are welded always",
+                 settings.weld);
+    line.exclude({"--weld", "--lod"});
     declareCompression(line, "Surface");
 }
 
@@ -283,6 +288,11 @@ void readDroplets(const CommandLine& line, ShapeOptions& options, const std::str
         refuse("--base and --nodes each exclude each other: the plate makes all droplets one");
     }
     readLevels(line, options);
+    if (options.settings.weld && !inGltf(options.format)) {
+        options.settings.warnings.push_back(std::string("--weld has no effect: ") + droplet::name(options.format) +
+                                            " files have one vertex for each place");
+        options.settings.weld = false;
+    }
     readFillRange(line, options);
     options.compression = readCompression(line, options.format);
 }

@@ -24,7 +24,7 @@ const withDegrees = (message) => message.replace(/'(-?[\d.e+-]+)rad' must be .*/
 const kNotHere = ['format', 'config', 'help', 'version', 'quiet', 'verbose', 'progress', 'threads', 'no-clobber'];
 /** Those of a droplet, and those of colours, which are not a mask's. */
 const kNotOfDroplets = new Set([...kNotHere, 'onto', 'surface-depth', 'by-colour', 'colours', 'gap', 'colour-map', 'nodes', 'materials',
-    'compress', 'sink', 'base', 'lod']);
+    'compress', 'sink', 'base', 'lod', 'weld']);
 const kNotOfDew = new Set([...kNotHere, 'droplets', 'json']);
 const kDewFormats = ['glb', 'gltf', 'usda', 'usdz', 'obj', 'ply', 'stl', 'csv'];
 /** Options of dew that change its files alone. */

@@ -440,6 +440,16 @@ SimplifiedSurface simplify(const Surface& surface, std::size_t triangles)
     return {reduced(surface, std::move(kept)), data.worst * side};
 }
 
+Surface welded(const Surface& surface)
+{
+    surface.validate();
+    std::vector<Triangle> triangles = surface.triangles;
+    for (Triangle& t : triangles) {
+        t = {surface.weld[t[0]], surface.weld[t[1]], surface.weld[t[2]]};
+    }
+    return reduced(surface, std::move(triangles));
+}
+
 }  // namespace droplet
 
 // NOLINTEND(cppcoreguidelines-slicing)

@@ -711,6 +711,24 @@ TEST_F(ShapeCommandTest, BaseMakesOneSolidOfAllDroplets)
     }
 }
 
+TEST_F(ShapeCommandTest, WeldMakesOneVertexOfEachPlace)
+{
+    const json ply = report({"two.pgm", "a.ply"})["output"];
+    const json split = report({"two.pgm", "split.gltf"})["output"];
+    const json one = report({"two.pgm", "one.gltf", "--weld", "--sink", "0.1mm", "--html", "page.html"})["output"];
+    EXPECT_GT(split["vertices"], ply["vertices"]);
+    EXPECT_EQ(one["vertices"], ply["vertices"]);
+    EXPECT_EQ(one["triangles"], split["triangles"]);
+    EXPECT_EQ(one["closed"], true);
+    const json file = json::parse(bytesOf("one.gltf"));
+    const auto position = file["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>();
+    EXPECT_EQ(file["accessors"][position]["count"], one["vertices"]);
+    EXPECT_FALSE(file["meshes"][0]["primitives"][0].contains("targets"));
+    EXPECT_NEAR(file["accessors"][position]["min"][1].get<double>(), -1e-4, 1e-9);
+    EXPECT_EQ(report({"two.pgm", "plate.glb", "--weld", "--base", "1mm"})["output"]["components"], 1);
+    EXPECT_THAT(report({"two.pgm", "b.ply", "--weld"})["warnings"].dump(), HasSubstr("--weld has no effect"));
+}
+
 TEST_F(ShapeCommandTest, LevelsOfDetailAreInTheGlbOrBesideTheFile)
 {
     const auto done = [&](std::vector<std::string> options) {

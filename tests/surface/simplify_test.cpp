@@ -95,6 +95,28 @@ TEST(Simplify, ChangesNothingThatIsSmallEnough)
     EXPECT_EQ(topology(open.surface).boundary_loops, 1U);
 }
 
+TEST(Welded, HasOneVertexForEachPlace)
+{
+    for (const auto& [name, domain] : testing::zoo()) {
+        SCOPED_TRACE(name);
+        const Surface whole = lofted(domain, 2000);
+        const Surface one = welded(whole);
+        ASSERT_NO_THROW(one.validate());
+        std::size_t places = 0;
+        for (std::uint32_t v = 0; v < whole.weld.size(); ++v) {
+            places += whole.weld[v] == v ? 1 : 0;
+        }
+        EXPECT_LT(places, whole.vertices.size());
+        EXPECT_EQ(one.vertices.size(), places);
+        EXPECT_EQ(one.triangles.size(), whole.triangles.size());
+        EXPECT_EQ(topology(one).euler, topology(whole).euler);
+        EXPECT_TRUE(topology(one).closed);
+        for (std::uint32_t v = 0; v < one.weld.size(); ++v) {
+            ASSERT_EQ(one.weld[v], v);
+        }
+    }
+}
+
 // Changes by a refill go with their vertices.
 TEST(Simplify, KeepsTheRefill)
 {

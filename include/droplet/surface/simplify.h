@@ -24,4 +24,10 @@ struct SimplifiedSurface {
 /// @throws Error     InvalidArgument
 SimplifiedSurface simplify(const Surface& surface, std::size_t triangles);
 
+/// Joins the copies of every vertex to the first, which is the liquid's: one vertex for each place, and smooth shading
+/// across the rim. Quadrilaterals become triangles.
+/// @param surface  valid
+/// @throws Error   InvalidArgument
+Surface welded(const Surface& surface);
+
 }  // namespace droplet
