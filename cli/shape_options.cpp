@@ -217,7 +217,7 @@ void declareDroplets(CommandLine& line, ShapeOptions& options)
             line.exclude({"--base", other});
         }
     }
-    line.add("Surface", "--lod", "N,N,...",
+    line.add("Surface", "--lod", "NUMBERS",
              "Levels of detail: --triangles of the first, and the largest number of triangles of every other one, such "
              "as 40k,10k,2k. In glTF by MSFT_lod, otherwise in files of their own: logo-lod1.obj");
     for (const char* other : {"--triangles", "--edge", "--quads"}) {
