@@ -265,7 +265,8 @@ double freeLength(const std::vector<Vec2>& way, double size, const DropEllipse& 
     for (std::size_t k = 0; k + 1 < way.size(); ++k) {
         const Vec2 side = way[k + 1] - way[k];
         const double side_length = length(side);
-        for (double at = 0.0; at < side_length; at += step) {
+        double at = 0.0;
+        while (at < side_length) {
             if (done + at >= size) {
                 return size;
             }
@@ -273,6 +274,7 @@ double freeLength(const std::vector<Vec2>& way, double size, const DropEllipse& 
             if (others.distance(place, [&](std::uint32_t group) { return group != own; }) < kClearance * spacing) {
                 return done + at;
             }
+            at += step;
         }
         done += side_length;
     }
