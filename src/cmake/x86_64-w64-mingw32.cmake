@@ -16,5 +16,7 @@ add_compile_definitions(_WIN32_WINNT=0x0A00 NTDDI_VERSION=0x0A000000 NOMINMAX WI
 # A program needs no libraries but those of the system.
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
 set(CMAKE_FIND_LIBRARY_SUFFIXES .a)
+# CMake's own list of suffixes replaces that one, and has .dll.a before .a.
+set(ZLIB_LIBRARY /usr/x86_64-w64-mingw32/lib/libz.a CACHE FILEPATH "")
 # Their headers ask.
 add_compile_definitions(CAIRO_WIN32_STATIC_BUILD EMBREE_STATIC_LIB FRIBIDI_LIB_STATIC LIBXML_STATIC)
