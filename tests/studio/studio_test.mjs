@@ -470,7 +470,7 @@ studio('the policy lets nothing else run', kDesktop, async (page) => {
     assert.deepEqual(rules['default-src'], ['\'none\'']);
     assert.equal(rules['script-src'].length, 2);
     assert.match(rules['script-src'].join(' '), /^'sha256-[^']+' 'wasm-unsafe-eval'$/);
-    assert.deepEqual(Object.keys(rules).sort(), ['base-uri', 'default-src', 'form-action', 'img-src', 'script-src', 'style-src', 'worker-src']);
+    assert.deepEqual(Object.keys(rules).sort(), ['base-uri', 'default-src', 'form-action', 'img-src', 'media-src', 'script-src', 'style-src', 'worker-src']);
 });
 
 studio('rain is shown over the drawing until Escape, and keys are its own', kDesktop, async (page) => {
