@@ -296,7 +296,7 @@ test('every format of dew is written, and others are refused', () => {
 test('errors of dew name what was given', () => {
     for (const [object, given, code, message] of [
         [plateFile, { coverage: 0.9 }, 'InvalidArgument', /^coverage: /],
-        [plateFile, { smallest: '2mm', largest: '1mm' }, 'InvalidArgument', /^largest must not be less than smallest/],
+        [plateFile, { smallest: '2mm', largest: '1mm' }, 'InvalidArgument', /^smallest: '2mm' must be at most largest, 1mm/],
         [plateFile, { droplets: 'a.csv' }, 'InvalidArgument', /^droplets: unknown option/],
         [plateFile, { from: [0, 1] }, 'InvalidArgument', /^from: .*three numbers/],
         [plateFile, { from: [0, -1, 0] }, 'InvalidInput', /^plate.obj: the object has no place/],
@@ -338,4 +338,11 @@ test('npm packs it, and installs the archive elsewhere', () => {
     writeFileSync(join(user, 'use.mjs'), `import { makeDroplet } from 'droplet-shape';
         process.stdout.write(makeDroplet({ width: 8, height: 8, data: new Uint8Array(64).fill(255, 18, 46) }, { triangles: 300 }).subarray(0, 4));`);
     assert.equal(execFileSync('node', ['use.mjs'], { cwd: user, encoding: 'utf8' }), 'glTF');
+    writeFileSync(join(user, 'pour.mjs'), `import { readFileSync } from 'node:fs';
+        import { loadLiquid2d } from 'droplet-shape/liquid2d';
+        const wasm = readFileSync(new URL(import.meta.resolve('droplet-shape/droplet_liquid.wasm')));
+        const liquid = (await loadLiquid2d(wasm)).make({ preset: 'dam', particles: 500 });
+        liquid.advance(0.05);
+        process.stdout.write(String(liquid.outlines().liquid.length > 0 && liquid.svg('flat', 100).startsWith('<svg')));`);
+    assert.equal(execFileSync('node', ['pour.mjs'], { cwd: user, encoding: 'utf8' }), 'true');
 });
