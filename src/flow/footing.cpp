@@ -13,6 +13,8 @@
 #include <cstdint>
 #include <numbers>
 
+#include "unit_vector.h"
+
 namespace droplet {
 namespace {
 
@@ -113,8 +115,7 @@ std::optional<Vec3> awayFromEdge(const FlowTerrain& terrain, const FlowTerrain::
     for (std::size_t k = 0; k < kAround; ++k) {
         area = area + cross(rim[k]->place - middle, rim[(k + 1) % kAround]->place - middle);
     }
-    const double size = length(area);
-    const Vec3 normal = size > 0.0 ? (1.0 / size) * area : face.normal;
+    const Vec3 normal = unit(area, face.normal);
     bool is_even = true;
     sum = {};
     count = 0.0;

@@ -25,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "box_corners.h"
 #include "byte_stream.h"
 #include "droplet/error.h"
 #include "droplet/flow_io/droplet_surfaces.h"

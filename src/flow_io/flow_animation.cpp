@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "axes.h"
+#include "box_corners.h"
 #include "byte_stream.h"
 #include "droplet/error.h"
 #include "droplet/flow_io/droplet_surfaces.h"

@@ -23,6 +23,7 @@
 #include "io/file_mesh.h"
 #include "number_text.h"
 #include "require.h"
+#include "unit_vector.h"
 
 namespace droplet {
 namespace {
@@ -515,8 +516,7 @@ FlowObject inShape(FlowObject object, const std::vector<Vec3>& vertices)
         }
     }
     for (std::size_t v = 0; v < normals.size(); ++v) {
-        const double size = length(normals[v]);
-        object.normals[v] = size > 0.0 ? (1.0 / size) * normals[v] : object.normals[v];
+        object.normals[v] = unit(normals[v], object.normals[v]);
     }
     object.vertices = vertices;
     return object;

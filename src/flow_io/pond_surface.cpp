@@ -19,12 +19,12 @@
 
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
+#include "surface/open_edges.h"
 #include "unit_vector.h"
 
 namespace droplet {
 namespace {
 
-using Edge = std::array<std::uint32_t, 2>;
 using Key = std::array<double, 6>;
 
 Key keyOf(Vec3 a, Vec3 b)
@@ -195,52 +195,6 @@ private:
     std::map<std::array<double, 3>, double> liquid_;  ///< heights, by place
 };
 
-/// Edges without a neighbour, in the direction of their triangles.
-std::vector<Edge> openEdges(const std::vector<Triangle>& triangles)
-{
-    std::map<Edge, int> sides;
-    for (const Triangle& t : triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            ++sides[{t[k], t[(k + 1) % 3]}];
-        }
-    }
-    std::vector<Edge> open;
-    for (const auto& [edge, count] : sides) {
-        if (!sides.contains({edge[1], edge[0]})) {
-            open.push_back(edge);
-        }
-    }
-    return open;
-}
-
-/// Loops of edges, against their direction: as the triangles on the other side have them.
-std::vector<std::vector<std::uint32_t>> loopsOf(const std::vector<Edge>& edges)
-{
-    std::multimap<std::uint32_t, std::uint32_t> next;
-    for (const auto& [from, to] : edges) {
-        next.emplace(to, from);
-    }
-    std::vector<std::vector<std::uint32_t>> loops;
-    while (!next.empty()) {
-        std::vector<std::uint32_t> loop{next.begin()->first};
-        for (auto at = next.begin(); at != next.end(); at = next.find(loop.back())) {
-            const std::uint32_t to = at->second;
-            next.erase(at);
-            // Loops that touch in a vertex are several.
-            if (const auto met = std::find(loop.begin(), loop.end(), to); met != loop.end()) {
-                loops.emplace_back(met, loop.end());
-                loop.erase(met + 1, loop.end());
-                if (loop.size() == 1) {
-                    break;
-                }
-            } else {
-                loop.push_back(to);
-            }
-        }
-    }
-    return loops;
-}
-
 /// Heights of a dome over a mesh, given on its rim.
 /// @param integral  of the heights over the mesh [m³]
 std::vector<double> domeOver(const PlanarMesh& mesh, double bending, double integral, std::vector<double> heights)
@@ -299,9 +253,9 @@ struct Level {
     std::vector<Triangle> triangles;
 
     /// Whether it ends where the base does; without triangles it does not.
-    [[nodiscard]] bool meets(const std::vector<Edge>& open) const
+    [[nodiscard]] bool meets(const std::vector<DirectedEdge>& open) const
     {
-        std::vector<Edge> own;
+        std::vector<DirectedEdge> own;
         for (const auto& [from, to] : openEdges(triangles)) {
             if (from >= rim.size() || to >= rim.size()) {
                 return false;
@@ -314,7 +268,7 @@ struct Level {
 };
 
 /// Shadow of the base on the level, for a rim that is no set of simple loops.
-Level projected(const Base& base, const std::vector<Edge>& open, const Pond& pond)
+Level projected(const Base& base, const std::vector<DirectedEdge>& open, const Pond& pond)
 {
     Level level;
     std::vector<bool> meets(base.vertices.size());  // whether the base ends there
@@ -339,7 +293,7 @@ Level projected(const Base& base, const std::vector<Edge>& open, const Pond& pon
 }
 
 /// Triangulation of the loops of the rim, with the dome.
-Level levelOver(const Base& base, const std::vector<Edge>& open, const Pond& pond)
+Level levelOver(const Base& base, const std::vector<DirectedEdge>& open, const Pond& pond)
 {
     const Vec3 any = std::abs(pond.up.x) < 0.9 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 1.0, 0.0};
     const Vec3 across = cross(pond.up, any);
@@ -431,7 +385,7 @@ PondSurface pondSurface(const FlowSurface& surface, const Pond& pond)
 PondSurface pondSurface(std::span<const FlowSurface::Face> ground, const Pond& pond)
 {
     const Base base(ground, pond);
-    const std::vector<Edge> open = openEdges(base.triangles);
+    const std::vector<DirectedEdge> open = openEdges(base.triangles);
     Level level = levelOver(base, open, pond);
     if (!level.meets(open)) {
         level = projected(base, open, pond);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "axes.h"
+#include "box_corners.h"
 #include "flow_io/seat.h"
 #include "unit_vector.h"
 

@@ -26,7 +26,4 @@ struct DropletMesh {
 /// @throws Error InvalidArgument beyond float's range
 SceneMesh sceneMesh(const DropletMesh& mesh, std::string name, std::size_t material);
 
-/// Lowest and highest coordinates of points, at least one.
-std::array<Vec3, 2> cornersOf(const std::vector<Vec3>& vertices);
-
 }  // namespace droplet

@@ -29,6 +29,7 @@
 #include "scene/faces.h"
 #include "scene/preview_opacity.h"
 #include "scene/welded_vertices.h"
+#include "unit_vector.h"
 
 namespace droplet {
 namespace {
@@ -56,9 +57,7 @@ void writeVec3(ByteStream& bytes, Vec3 a)
 // Unit normal by a triangle's winding; zero without an area, which readers replace.
 Vec3 facetNormal(Vec3 a, Vec3 b, Vec3 c)
 {
-    const Vec3 normal = cross(b - a, c - a);
-    const double size = length(normal);
-    return size > 0.0 ? (1.0 / size) * normal : Vec3{};
+    return unit(cross(b - a, c - a));
 }
 
 /// Refuses a name that OBJ and MTL cannot hold. They have no escapes: a line break would end the name and begin a line

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "unit_vector.h"
+
 namespace droplet {
 
 std::vector<Vec2> rimNormals(const PlanarMesh& mesh)
@@ -19,8 +21,7 @@ std::vector<Vec2> rimNormals(const PlanarMesh& mesh)
         }
     }
     for (Vec2& n : normals) {
-        const double size = length(n);
-        n = size > 0.0 ? (1.0 / size) * n : Vec2{};
+        n = unit(n);
     }
     return normals;
 }

@@ -15,9 +15,11 @@
 #include <numbers>
 #include <utility>
 
+#include "box_corners.h"
 #include "rays/embree_device.h"
 #include "render/triangle_grid.h"
 #include "require.h"
+#include "unit_vector.h"
 
 namespace droplet {
 namespace {
@@ -132,21 +134,10 @@ Spots withoutCopies(const std::vector<Spot>& all)
     return spots;
 }
 
-Vec3 unit(Vec3 v, Vec3 otherwise)
-{
-    const double size = length(v);
-    return size > 0.0 ? (1.0 / size) * v : otherwise;
-}
-
 /// Grids over all triangles, without values.
 StandOpenness gridsOver(const TexturedMesh& object)
 {
-    Vec3 low = object.vertices.empty() ? Vec3{} : object.vertices.front();
-    Vec3 high = low;
-    for (const Vec3 p : object.vertices) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
+    const auto [low, high] = object.vertices.empty() ? std::array<Vec3, 2>{} : cornersOf(object.vertices);
     const double spacing = std::max(length(high - low), 1e-30) / kParts;
     StandOpenness grids;
     std::size_t count = 0;

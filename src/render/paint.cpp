@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "box_corners.h"
 #include "droplet/compare/compare.h"
 #include "droplet/error.h"
 #include "droplet/units.h"
@@ -22,12 +23,7 @@ namespace {
 // Diagonal of the surface's bounding box, about the picture's field of view.
 double diameter(const Surface& surface)
 {
-    Vec3 low = surface.vertices.front();
-    Vec3 high = low;
-    for (const Vec3& p : surface.vertices) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
+    const auto [low, high] = cornersOf(surface.vertices);
     return length(high - low);
 }
 

@@ -14,6 +14,7 @@
 #include <tuple>
 #include <utility>
 
+#include "box_corners.h"
 #include "droplet/error.h"
 #include "droplet/shape/figures.h"
 #include "droplet/units.h"
@@ -525,22 +526,17 @@ std::vector<std::size_t> clustersOf(const std::vector<PlanarMesh>& meshes)
 
 /// Least box around a surface, along the axes.
 struct Box {
-    Vec3 low;
-    Vec3 high;
-
-    explicit Box(const std::vector<Vec3>& vertices) : low(vertices.front()), high(low)
-    {
-        for (const Vec3& p : vertices) {
-            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-        }
-    }
+    explicit Box(const std::vector<Vec3>& vertices) : corners(cornersOf(vertices)) {}
 
     [[nodiscard]] bool meets(const Box& other) const
     {
-        return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y &&
-               low.z <= other.high.z && other.low.z <= high.z;
+        const auto& [low, high] = corners;
+        const auto& [other_low, other_high] = other.corners;
+        return low.x <= other_high.x && other_low.x <= high.x && low.y <= other_high.y && other_low.y <= high.y &&
+               low.z <= other_high.z && other_low.z <= high.z;
     }
+
+    std::array<Vec3, 2> corners;
 };
 
 /// First place where two droplets touch whose footprints are apart. Droplets that share boundaries may lean over them;

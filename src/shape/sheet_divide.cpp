@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "mesh/rim_corner.h"
+#include "unit_vector.h"
 
 namespace droplet {
 namespace {
@@ -315,8 +316,7 @@ private:
             }
         }
         for (Vec3& normal : normals_) {
-            const double size = length(normal);
-            normal = size > 0.0 ? (1.0 / size) * normal : normal;
+            normal = unit(normal);
         }
     }
 

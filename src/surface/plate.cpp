@@ -13,13 +13,14 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <utility>
 
+#include "box_corners.h"
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
 #include "droplet/surface/loft.h"
 #include "droplet/units.h"
 #include "number_text.h"
+#include "surface/open_edges.h"
 
 namespace droplet {
 namespace {
@@ -35,37 +36,16 @@ constexpr int kCornerEdges = 8;
 /// Loops of edges without a neighbour, with the liquid on their right, as they bound the plate's top.
 std::vector<std::vector<std::uint32_t>> dryLoops(const Surface& surface)
 {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-    for (const Triangle& t : surface.triangles) {
-        for (std::size_t k = 0; k < t.size(); ++k) {
-            edges.emplace_back(t[k], t[(k + 1) % t.size()]);
-        }
-    }
-    std::sort(edges.begin(), edges.end());
-    std::vector<std::uint32_t> next(surface.vertices.size(), kNone);
-    for (const auto& [a, b] : edges) {
-        if (std::binary_search(edges.begin(), edges.end(), std::pair(b, a))) {
-            continue;
-        }
-        if (surface.vertices[a].z != 0.0 || next[b] != kNone) {
+    const std::vector<DirectedEdge> edges = openEdges(surface.triangles);
+    std::vector<bool> is_met(surface.vertices.size());
+    for (const auto& [v, to] : edges) {
+        if (surface.vertices[v].z != 0.0 || is_met[v]) {
             throw Error(ErrorCode::InvalidArgument,
                         "surfaces must have rims at height 0 that do not touch themselves, to lie on a plate");
         }
-        next[b] = a;
+        is_met[v] = true;
     }
-    std::vector<std::vector<std::uint32_t>> loops;
-    for (std::uint32_t start = 0; start < next.size(); ++start) {
-        if (next[start] == kNone) {
-            continue;
-        }
-        loops.emplace_back();
-        for (std::uint32_t v = start; v != kNone;) {
-            loops.back().push_back(v);
-            v = std::exchange(next[v], kNone);
-        }
-        loops.back().pop_back();  // the start, again
-    }
-    return loops;
+    return loopsOf(edges);
 }
 
 /// Point of the plate's outline, with the direction outward.
@@ -77,13 +57,8 @@ struct OutlinePoint {
 /// Rectangle around the liquid, widened by the margin, counter-clockwise.
 std::vector<OutlinePoint> outlineAround(const std::vector<Vec3>& liquid, double margin)
 {
-    Vec2 lower{liquid.front().x, liquid.front().y};
-    Vec2 upper = lower;
-    for (const Vec3& p : liquid) {
-        lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
-        upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
-    }
-    const Vec2 size = upper - lower;
+    const auto [lower, upper] = cornersOf(liquid);
+    const Vec3 size = upper - lower;
     std::vector<OutlinePoint> outline;
     for (int corner = 0; corner < 4; ++corner) {  // from the upper right one
         const Vec2 centre{corner == 0 || corner == 3 ? upper.x : lower.x, corner < 2 ? upper.y : lower.y};

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "box_corners.h"
 #include "droplet/error.h"
 #include "surface/half_edges.h"
 
@@ -323,13 +324,8 @@ private:
 /// Longest side of a box around a surface. The mesh is scaled by it, so that costs are far from the smallest number.
 double longestSide(const Surface& surface)
 {
-    Vec3 lower = surface.vertices.front();
-    Vec3 upper = lower;
-    for (const Vec3& p : surface.vertices) {
-        lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
-        upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
-    }
-    const Vec3 size = upper - lower;
+    const auto [low, high] = cornersOf(surface.vertices);
+    const Vec3 size = high - low;
     return std::max({size.x, size.y, size.z, std::numeric_limits<double>::min()});
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "axes.h"
+#include "box_corners.h"
 #include "byte_stream.h"
 #include "droplet/error.h"
 #include "io/droplet_crowd.h"

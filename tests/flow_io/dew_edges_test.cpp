@@ -222,19 +222,25 @@ Mesh can()
     return prism(48, 0.02, 0.04);
 }
 
+/// Covers half of an object with droplets that are flat, round and overhanging, and expects that no two overlap.
+void expectDropletsApart(const Mesh& mesh)
+{
+    for (const double angle : {60.0, 105.0, 140.0}) {
+        DewOptions options;
+        options.coverage = 0.5;
+        options.smallest = 0.4e-3;
+        options.largest = 2e-3;
+        options.forces.wetting.contact_angle = angle * kDegree;
+        const Wet wet(mesh, options);
+        ASSERT_GT(wet.model.shown().size(), 300U);
+        EXPECT_EQ(overlapsOf(wet.model.surface()), 0U) << angle << " of " << wet.model.shown().size();
+    }
+}
+
 TEST(DewEdges, DropletsOnABoxAndACanAreApart)
 {
     for (const Mesh& mesh : {box(), can(), step()}) {
-        for (const double angle : {60.0, 105.0, 140.0}) {
-            DewOptions options;
-            options.coverage = 0.5;
-            options.smallest = 0.4e-3;
-            options.largest = 2e-3;
-            options.forces.wetting.contact_angle = angle * kDegree;
-            const Wet wet(mesh, options);
-            ASSERT_GT(wet.model.shown().size(), 300U);
-            EXPECT_EQ(overlapsOf(wet.model.surface()), 0U) << angle << " of " << wet.model.shown().size();
-        }
+        expectDropletsApart(mesh);
     }
 }
 
@@ -276,16 +282,7 @@ Mesh torus()
 TEST(DewEdges, DropletsOnCurvedGroundAreApart)
 {
     for (const Mesh& mesh : {sphere(), bunny(), torus()}) {
-        for (const double angle : {60.0, 105.0, 140.0}) {
-            DewOptions options;
-            options.coverage = 0.5;
-            options.smallest = 0.4e-3;
-            options.largest = 2e-3;
-            options.forces.wetting.contact_angle = angle * kDegree;
-            const Wet wet(mesh, options);
-            ASSERT_GT(wet.model.shown().size(), 300U);
-            EXPECT_EQ(overlapsOf(wet.model.surface()), 0U) << angle << " of " << wet.model.shown().size();
-        }
+        expectDropletsApart(mesh);
     }
 }
 

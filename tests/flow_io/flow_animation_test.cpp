@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "box_corners.h"
 #include "droplet/error.h"
 #include "droplet/flow/flow_shapes.h"
 #include "droplet/flow_io/droplet_surfaces.h"
