@@ -17,6 +17,9 @@ function(link_headers)
   endforeach()
 endfunction()
 
+# For sources of the project. Eigen takes its instructions of SSE2: see npm/src/mmintrin.h.
+set(own_options -msse2 -Wall -Wextra -Wpedantic -Wno-unknown-pragmas -include ${root}/npm/src/standard_library.h)
+
 # add_c_module(NAME SOURCE...): the C interface as a module of its own.
 function(add_c_module name)
   add_executable(${name} ${ARGN})
@@ -25,8 +28,7 @@ function(add_c_module name)
   target_include_directories(${name} SYSTEM PRIVATE ${headers})
   target_compile_definitions(${name} PRIVATE FMT_HEADER_ONLY)
   # Clang 14 makes wrong vectors of similar code: see CMakeLists.txt.
-  target_compile_options(${name} PRIVATE
-    -Wall -Wextra -Wpedantic -Wno-unknown-pragmas -fno-slp-vectorize -include ${root}/npm/src/standard_library.h)
+  target_compile_options(${name} PRIVATE ${own_options} -fno-slp-vectorize)
   target_link_options(${name} PRIVATE
     -fwasm-exceptions -sSUPPORT_LONGJMP=wasm --no-entry -sSTANDALONE_WASM -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=2GB -sTOTAL_STACK=1MB
     -sFILESYSTEM=0 -sEXPORTED_FUNCTIONS=_malloc,_free -O3)

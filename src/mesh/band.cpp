@@ -578,10 +578,13 @@ std::vector<Triangle> triangulateUnrefined(const Polygons& polygons, const std::
     std::vector<Triangle> triangles;
     for (auto f = triangulation.finite_faces_begin(); f != triangulation.finite_faces_end(); ++f) {
         if (f->is_in_domain()) {
-            triangles.push_back(
-                {*f->vertex(0)->info().index, *f->vertex(1)->info().index, *f->vertex(2)->info().index});
+            Triangle triangle{*f->vertex(0)->info().index, *f->vertex(1)->info().index, *f->vertex(2)->info().index};
+            std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+            triangles.push_back(triangle);
         }
     }
+    // Last bits of places decide in which order CGAL finds the same triangles.
+    std::sort(triangles.begin(), triangles.end());
     return triangles;
 }
 
