@@ -13,6 +13,7 @@
 #include "force_options.h"
 #include "object_options.h"
 #include "option_values.h"
+#include "video_writer.h"
 
 namespace cli {
 namespace {
@@ -56,6 +57,7 @@ const CommandText& commandText()
                                   "  droplet-shape dew bottle.glb cold.glb --preset bottle --object-size 12cm\n"
                                   "  droplet-shape dew leaf.glb rain.obj --preset rain --coverage 0.3 --largest 2mm\n"
                                   "  droplet-shape dew leaf.glb wet.usdz --preset mist --droplets drops.csv\n"
+                                  "  droplet-shape dew leaf.glb wet.glb --preview wet.png --camera 20deg,40deg\n"
                                   "\n"
                                   "Exit codes:\n"
                                   "  0 done; 1 internal error; 2 usage; 3 input unreadable, or no place for\n"
@@ -133,6 +135,11 @@ void declare(CommandLine& line, DewCommandOptions& options)
     line.add(kOut, "--droplets", "FILE", "Write a table of all droplets, .csv or .json; flow can start with the .csv",
              into(options.droplets));
     line.add(kOut, "--json", "FILE", "Write a report; - is standard output", into(options.json));
+    line.add("Picture", "--preview", "FILE",
+             "Write a rendered picture of object and droplets, as PNG; with --turntable also a video");
+    declareView(line);
+    declareEnvironment(line);
+    declareTurntable(line);
     constexpr const char* kRun = "Run";
     line.addFlag(kRun, "--no-clobber", "Do not replace existing files");
     declareStageProgress(line, kRun, "while droplets are placed");
@@ -197,6 +204,30 @@ void readDroplets(const CommandLine& line, DewCommandOptions& options)
     dew.gravity = dew.forces.gravity * (down ? direction(*down) : Vec3{0.0, 0.0, -1.0});
 }
 
+void readDewPreview(const CommandLine& line, DewCommandOptions& options)
+{
+    PreviewOptions preview;
+    const bool has_preview = readPreviewFile(line, preview);
+    for (const char* option : {"--view", "--camera", "--look-at", "--environment", "--preview-size", "--turntable"}) {
+        if (line.value(option) && !has_preview) {
+            refuse(std::string(option) + " needs --preview");
+        }
+    }
+    preview.sees_below = true;
+    readView(line, preview);
+    if (const auto light = line.value("--environment")) {
+        preview.environment = light->text;
+    }
+    const bool is_video = has_preview && isVideo(preview.path);
+    preview.encoding = readVideoEncoding(line, is_video, "--preview or --turntable");
+    if (is_video) {
+        requireEvenSides("--preview-size", preview.width, preview.height);
+    }
+    if (has_preview) {
+        options.preview = preview;
+    }
+}
+
 void readOutput(const CommandLine& line, DewCommandOptions& options)
 {
     options.object = line.argument("OBJECT");
@@ -246,6 +277,7 @@ std::variant<DewCommandOptions, std::string> parseDew(int argc, const char* cons
     line.read();
     readDroplets(line, options);
     readOutput(line, options);
+    readDewPreview(line, options);
     options.run = readRun(line);
     return options;
 }

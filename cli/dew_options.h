@@ -9,6 +9,7 @@
 #include "droplet/flow/dew.h"
 #include "droplet/flow_io/dew_model.h"
 #include "droplet/flow_io/flow_object.h"
+#include "preview.h"
 
 namespace cli {
 
@@ -25,6 +26,7 @@ struct DewCommandOptions {
     std::string preset;                   ///< name
     std::optional<std::string> droplets;  ///< path of a table
     std::optional<std::string> json;      ///< path of the report; - is standard output
+    std::optional<PreviewOptions> preview;
     RunOptions run;
 };
 

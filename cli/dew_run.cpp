@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "dew_picture.h"
 #include "droplet/error.h"
 #include "droplet/flow_io/face_properties.h"
 #include "droplet/flow_io/flow_table.h"
@@ -92,6 +93,12 @@ RunFiles filesOf(const DewCommandOptions& options)
     files.writes("OUTPUT", options.output);
     files.writes("OUTPUT's material", materialFile(options.output, options.file.file.format));
     files.writes("--droplets", options.droplets);
+    if (options.preview) {
+        files.reads("--environment", options.preview->environment);
+        for (const std::string& path : previewPaths(*options.preview)) {
+            files.writes("--preview", path);
+        }
+    }
     files.writes("--json", options.json);
     return files;
 }
@@ -179,6 +186,9 @@ void writeTable(std::ostream& out, droplet::TableFormat format, const Dew& dew)
 droplet::DewReport makeDew(const DewCommandOptions& options, const droplet::Progress& progress)
 {
     const StageClock clock;
+    if (options.preview) {
+        checkVideo(*options.preview);
+    }
     Dew dew = placeDew(options, progress);
     if (progress) {
         progress(droplet::Stage::Write, 0.0);
@@ -204,6 +214,10 @@ droplet::DewReport makeDew(const DewCommandOptions& options, const droplet::Prog
                              const bool is_json = lowerExtension(*options.droplets) == ".json";
                              writeTable(out, is_json ? droplet::TableFormat::Json : droplet::TableFormat::Csv, dew);
                          }});
+    }
+    if (options.preview) {
+        const std::vector<OutputFile> pictures = dewPictures(dew, *options.preview, options.file.material);
+        files.insert(files.end(), pictures.begin(), pictures.end());
     }
     if (options.json) {
         files.push_back({*options.json, [&](std::ostream& out) {

@@ -522,25 +522,12 @@ droplet::Picture FlowRun::picture(const Moment& moment, double azimuth)
 
 std::vector<OutputFile> FlowRun::previewOutputs()
 {
-    const std::size_t turns = options_.view.turns.value_or(1);
-    if (isVideo(options_.view.path)) {
-        return {{options_.view.path, [this, turns, options = videoAt(options_.view.path)](std::ostream& out) {
-                     VideoWriter video(options);
-                     for (std::size_t k = 0; k < turns; ++k) {
-                         video.add(picture(shown_, turnOf(options_.view, k)));
-                         progress_.reportDrawn(k + 1, turns);
-                     }
-                     video.finish(out);
-                 }}};
-    }
-    std::vector<OutputFile> files;
-    for (const std::string& path : previewPaths(options_.view)) {
-        files.push_back({path, [this, turns, k = files.size()](std::ostream& out) {
-                             droplet::writePng(picture(shown_, turnOf(options_.view, k)), out);
-                             progress_.reportDrawn(k + 1, turns);
-                         }});
-    }
-    return files;
+    checkVideo(options_.view);
+    return previewFiles(options_.view, options_.frames_per_second, [this](std::size_t index) {
+        droplet::Picture drawn = picture(shown_, turnOf(options_.view, index));
+        progress_.reportDrawn(index + 1, options_.view.turns.value_or(1));
+        return drawn;
+    });
 }
 
 void FlowRun::drawPicture(const Moment& moment)

@@ -191,10 +191,9 @@ int makeText(const Font& font, GlyphsOptions options)
     requireColourLayers(font, options);
     makeAndReport(options.shape.run, [&](const droplet::Progress& progress) {
         progress(droplet::Stage::Read, 0.0);
-        const Surroundings around =
-            readSurroundings(options.shape.settings, groundPicture(options.shape), environmentPicture(options.shape));
+        const Surroundings around = readSurroundings(options.shape.settings, options.shape.preview);
         if (around.object && !options.sized) {
-            options.type.glyph.em = emOnObject(*around.object, font, options);
+            options.type.glyph.em = emOnObject(around.object->mesh, font, options);
         }
         std::vector<std::string>& warnings = options.shape.settings.warnings;
         const auto leave_out = [&](const std::vector<char32_t>& missing) {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 
 #include "droplet/render/paint.h"
@@ -90,13 +91,12 @@ int fittedHeight(const PreviewOptions& options, const droplet::Surface& surface)
     return 2 * static_cast<int>(std::lround(0.5 * options.width * std::clamp(share, kLeast, 0.75)));
 }
 
-droplet::RenderOptions renderOptions(const PreviewOptions& options, const PreviewSubject& subject, std::size_t index)
+droplet::RenderOptions renderOptions(const PreviewOptions& options, const PreviewSubject& subject)
 {
     droplet::RenderOptions render;
     aim(options, render);
     render.height = options.fits_height ? fittedHeight(options, subject.surface) : options.height;
     if (options.turns) {
-        render.azimuth = turnOf(options, index);
         render.fit_all_azimuths = true;
     }
     render.look = subject.look;
@@ -106,8 +106,11 @@ droplet::RenderOptions renderOptions(const PreviewOptions& options, const Previe
     render.ground = subject.ground;
     render.light_table = subject.by_colour;
     render.environment = subject.light;
-    render.stand = subject.stand;
-    render.shows_whole_stand = subject.on_object;
+    render.stand = subject.curved;
+    render.shows_whole_stand = false;
+    if (subject.object) {
+        subject.object->showIn(render);
+    }
     if (options.colouring == Colouring::Contours) {
         render.paint = droplet::heightPaint(subject.surface);
     } else if (options.colouring == Colouring::ContactAngle) {
@@ -134,9 +137,10 @@ void declarePreview(CommandLine& line, PreviewOf subject)
     line.add("Picture", "--preview", "FILE",
              "Write a rendered picture, as PNG; - is standard output; with --turntable also a video");
     declareView(line, subject);
-    line.add("Picture", "--ground", "PICTURE",
-             "Picture on the ground, aligned with the footprint's picture; with --onto, the object's texture [a table "
-             "with a ruling]");
+    line.add(
+        "Picture", "--ground", "PICTURE",
+        "Picture on the ground, aligned with the footprint's picture; with --onto, a texture over the object instead "
+        "of its own materials [a table with a ruling]");
     declareEnvironment(line);
     line.add("Picture", "--preview-background,--background", "ground|none",
              "none makes the preview transparent except for the droplet and its shadow [ground]");
@@ -155,6 +159,11 @@ void declareEnvironment(CommandLine& line)
     line.add(
         "Picture", "--environment", "FILE",
         "Equirectangular picture that lights the scene instead of lamps; EXR and HDR hold linear light, others sRGB");
+}
+
+bool showsLooks(const PreviewOptions& options)
+{
+    return !options.ground && options.colouring == Colouring::Look;
 }
 
 void aim(const PreviewOptions& options, droplet::RenderOptions& render)
@@ -347,28 +356,44 @@ std::vector<std::string> previewPaths(const PreviewOptions& options)
 
 std::vector<OutputFile> previewFiles(const PreviewOptions& options, const PreviewSubject& subject)
 {
+    const auto all = std::make_shared<const droplet::RenderOptions>(renderOptions(options, subject));
+    const auto render = [all, &options](std::size_t index) {
+        droplet::RenderOptions turned = *all;
+        turned.azimuth = options.turns ? turnOf(options, index) : 0.0;
+        return turned;
+    };
+    if (!options.cut_out || showsVideo(options)) {
+        return previewFiles(options, VideoFrames{}.per_second, [&options, &subject, render](std::size_t index) {
+            return drawn(subject, render(index), options.cut_out);
+        });
+    }
+    std::vector<OutputFile> files;
+    for (const std::string& path : previewPaths(options)) {
+        files.push_back({path, [&subject, render, k = files.size()](std::ostream& out) {
+                             droplet::writePng(droplet::renderCutOut(subject.surface, render(k)), out);
+                         }});
+    }
+    return files;
+}
+
+std::vector<OutputFile> previewFiles(const PreviewOptions& options, double per_second,
+                                     const std::function<droplet::Picture(std::size_t index)>& draw)
+{
     if (showsVideo(options)) {
-        return {{options.path, [&options, &subject](std::ostream& out) {
-                     droplet::RenderOptions render = renderOptions(options, subject, 0);
-                     VideoWriter video(triedVideo(options.path, {render.width, render.height}, options.encoding));
-                     for (std::size_t k = 0; k < *options.turns; ++k) {
-                         render.azimuth = turnOf(options, k);
-                         video.add(drawn(subject, render, options.cut_out));
+        return {{options.path, [&options, per_second, draw](std::ostream& out) {
+                     droplet::Picture picture = draw(0);
+                     VideoWriter video(
+                         triedVideo(options.path, {picture.width, picture.height, per_second}, options.encoding));
+                     video.add(picture);
+                     for (std::size_t k = 1; k < *options.turns; ++k) {
+                         video.add(draw(k));
                      }
                      video.finish(out);
                  }}};
     }
     std::vector<OutputFile> files;
-    const std::vector<std::string> names = previewPaths(options);
-    for (std::size_t k = 0; k < names.size(); ++k) {
-        files.push_back({names[k], [&options, &subject, k](std::ostream& out) {
-                             const auto render = renderOptions(options, subject, k);
-                             if (options.cut_out) {
-                                 droplet::writePng(droplet::renderCutOut(subject.surface, render), out);
-                             } else {
-                                 droplet::writePng(droplet::render(subject.surface, render), out);
-                             }
-                         }});
+    for (const std::string& path : previewPaths(options)) {
+        files.push_back({path, [draw, k = files.size()](std::ostream& out) { droplet::writePng(draw(k), out); }});
     }
     return files;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "command_line.h"
 #include "droplet/drawing/picture.h"
 #include "droplet/render/environment.h"
+#include "droplet/render/object_stand.h"
 #include "droplet/render/render.h"
 #include "droplet/surface/surface.h"
 #include "droplet/surface/textured_mesh.h"
@@ -46,14 +49,14 @@ struct PreviewOptions {
 struct PreviewSubject {
     const droplet::Surface& surface;
     droplet::Look look;
-    std::vector<droplet::Look> looks;            ///< one per droplet; empty: `look` for all
-    std::optional<droplet::Picture> colour_map;  ///< picture on the liquid
-    droplet::Vec2 extent;                        ///< extent of its picture [m]
-    std::optional<droplet::Picture> ground;      ///< PreviewOptions::ground, read
-    std::optional<droplet::Environment> light;   ///< PreviewOptions::environment, read
-    std::optional<droplet::TexturedMesh> stand;  ///< mesh below it, unless the ground is flat
-    bool on_object = false;                      ///< whether that mesh is an object
-    bool by_colour = false;                      ///< whether droplets show colours of a picture: on a light table
+    std::vector<droplet::Look> looks;                  ///< one per droplet; empty: `look` for all
+    std::optional<droplet::Picture> colour_map;        ///< picture on the liquid
+    droplet::Vec2 extent;                              ///< extent of its picture [m]
+    std::optional<droplet::Picture> ground;            ///< PreviewOptions::ground, read
+    std::optional<droplet::Environment> light;         ///< PreviewOptions::environment, read
+    std::optional<droplet::ObjectStand> object = {};   ///< below it
+    std::optional<droplet::TexturedMesh> curved = {};  ///< ground below it, unless that is flat or an object
+    bool by_colour = false;                            ///< whether droplets show colours of a picture: on a light table
 };
 
 /// What a preview shows.
@@ -61,6 +64,10 @@ enum class PreviewOf { Picture, Text };
 
 /// Declares the options of the preview.
 void declarePreview(CommandLine& line, PreviewOf subject = PreviewOf::Picture);
+
+/// Whether a preview shows the own looks of an object: not with a texture instead, nor with colours that have a
+/// meaning.
+bool showsLooks(const PreviewOptions& options);
 
 /// Sets size, view, camera and where it looks.
 void aim(const PreviewOptions& options, droplet::RenderOptions& render);
@@ -109,5 +116,12 @@ std::vector<std::string> previewPaths(const PreviewOptions& options);
 
 /// Output files of the pictures, which are drawn when they are written; `options` and `subject` must live until then.
 std::vector<OutputFile> previewFiles(const PreviewOptions& options, const PreviewSubject& subject);
+
+/// Output files of pictures that are drawn when they are written, or of a turntable's video; `options` must live until
+/// then.
+/// @param per_second  pictures of a video
+/// @param draw        draws the picture with this index, which is turned by turnOf()
+std::vector<OutputFile> previewFiles(const PreviewOptions& options, double per_second,
+                                     const std::function<droplet::Picture(std::size_t index)>& draw);
 
 }  // namespace cli

@@ -143,9 +143,8 @@ PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings
                            droplet.domain.extent, around.below,
                            around.light,          around.object};
     const droplet::BaseSurface& below = settings.droplet.solve.ground;
-    subject.on_object = around.object.has_value();
     if (!around.object && !below.flat()) {
-        subject.stand = droplet::groundMesh(below, droplet.domain.extent);
+        subject.curved = droplet::groundMesh(below, droplet.domain.extent);
     }
     return subject;
 }
@@ -404,16 +403,6 @@ MadeShape make(const ShapeOptions& options, const Surroundings& around, std::vec
 
 }  // namespace
 
-std::optional<std::string> groundPicture(const ShapeOptions& options)
-{
-    return options.preview ? options.preview->ground : std::nullopt;
-}
-
-std::optional<std::string> environmentPicture(const ShapeOptions& options)
-{
-    return options.preview ? options.preview->environment : std::nullopt;
-}
-
 MadeShape placed(MadeShape made, const Surroundings& around, const ShapeOptions& options)
 {
     if (around.object) {
@@ -464,7 +453,7 @@ droplet::Report makeShape(const ShapeOptions& options, const droplet::Progress& 
 {
     Stages stages{{}, progress};
     stages.begin(Stage::Read);
-    const Surroundings around = readSurroundings(options.settings, groundPicture(options), environmentPicture(options));
+    const Surroundings around = readSurroundings(options.settings, options.preview);
     return finish(make(options, around, readPicture(options), stages), around, options, stages);
 }
 
@@ -516,8 +505,10 @@ RunFiles filesOf(const ShapeOptions& options, const std::string& input_name)
     RunFiles files;
     files.reads(input_name, options.input);
     addSettings(files, options.settings, options.run);
-    files.reads("--ground", groundPicture(options));
-    files.reads("--environment", environmentPicture(options));
+    if (options.preview) {
+        files.reads("--ground", options.preview->ground);
+        files.reads("--environment", options.preview->environment);
+    }
     files.writes("OUTPUT", options.output);
     files.writes("OUTPUT's material", materialFile(options.output, options.format));
     for (const std::string& path : levelPaths(options.output, options.format, options.settings.levels.size())) {

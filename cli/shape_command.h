@@ -21,11 +21,6 @@
 
 namespace cli {
 
-/// Path of the picture on the ground below the droplets, if it is given.
-std::optional<std::string> groundPicture(const ShapeOptions& options);
-/// Path of the panorama that lights the scene, if it is given.
-std::optional<std::string> environmentPicture(const ShapeOptions& options);
-
 /// Droplets of one footprint, on their object if there is one, before any file is written.
 struct MadeShape {
     droplet::Droplet droplet;

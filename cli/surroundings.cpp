@@ -12,8 +12,7 @@ namespace cli {
 using droplet::Error;
 using droplet::ErrorCode;
 
-Surroundings readSurroundings(const DropletSettings& settings, const std::optional<std::string>& below,
-                              const std::optional<std::string>& light)
+Surroundings readSurroundings(const DropletSettings& settings, const std::optional<PreviewOptions>& preview)
 {
     Surroundings around;
     if (settings.ground.path) {
@@ -25,13 +24,14 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
         }
     }
     if (settings.onto) {
-        around.object = droplet::readObject(*settings.onto);
+        around.object = preview && showsLooks(*preview) ? droplet::readObjectStand(*settings.onto)
+                                                        : droplet::ObjectStand{droplet::readObject(*settings.onto)};
     }
-    if (below) {
-        around.below = droplet::readPicture(*below);
+    if (preview && preview->ground) {
+        around.below = droplet::readPicture(*preview->ground);
     }
-    if (light) {
-        around.light = droplet::readEnvironment(*light);
+    if (preview && preview->environment) {
+        around.light = droplet::readEnvironment(*preview->environment);
     }
     return around;
 }
@@ -56,12 +56,13 @@ droplet::BaseSurface groundOf(const DropletSettings& settings, const Surrounding
     return {};
 }
 
-droplet::ObjectReport placeOnObject(droplet::Droplet& droplet, const droplet::TexturedMesh& object,
+droplet::ObjectReport placeOnObject(droplet::Droplet& droplet, const droplet::ObjectStand& object,
                                     const std::string& path)
 {
-    droplet::OntoResult result = droplet::placeOnto(droplet.surface, object, {droplet.domain.extent});
+    droplet::OntoResult result = droplet::placeOnto(droplet.surface, object.mesh, {droplet.domain.extent});
     droplet.surface = std::move(result.surface);
     droplet.warnings.insert(droplet.warnings.end(), result.report.warnings.begin(), result.report.warnings.end());
+    droplet.warnings.insert(droplet.warnings.end(), object.warnings.begin(), object.warnings.end());
     const droplet::OntoReport& onto = result.report;
     return {path,
             onto.laid,

@@ -9,36 +9,35 @@
 #include "droplet/image/height_map.h"
 #include "droplet/io/report.h"
 #include "droplet/render/environment.h"
+#include "droplet/render/object_stand.h"
 #include "droplet/shape/base_surface.h"
-#include "droplet/surface/textured_mesh.h"
 #include "droplet_options.h"
+#include "preview.h"
 
 namespace cli {
 
 /// Ground, object and light around the droplets, read before the picture, so that errors are found early.
 struct Surroundings {
     std::optional<droplet::HeightMap> map;
-    std::optional<droplet::TexturedMesh> object;
-    std::optional<droplet::Picture> below;      ///< picture on the ground
-    std::optional<droplet::Environment> light;  ///< panorama that lights the scene
+    std::optional<droplet::ObjectStand> object;  ///< plain unless it is shown
+    std::optional<droplet::Picture> below;       ///< picture on the ground
+    std::optional<droplet::Environment> light;   ///< panorama that lights the scene
 };
 
 /// Reads height map, object and pictures.
-/// @param below           path of the picture on the ground
-/// @param light           path of the panorama
+/// @param preview         of the droplets
 /// @throws droplet::Error InvalidInput; InvalidArgument if --surface-depth is missing
-Surroundings readSurroundings(const DropletSettings& settings, const std::optional<std::string>& below = {},
-                              const std::optional<std::string>& light = {});
+Surroundings readSurroundings(const DropletSettings& settings, const std::optional<PreviewOptions>& preview = {});
 
 /// Ground on which droplets are solved.
 /// @param extent          extent of the picture, which a height map covers [m]
 /// @throws droplet::Error InvalidArgument
 droplet::BaseSurface groundOf(const DropletSettings& settings, const Surroundings& around, droplet::Vec2 extent);
 
-/// Places the droplets on the object.
+/// Places the droplets on the object, and warns of what pictures of it do not show.
 /// @param path            path of the object, for the report
 /// @throws droplet::Error InvalidInput if the object has no area in uv; NoSuchDroplet if no droplet fits on it
-droplet::ObjectReport placeOnObject(droplet::Droplet& droplet, const droplet::TexturedMesh& object,
+droplet::ObjectReport placeOnObject(droplet::Droplet& droplet, const droplet::ObjectStand& object,
                                     const std::string& path);
 
 }  // namespace cli

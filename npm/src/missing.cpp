@@ -5,6 +5,7 @@
 #include "browser.h"
 #include "contact_sheet.h"
 #include "dew_command.h"
+#include "dew_picture.h"
 #include "droplet/error.h"
 #include "droplet/render/contact_sheet.h"
 #include "droplet/render/render.h"
@@ -14,6 +15,7 @@
 #include "option_values.h"
 #include "preview.h"
 #include "process.h"
+#include "render/openness.h"
 #include "shortage.h"
 
 namespace droplet {
@@ -41,6 +43,11 @@ Picture contactSheet(const std::vector<Tile>&, const ContactSheetOptions&)
 std::optional<ViewBox> around(const Surface&, const std::optional<ViewBox>&)
 {
     return std::nullopt;
+}
+
+StandOpenness opennessOf(const TexturedMesh&, const OpennessOptions&)
+{
+    return {};
 }
 
 TexturedMesh groundMesh(const BaseSurface&, Vec2)
@@ -75,6 +82,12 @@ int runMotion(int argc, const char* const* argv)
 void writeContactSheet(const ContactSheet&, const droplet::OutputOptions&, const std::function<void(std::size_t)>&)
 {
     requireRenderer("--contact-sheet");
+}
+
+std::vector<OutputFile> dewPictures(const Dew&, const PreviewOptions&, droplet::Material)
+{
+    requireRenderer("--preview");
+    return {};
 }
 
 bool isThreadShortage(const std::exception&)

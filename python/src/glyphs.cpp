@@ -68,7 +68,7 @@ std::shared_ptr<Droplet> glyphs(const std::filesystem::path& path, const std::st
     if (around.object && !options.sized) {
         // The text is as large as a picture would be.
         const droplet::Vec2 extent = droplet::layOutText(font, text, options.type).outline.extent;
-        glyph.em *= droplet::metresPerUv(*around.object) * std::sqrt(extent.x / extent.y) / extent.x;
+        glyph.em *= droplet::metresPerUv(around.object->mesh) * std::sqrt(extent.x / extent.y) / extent.x;
     }
     droplet::TextLayout layout = droplet::layOutText(font, text, options.type);
     if (layout.outline.loops.empty()) {

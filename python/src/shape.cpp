@@ -125,7 +125,7 @@ std::shared_ptr<const Stand> standOf(const droplet::BaseSurface& ground, const c
                                      droplet::Vec2 extent)
 {
     if (around.object) {
-        return std::make_shared<const Stand>(Stand{*around.object, true});
+        return std::make_shared<const Stand>(Stand{around.object->mesh, true});
     }
     return ground.flat() ? nullptr : std::make_shared<const Stand>(Stand{droplet::groundMesh(ground, extent), false});
 }

@@ -113,9 +113,10 @@ py::object pictureOf(const Surface& self)
         options.height = kHeight;
         cli::PreviewSubject subject{self.surface(), droplet::lookOf(self.material()), self.looks(), {}, {}, {}, {}, {}};
         subject.by_colour = !subject.looks.empty();
-        if (const auto& stand = self.stand()) {
-            subject.stand = stand->mesh;
-            subject.on_object = stand->is_object;
+        if (const auto& stand = self.stand(); stand && stand->is_object) {
+            subject.object = droplet::ObjectStand{stand->mesh};
+        } else if (stand) {
+            subject.curved = stand->mesh;
         }
         cli::previewFiles(options, subject).front().write(png);
     }

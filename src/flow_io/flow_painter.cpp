@@ -12,12 +12,12 @@
 
 #include "droplet/error.h"
 #include "droplet/flow_io/droplet_surfaces.h"
+#include "droplet/render/object_stand.h"
 #include "flow_io/box_of.h"
 #include "flow_io/object_faces.h"
 #include "flow_io/settled_droplets.h"
 #include "flow_io/wet_spots.h"
 #include "render/camera.h"
-#include "render/openness.h"
 #include "require.h"
 
 namespace droplet {
@@ -25,17 +25,12 @@ namespace {
 
 constexpr double kMostDivisions = 2048;
 
-double areaOf(const TexturedMesh& mesh, const Triangle& triangle)
-{
-    const Vec3 a = mesh.vertices[triangle[0]];
-    return 0.5 * length(cross(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a));
-}
-
 double areaOf(const TexturedMesh& mesh)
 {
     double area = 0.0;
     for (const Triangle& triangle : mesh.triangles) {
-        area += areaOf(mesh, triangle);
+        const Vec3 a = mesh.vertices[triangle[0]];
+        area += 0.5 * length(cross(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a));
     }
     return area;
 }
@@ -90,30 +85,28 @@ struct FlowPainter::Content {
     {
         RenderOptions& render = options.render;
         render.extent = {1.0, 1.0};
-        render.shows_whole_stand = true;
         FlowObject own = onFaces(object, terrain->surface());
-        stand.vertices = std::move(own.vertices);
-        stand.normals = std::move(own.normals);
-        stand.triangles = std::move(own.triangles);
+        stand.mesh = {std::move(own.vertices), std::move(own.normals),
+                      own.uvs.empty() ? std::vector<Vec2>(3 * own.triangles.size()) : std::move(own.uvs),
+                      std::move(own.triangles)};
+        stand.is_open = terrain->surface().report.boundary_edges > 0;
         if (!object.looks.empty() && !own.materials.empty()) {
-            render.stand_looks = object.looks;
-            render.stand_materials = std::move(own.materials);
-            render.stand_colours = std::move(own.colours);
-            render.shows_room = isSeenThrough();
+            stand.looks = object.looks;
+            stand.materials = std::move(own.materials);
+            stand.colours = std::move(own.colours);
         }
-        render.stand_openness = openness();
-        stand.uvs = own.uvs.empty() ? std::vector<Vec2>(stand.vertices.size()) : std::move(own.uvs);
-        water.divisions.resize(stand.triangles.size());
-        water.first.resize(stand.triangles.size());
+        stand.showIn(render);
+        water.divisions.resize(stand.mesh.triangles.size());
+        water.first.resize(stand.mesh.triangles.size());
         spots.middle = 0.5 * (box.low + box.high);
         // About one place for a pixel, also of a camera that is near.
         spots.spacing = length(box.high - box.low) / std::max(render.width, render.height);
         if (render.distance) {
             constexpr double kMostPlaces = 6e6;
-            spots.spacing = std::min(
-                spots.spacing, std::max(*render.distance * pixelAngle(render), std::sqrt(areaOf(stand) / kMostPlaces)));
+            spots.spacing = std::min(spots.spacing, std::max(*render.distance * pixelAngle(render),
+                                                             std::sqrt(areaOf(stand.mesh) / kMostPlaces)));
         }
-        for (std::uint32_t face = 0; face < stand.triangles.size(); ++face) {
+        for (std::uint32_t face = 0; face < stand.mesh.triangles.size(); ++face) {
             addPlaces(face);
         }
         spots.first.push_back(static_cast<std::uint32_t>(spots.places.size()));
@@ -121,38 +114,11 @@ struct FlowPainter::Content {
         wet.emplace(spots.places.size(), options.film);
     }
 
-    // Whether light passes each triangle; or nothing if none is clear.
-    [[nodiscard]] std::vector<bool> clearFaces() const
-    {
-        std::vector<bool> clear;
-        for (const std::uint32_t material : options.render.stand_materials) {
-            clear.push_back(options.render.stand_looks[material].clearness() > 0.5);
-        }
-        return clear;
-    }
-
-    // Light past the object itself. Where it is open, backs are seen.
-    [[nodiscard]] StandOpenness openness() const
-    {
-        return opennessOf(stand, {clearFaces(), terrain->surface().report.boundary_edges > 0});
-    }
-
-    // Whether most of the object, by area, lets light pass.
-    [[nodiscard]] bool isSeenThrough() const
-    {
-        const std::vector<bool> is_clear = clearFaces();
-        double clear = 0.0;
-        for (std::size_t i = 0; i < is_clear.size(); ++i) {
-            clear += is_clear[i] ? areaOf(stand, stand.triangles[i]) : 0.0;
-        }
-        return clear > 0.5 * areaOf(stand);
-    }
-
     void addPlaces(std::uint32_t triangle)
     {
-        const Vec3 a = stand.vertices[stand.triangles[triangle][0]];
-        const Vec3 p = stand.vertices[stand.triangles[triangle][1]] - a;
-        const Vec3 q = stand.vertices[stand.triangles[triangle][2]] - a;
+        const Vec3 a = stand.mesh.vertices[stand.mesh.triangles[triangle][0]];
+        const Vec3 p = stand.mesh.vertices[stand.mesh.triangles[triangle][1]] - a;
+        const Vec3 q = stand.mesh.vertices[stand.mesh.triangles[triangle][2]] - a;
         const double longest = std::max({length(p), length(q), length(q - p)});
         const auto n = static_cast<std::uint32_t>(std::clamp(std::ceil(longest / spots.spacing), 1.0, kMostDivisions));
         water.divisions[triangle] = static_cast<std::uint16_t>(n);
@@ -181,9 +147,9 @@ struct FlowPainter::Content {
     const FlowTerrain* terrain;  // of the shape that is shown
     FlowPainterOptions options;
     FacesAround faces;
-    ViewBox box;         // around the object
-    TexturedMesh stand;  // the object
-    WetSpots spots;      // on the first shape
+    ViewBox box;  // around the object
+    ObjectStand stand;
+    WetSpots spots;  // on the first shape
     StandWater water;
     std::optional<WetPlaces> wet;
 };
@@ -212,9 +178,9 @@ void FlowPainter::reshape(const FlowObject& object, const FlowTerrain& terrain)
     c.terrain = &terrain;
     c.box = boxOf(object.vertices);
     FlowObject own = onFaces(object, terrain.surface());
-    c.stand.vertices = std::move(own.vertices);
-    c.stand.normals = std::move(own.normals);
-    c.options.render.stand_openness = c.openness();
+    c.stand.mesh.vertices = std::move(own.vertices);
+    c.stand.mesh.normals = std::move(own.normals);
+    c.stand.showIn(c.options.render);
 }
 
 Picture FlowPainter::picture(const FlowMoment& moment, std::span<const FlowSample> samples, const Surface& droplets)
@@ -223,7 +189,6 @@ Picture FlowPainter::picture(const FlowMoment& moment, std::span<const FlowSampl
     SettledDroplets water = settled(*c.terrain, samples, droplets, c.shownOf(samples));
     RenderOptions render = c.options.render;
     render.azimuth += moment.azimuth;
-    render.stand = c.stand;
     render.stand_water = c.water;
     render.stand_water->bases = std::move(water.bases);
     std::vector<float>& film = render.stand_water->film;

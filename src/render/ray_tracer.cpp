@@ -173,6 +173,7 @@ RayTracer::RayTracer(const Surface& surface, const RenderOptions& options) : emb
         shown_.insert(shown_.end(), embree_->parts[kStand].vertices.begin(), embree_->parts[kStand].vertices.end());
         shown_.insert(shown_.end(), framed_.begin(), framed_.end());
     }
+    on_object_ = has_base && stand != nullptr && options.shows_whole_stand;
     // The stand and the base touch: through air the stand is seen, through the liquid the base.
     embree_->air = stand != nullptr ? embree_->build({kLiquid, kStand}) : embree_->build({kLiquid, kBase});
     embree_->liquid = has_base ? embree_->build({kLiquid, kBase}) : embree_->build({kLiquid, kStand});
@@ -291,7 +292,32 @@ Meeting RayTracer::fromAir(const RayF& ray) const
 
 Meeting RayTracer::fromLiquid(const RayF& ray) const
 {
-    return nearerOfPlane(ray, meet(embree_->liquid.get(), ray));
+    if (!on_object_) {
+        return nearerOfPlane(ray, meet(embree_->liquid.get(), ray));
+    }
+    // The base is only a lid for rounding: a way that comes up from the object goes through it.
+    Meeting meeting = meet(embree_->liquid.get(), ray);
+    const float before = meeting.distance;
+    const bool is_from_below = meeting.what == Meeting::What::Ground && dot(ray.direction, meeting.facet) > 0.0F;
+    if (is_from_below) {
+        meeting = meet(embree_->liquid.get(), {meeting.place, ray.direction});
+        meeting.distance += before;
+    }
+    return meeting.what == Meeting::What::Ground ? onObject(meeting) : meeting;
+}
+
+Meeting RayTracer::onObject(const Meeting& base) const
+{
+    constexpr float kLift = 0.01F;
+    for (const float side : {1.0F, -1.0F}) {
+        const Vec3f up = side * base.facet;
+        Meeting meeting = meet(embree_->dry.get(), {base.place + kLift * up, -1.0F * up});
+        if (meeting.what == Meeting::What::Ground && meeting.distance < 2.0F * kLift) {
+            meeting.distance = base.distance;
+            return meeting;
+        }
+    }
+    return {};
 }
 
 Meeting RayTracer::dry(const RayF& ray) const

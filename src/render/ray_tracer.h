@@ -27,7 +27,7 @@ struct Meeting {
     Vec3f facet;                 ///< unit normal of the triangle, outward
     Vec3f normal;                ///< unit, interpolated, outward
     Vec2 uv;                     ///< place in the picture of the ground, or of the liquid
-    std::uint32_t triangle = 0;  ///< on liquid: index in the surface
+    std::uint32_t triangle = 0;  ///< on liquid: index in the surface; on a stand: in it
     float u = 0.0F;              ///< weight of its second vertex
     float v = 0.0F;              ///< weight of its third vertex
 };
@@ -36,7 +36,8 @@ struct Meeting {
 /// the middle of the scene.
 ///
 /// The base counts as ground. It is the part of the surface that is connected to the copied vertices of the rim, or
-/// lies in the plane z = 0. In the latter case the plane replaces it.
+/// lies in the plane z = 0. In the latter case the plane replaces it. Ground that is an object is met in its own
+/// triangles.
 class RayTracer {
 public:
     /// @param surface  valid, or without triangles
@@ -76,11 +77,14 @@ private:
     [[nodiscard]] Meeting meet(void* scene, const RayF& ray) const;
     [[nodiscard]] bool passesBox(const RayF& ray) const;
     [[nodiscard]] Meeting nearerOfPlane(const RayF& ray, Meeting meeting) const;
+    /// Place of an object on which a place of the base lies; none if there is none.
+    [[nodiscard]] Meeting onObject(const Meeting& base) const;
 
     double scale_ = 1.0;
     Vec3 middle_;
     Vec2 extent_;
     bool on_plane_ = false;
+    bool on_object_ = false;  ///< whether there is a base, and it lies on an object
     Vec3f low_;
     Vec3f high_;
     std::vector<Triangle> triangles_;  ///< triangles of the liquid, as indices of the surface's vertices

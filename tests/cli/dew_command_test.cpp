@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "cli/in_process.h"
+#include "droplet/drawing/picture.h"
 #include "droplet/io/read_surface.h"
 #include "support/command.h"
 #include "support/paths.h"
@@ -89,6 +91,55 @@ TEST_F(DewCommand, PresetsDiffer)
     EXPECT_EQ(readFile(path("two.glb")), files.front()) << "dew is the default";
     EXPECT_EQ(dew("two.glb", {"--coverage", "0.1", "-q", "-j", "1"}).exit_code, 0);
     EXPECT_EQ(readFile(path("two.glb")), files.front()) << "at any number of threads";
+}
+
+TEST_F(DewCommand, PreviewsShowDropletsOnTheObjectsOwnColours)
+{
+    testing::writeFile(path("plate.mtl"), "newmtl red\nKd 0.5 0.02 0.02\n");
+    testing::writeFile(path("red.obj"), "mtllib plate.mtl\nusemtl red\n" + std::string(kPlate));
+    const auto seen = [&](const std::string& object, std::vector<std::string> more) {
+        more.insert(more.begin(), {"dew", path(object), path("a.glb"), "--preview-size", "96x72", "--preview",
+                                   path("seen.png"), "--coverage", "0.2", "--smallest", "2mm", "--largest", "3mm"});
+        const CommandResult result = runDroplet(more);
+        EXPECT_EQ(result.exit_code, 0) << result.error;
+        return readPicture(path("seen.png"));
+    };
+    const Picture red = seen("red.obj", {});
+    EXPECT_EQ(red.width, 96);
+    std::array<double, 3> sum{};
+    for (std::size_t i = 0; i < red.rgb.size(); ++i) {
+        sum[i % 3] += red.rgb[i];
+    }
+    EXPECT_GT(sum[0], 1.5 * sum[2]);
+    const Picture grey = seen("plate.obj", {});
+    EXPECT_NE(grey, red);
+    EXPECT_EQ(seen("plate.obj", {"-j", "1"}), grey);
+    std::vector<Picture> pictures{grey};
+    for (const std::vector<std::string>& change : {std::vector<std::string>{"--view", "top"},
+                                                   {"--camera", "-60deg,-30deg"},
+                                                   {"--camera", "-60deg,30deg,5cm"},
+                                                   {"--look-at", "2cm,0mm,-1cm"},
+                                                   {"--material", "ink"},
+                                                   {"--environment", path("light.pgm")},
+                                                   {"--seed", "2"}}) {
+        testing::writeFile(path("light.pgm"), "P5\n2 1\n255\n" + std::string("\xff\x40", 2));
+        pictures.push_back(seen("plate.obj", change));
+        EXPECT_EQ(std::count(pictures.begin(), pictures.end(), pictures.back()), 1) << change[0] << ' ' << change[1];
+    }
+    EXPECT_EQ(dew("b.stl",
+                  {"--coverage", "0.1", "--preview-size", "32x24", "--preview", path("turn.png"), "--turntable", "2"})
+                  .exit_code,
+              0);
+    EXPECT_NE(readPicture(path("turn-001.png")), readPicture(path("turn-002.png")));
+    EXPECT_EQ(dew("b.stl",
+                  {"--coverage", "0.1", "--preview-size", "32x24", "--preview", path("turn.mp4"), "--turntable", "2"})
+                  .exit_code,
+              0);
+    EXPECT_EQ(readFile(path("turn.mp4")).substr(4, 4), "ftyp");
+    expectRefused("c.glb", {"--view", "top"}, 2, "--view needs --preview");
+    expectRefused("c.glb", {"--turntable", "3"}, 2, "--turntable needs --preview");
+    expectRefused("c.glb", {"--preview", path("c.jpg")}, 2, "a file that ends in .png");
+    expectRefused("c.glb", {"--preview", path("c.mp4")}, 2, "needs --turntable");
 }
 
 TEST_F(DewCommand, DropletsAreWhereTheMaskIs)

@@ -4,13 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "cli/refusal.h"
 #include "droplet/drawing/picture.h"
 #include "support/command.h"
+#include "support/gltf_draft.h"
 
 namespace droplet {
 namespace {
@@ -81,6 +85,67 @@ TEST_F(PreviewTest, EveryOptionChangesThePicture)
     }
     made({"--preview", "same.png", "--view", "three-quarter", "--material", "water", "--colour", "look"});
     EXPECT_EQ(pictureOf("same.png"), plain);
+}
+
+/// Mean colour of a part of a picture's rows, between two columns.
+std::array<double, 3> meanOf(const Picture& picture, int begin, int end)
+{
+    std::array<double, 3> sum{};
+    for (int y = picture.height / 3; y < 2 * picture.height / 3; ++y) {
+        for (int x = begin; x < end; ++x) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                sum[c] += picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                                           static_cast<std::size_t>(x)) +
+                                      c];
+            }
+        }
+    }
+    return sum;
+}
+
+// A plate in the ground, red on its left half and blue on its right half.
+TEST_F(PreviewTest, ObjectsHaveTheirOwnLooks)
+{
+    testing::Draft draft;
+    draft.addFloats({-0.05F, 0.0F, 0.05F, 0.05F, 0.0F, 0.05F, 0.05F, 0.0F, -0.05F, -0.05F, 0.0F, -0.05F}, "VEC3");
+    draft.addFloats({0.0F, 1.0F, 1.0F, 1.0F, 1.0F, 0.0F, 0.0F, 0.0F}, "VEC2");
+    draft.add(std::string("\0\1\2\0\2\3", 6), 5121, "SCALAR", 6);
+    const auto write = [&](const std::string& name, const std::string& image) {
+        testing::writeFile(
+            directory() / name,
+            draft.file(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
+                       R"({"POSITION":0,"TEXCOORD_0":1},"indices":2,"material":0}]}],"materials":[)"
+                       R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicFactor":0}}],)"
+                       R"("textures":[{"source":0}],"images":[{"uri":")" +
+                       image + R"("}])"));
+    };
+    std::ostringstream png;
+    writePng(Picture{4, 1, {200, 10, 10, 200, 10, 10, 10, 10, 200, 10, 10, 200}}, png);
+    testing::writeFile(directory() / "halves.png", png.str());
+    write("plate.glb", "halves.png");
+    const auto seen = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--onto", "plate.glb", "--view", "top", "--preview", "onto.png"});
+        made(more);
+        return pictureOf("onto.png");
+    };
+    const Picture own = seen({});
+    const auto left = meanOf(own, 10, 22);
+    const auto right = meanOf(own, 42, 54);
+    EXPECT_GT(left[0], 2.0 * left[2]);
+    EXPECT_GT(right[2], 2.0 * right[0]);
+    EXPECT_EQ(seen({"-j", "1"}), own);
+    std::ostringstream green;
+    writePng(Picture{1, 1, {30, 200, 30}}, green);
+    testing::writeFile(directory() / "green.png", green.str());
+    const auto covered = meanOf(seen({"--ground", "green.png"}), 10, 54);
+    EXPECT_GT(covered[1], 2.0 * covered[0]) << "another texture replaces the object's";
+    const auto painted = meanOf(seen({"--colour", "contact-angle"}), 10, 22);
+    EXPECT_NEAR(painted[0], painted[2], 0.05 * painted[0]) << "colours that have a meaning are on grey";
+
+    write("plate.glb", "none.png");
+    const auto without = made({"--onto", "plate.glb", "--view", "top", "--preview", "onto.png"}).error;
+    EXPECT_THAT(without, HasSubstr("plate.glb is shown without a texture: none.png"));
+    EXPECT_THAT(made({"--onto", "plate.glb"}).error, Not(HasSubstr("none.png"))) << "nothing is shown";
 }
 
 TEST_F(PreviewTest, TurntablePicturesAreNumberedAndTurned)

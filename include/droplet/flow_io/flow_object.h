@@ -11,20 +11,11 @@
 #include "droplet/flow/flow_surface.h"
 #include "droplet/flow/object_motion.h"
 #include "droplet/mesh/planar_mesh.h"
+#include "droplet/render/object_stand.h"
 #include "droplet/render/stand_look.h"
 #include "droplet/vector.h"
 
 namespace droplet {
-
-/// What files have of a look beyond StandLook.
-struct LookImages {
-    std::string colours;                ///< PNG or JPEG; "": none
-    std::string normals;                ///< the same
-    std::string finish;                 ///< the same
-    std::string glows;                  ///< the same
-    bool blends = false;                ///< the alpha of `colours` blends
-    std::optional<double> cutoff = {};  ///< below this alpha of `colours` there is nothing
-};
 
 /// Object that droplets run over.
 ///

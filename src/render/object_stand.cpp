@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "droplet/render/object_stand.h"
+
+#include <cstddef>
+#include <utility>
+
+#include "file_bytes.h"
+#include "io/gltf_scene.h"
+#include "render/openness.h"
+#include "render/take_looks.h"
+#include "surface/open_edges.h"
+
+namespace droplet {
+namespace {
+
+double areaOf(const TexturedMesh& mesh, const Triangle& triangle)
+{
+    const Vec3 a = mesh.vertices[triangle[0]];
+    return 0.5 * length(cross(mesh.vertices[triangle[1]] - a, mesh.vertices[triangle[2]] - a));
+}
+
+/// Whether light passes each triangle; or nothing if the object is plain.
+std::vector<bool> clearTriangles(const ObjectStand& object)
+{
+    std::vector<bool> clear;
+    for (const std::uint32_t material : object.materials) {
+        clear.push_back(object.looks[material].clearness() > 0.5);
+    }
+    return clear;
+}
+
+bool isOpen(const FileMesh& mesh)
+{
+    std::vector<Triangle> welded = mesh.triangles;
+    for (Triangle& triangle : welded) {
+        for (std::uint32_t& v : triangle) {
+            v = mesh.weld[v];
+        }
+    }
+    return !openEdges(welded).empty();
+}
+
+}  // namespace
+
+bool ObjectStand::isSeenThrough() const
+{
+    const std::vector<bool> is_clear = clearTriangles(*this);
+    double clear = 0.0;
+    double all = 0.0;
+    for (std::size_t t = 0; t < is_clear.size(); ++t) {
+        const double area = areaOf(mesh, mesh.triangles[t]);
+        clear += is_clear[t] ? area : 0.0;
+        all += area;
+    }
+    return clear > 0.5 * all;
+}
+
+StandOpenness ObjectStand::openness() const
+{
+    return opennessOf(mesh, {clearTriangles(*this), is_open});
+}
+
+void ObjectStand::showIn(RenderOptions& options) const
+{
+    options.stand = mesh;
+    options.shows_whole_stand = true;
+    options.stand_openness = openness();
+    if (!looks.empty()) {
+        options.stand_looks = looks;
+        options.stand_materials = materials;
+        options.stand_colours = colours;
+        options.shows_room = isSeenThrough();
+    }
+}
+
+ObjectStand readObjectStand(const std::filesystem::path& path)
+{
+    ObjectStand object;
+    readFile(path, [&] {
+        FileMesh scene = readScene(path, {.needs_uv = true, .looks = true});
+        TakenLooks taken = takeLooks(scene, shown(path), object.warnings);
+        object.is_open = isOpen(scene);
+        object.mesh = {std::move(scene.vertices), std::move(scene.normals), std::move(scene.uvs),
+                       std::move(scene.triangles)};
+        if (!taken.looks.empty() && !scene.materials.empty()) {
+            object.looks = std::move(taken.looks);
+            object.materials = std::move(scene.materials);
+            object.colours = std::move(scene.colours);
+        }
+    });
+    return object;
+}
+
+}  // namespace droplet
