@@ -115,6 +115,11 @@ Dew placeDew(const DewCommandOptions& options, const droplet::Progress& progress
     droplet::FlowSurface faces =
         forOption(options.object, [&] { return droplet::flowSurface(object.vertices, object.triangles); });
     faceAs(faces, object);
+    if (droplet::hasHoles(object)) {
+        faces = forOption(options.object, [&] {
+            return droplet::withoutHoles(droplet::refined(faces, 2.0 * options.dew.smallest), object);
+        });
+    }
     droplet::FlowTerrain terrain(std::move(faces));
     droplet::DewOptions dew = options.dew;
     std::optional<droplet::Mask> mask;

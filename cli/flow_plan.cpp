@@ -214,8 +214,10 @@ FlowPlan planOf(const FlowOptions& options)
         surface.report = report;
     }
     if (!options.preset || options.parameters.model == droplet::FlowModel::Capillary) {
-        surface = droplet::refined(surface, longestEdge(options, surface));
+        const double width = longestEdge(options, surface);
+        surface = droplet::refined(surface, droplet::hasHoles(object) ? 0.5 * width : width);
     }
+    surface = forOption(name, [&] { return droplet::withoutHoles(surface, object); });
     droplet::FlowShapes shapes =
         deforms ? forOption(name,
                             [&] {

@@ -135,13 +135,29 @@ struct Ellipsoid {
 
 /// Whether a seated droplet still looks like one.
 /// @param volume  of the mesh
-bool isLike(const DropletMesh& mesh, const DropletShape& shape, double volume)
+/// @param rim     number of its vertices on the rim
+bool isLike(const DropletMesh& mesh, const DropletShape& shape, double volume, std::size_t rim)
 {
     constexpr double kTaller = 1.6;
+    constexpr double kWider = 1.1;  // it has no more room between the others
     constexpr double kLost = 0.01;
     const double seated = volumeUnder(shape.vertices, mesh.triangles);
     const auto height = [](const std::vector<Vec3>& vertices) { return cornersOf(vertices)[1].z; };
-    return std::abs(seated / volume - 1.0) <= kLost && height(shape.vertices) <= kTaller * height(mesh.vertices);
+    const auto width = [rim](const std::vector<Vec3>& vertices) {
+        const auto points = std::span(vertices).subspan(vertices.size() - baseVertices(rim), rim);
+        Vec3 sum;
+        for (const Vec3 p : points) {
+            sum = sum + p;
+        }
+        double widest = 0.0;
+        for (const Vec3 p : points) {
+            const Vec3 d = p - 1.0 / static_cast<double>(rim) * sum;
+            widest = std::max(widest, std::hypot(d.x, d.y));
+        }
+        return widest;
+    };
+    return std::abs(seated / volume - 1.0) <= kLost && height(shape.vertices) <= kTaller * height(mesh.vertices) &&
+           width(shape.vertices) <= kWider * width(mesh.vertices);
 }
 
 /// Ground under a rim: harmonics of its heights over the contact radius.
@@ -477,7 +493,7 @@ DewModel::DewModel(const FlowTerrain& terrain, std::span<const FlowSample> sampl
         }
         const DropletMesh& mesh = content.kinds[i]->second.mesh;
         const DropletShape shape = seatedBody(terrain, mesh, rim, content.poses[i]);
-        sits[i] = isLike(mesh, shape, unit) ? 1 : 0;
+        sits[i] = isLike(mesh, shape, unit, rim) ? 1 : 0;
         content.own[i] = inObject(shape, content.poses[i]);
     });
     for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -30,15 +30,14 @@ int pixelAt(double coordinate, int count)
     return std::min(static_cast<int>((coordinate - std::floor(coordinate)) * count), count - 1);
 }
 
-double levelAt(const HeightMap& picture, Vec2 uv)
+/// Mean over a triangle's parts, which are about as large as pixels: it is divided n times along every side.
+/// @param level  of a pixel, 0 … 1
+template <typename Raster, typename Level>
+double meanOver(const Raster& picture, const std::array<Vec2, 3>& uvs, const Level& level)
 {
-    const auto level = static_cast<double>(picture.at(pixelAt(uv.x, picture.width), pixelAt(uv.y, picture.height)));
-    return std::clamp(level, 0.0, 1.0);
-}
-
-/// Mean over the triangle's parts, which are about as large as pixels: it is divided n times along every side.
-double meanOver(const HeightMap& picture, const std::array<Vec2, 3>& uvs)
-{
+    const auto level_at = [&](Vec2 uv) -> double {
+        return level(pixelAt(uv.x, picture.width), pixelAt(uv.y, picture.height));
+    };
     constexpr double kMaxParts = 64.0;
     double longest = 1.0;  // [px]
     for (std::size_t k = 0; k < 3; ++k) {
@@ -52,13 +51,42 @@ double meanOver(const HeightMap& picture, const std::array<Vec2, 3>& uvs)
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < n - i; ++j) {
             const Vec2 corner = uvs[0] + static_cast<double>(i) * p + static_cast<double>(j) * q;
-            sum += levelAt(picture, corner + (1.0 / 3.0) * (p + q));
+            sum += level_at(corner + (1.0 / 3.0) * (p + q));
             if (i + j + 1 < n) {
-                sum += levelAt(picture, corner + (2.0 / 3.0) * (p + q));
+                sum += level_at(corner + (2.0 / 3.0) * (p + q));
             }
         }
     }
     return sum / (static_cast<double>(n) * n);
+}
+
+/// Texture coordinates of a face's corners.
+std::array<Vec2, 3> uvsOf(const FlowObject& object, const FlowSurface::Face& face)
+{
+    const auto weights = cornerWeights(object, face);
+    std::array<Vec2, 3> corners;
+    std::transform(weights.begin(), weights.end(), corners.begin(),
+                   [&](const std::array<double, 3>& w) { return mixed(object.uvs, object.triangles[face.source], w); });
+    return corners;
+}
+
+/// Whether the look of a face cuts all of it out.
+bool isCutOut(const FlowObject& object, const FlowSurface::Face& face)
+{
+    const StandLook& look = object.looks[object.materials[face.source]];
+    if (!look.coverage) {
+        return false;
+    }
+    const Picture& coverage = *look.coverage;
+    std::array<Vec2, 3> uvs = uvsOf(object, face);
+    std::transform(uvs.begin(), uvs.end(), uvs.begin(), [&](Vec2 uv) { return look.place.at(uv); });
+    return meanOver(coverage, uvs, [&](int x, int y) {
+               const std::uint8_t red =
+                   coverage.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(coverage.width) +
+                                     static_cast<std::size_t>(x))];
+               const bool is_there = look.cutoff ? red / 255.0 >= *look.cutoff : red > 0;
+               return is_there ? 1.0 : 0.0;
+           }) == 0.0;
 }
 
 /// Values of faces that materials replace.
@@ -122,14 +150,44 @@ std::vector<double> meansOverFaces(const HeightMap& picture, const FlowObject& o
     std::vector<double> means;
     means.reserve(surface.faces.size());
     for (const FlowSurface::Face& face : surface.faces) {
-        const Triangle& triangle = object.triangles[face.source];
-        const auto weights = cornerWeights(object, face);
-        std::array<Vec2, 3> corners;
-        std::transform(weights.begin(), weights.end(), corners.begin(),
-                       [&](const std::array<double, 3>& w) { return mixed(object.uvs, triangle, w); });
-        means.push_back(meanOver(picture, corners));
+        means.push_back(meanOver(picture, uvsOf(object, face), [&](int x, int y) {
+            return std::clamp(static_cast<double>(picture.at(x, y)), 0.0, 1.0);
+        }));
     }
     return means;
+}
+
+bool hasHoles(const FlowObject& object)
+{
+    return !object.uvs.empty() && !object.materials.empty() &&
+           std::any_of(object.looks.begin(), object.looks.end(),
+                       [](const StandLook& look) { return look.coverage.has_value(); });
+}
+
+FlowSurface withoutHoles(const FlowSurface& surface, const FlowObject& object)
+{
+    if (!hasHoles(object)) {
+        return surface;
+    }
+    FlowSurface result;
+    result.report = surface.report;
+    std::vector<std::uint32_t> numbers(surface.faces.size(), FlowSurface::kNone);
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+        const FlowSurface::Face& face = surface.faces[f];
+        if (!isCutOut(object, face)) {
+            numbers[f] = static_cast<std::uint32_t>(result.faces.size());
+            result.faces.push_back(face);
+        }
+    }
+    if (result.faces.empty()) {
+        throw Error(ErrorCode::InvalidInput, "the alpha of its pictures cuts out the whole object");
+    }
+    for (FlowSurface::Face& face : result.faces) {
+        for (std::uint32_t& neighbour : face.neighbour) {
+            neighbour = neighbour == FlowSurface::kNone ? neighbour : numbers[neighbour];
+        }
+    }
+    return result;
 }
 
 FaceProperties faceProperties(const FlowObject& object, const FlowSurface& surface, const FacePropertyOptions& options)

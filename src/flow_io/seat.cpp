@@ -6,7 +6,8 @@
 // For small slopes the equation of Young and Laplace is linear: surfaces of one pressure over two rims differ by a
 // harmonic function, those of two pressures over one rim by 1 - r². So liquid is smooth, even over ground with edges;
 // its base alone has these. Where the ground would come out of the liquid, it is just covered. The volume is linear in
-// c but for that, so that secants give the c with which it stays.
+// c but for that, so that secants give the c with which it stays. A droplet that would have to become too tall, as on a
+// narrow ridge, becomes wider.
 #include "flow_io/seat.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ constexpr double kSteepest = 2.5;  // rise of the ground that a droplet follows,
 constexpr double kLeastWay = 0.8;  // to which a rim is drawn back, over its distance from the middle
 constexpr double kMostTall = 2.5;  // factor on heights
 constexpr double kMostStep = 0.5;  // of the ground from the plane through middle and rim, over the mean radius
-constexpr int kSteps = 12;         // along the way from the middle to the rim
+constexpr int kWaySteps = 12;      // along the way from the middle to the rim
 
 struct Local {
     Vec2 level;
@@ -73,13 +74,13 @@ public:
     /// Share of the way to a point over which the ground goes on without a step.
     [[nodiscard]] double wayTo(Vec2 p) const
     {
-        const double step = length(p) / kSteps;
+        const double step = length(p) / kWaySteps;
         double before = at({}).value_or(0.0);
-        for (int i = 1; i <= kSteps; ++i) {
-            const double share = static_cast<double>(i) / kSteps;
+        for (int i = 1; i <= kWaySteps; ++i) {
+            const double share = static_cast<double>(i) / kWaySteps;
             const auto height = at(share * p);
             if (!height || std::abs(*height - before) > kSteepest * step) {
-                return edgeBetween(p, {share - 1.0 / kSteps, share}, before);
+                return edgeBetween(p, {share - 1.0 / kWaySteps, share}, before);
             }
             before = *height;
         }
@@ -568,9 +569,14 @@ std::vector<Triangle> baseTriangles(std::size_t rim)
     return triangles;
 }
 
-std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, FlatDroplet droplet)
+namespace {
+
+/// Seats a droplet.
+/// @param is_last  whether it is seated although it loses volume
+/// @return         its base; or nothing, and the droplet as it was, if it would lose volume
+std::optional<std::vector<Vec3>> seatAsItIs(const FlowTerrain& terrain, const DropletFrame& frame, FlatDroplet droplet,
+                                            bool is_last)
 {
-    roundOverEdge(terrain, frame, droplet);
     std::vector<Local> flat;
     for (const Vec3 p : droplet.vertices) {
         flat.push_back(toLocal(frame, p));
@@ -597,14 +603,69 @@ std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, Fl
     seated_rim.keepDistances(ground);
     const Seating seating = seatingOf(ground, shape, seated_rim);
 
+    const double factor = factorOf(ground, shape, seating);
+    if (factor >= kMostTall && !is_last) {
+        return std::nullopt;
+    }
     const std::vector<Vec3> before = facing(droplet.vertices, droplet.triangles);
-    const std::vector<Vec3> seated = placed(ground, shape, seating, factorOf(ground, shape, seating));
+    const std::vector<Vec3> seated = placed(ground, shape, seating, factor);
     std::copy(seated.begin(), seated.end(), droplet.vertices.begin());
     const std::vector<Vec3> after = facing(droplet.vertices, droplet.triangles);
     for (std::size_t v = 0; v < flat.size(); ++v) {
         droplet.normals[v] = unit(turned(droplet.normals[v] - unit(before[v])) + unit(after[v]));
     }
     return seating.base;
+}
+
+/// Makes a droplet wider, and flatter by as much.
+void widen(const DropletFrame& frame, FlatDroplet droplet, double factor)
+{
+    const double height = 1.0 / (factor * factor);
+    for (Vec3& p : droplet.vertices) {
+        const Vec3 d = p - frame.place;
+        const double up = dot(d, frame.normal);
+        p = frame.place + factor * (d - up * frame.normal) + height * up * frame.normal;
+    }
+    for (Vec3& n : droplet.normals) {
+        const double up = dot(n, frame.normal);
+        n = unit((1.0 / factor) * (n - up * frame.normal) + (up / height) * frame.normal);
+    }
+}
+
+}  // namespace
+
+std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, FlatDroplet droplet)
+{
+    roundOverEdge(terrain, frame, droplet);
+    if (auto base = seatAsItIs(terrain, frame, droplet, false)) {
+        return *std::move(base);
+    }
+    // In a narrow place liquid goes on along it: a wider droplet finds more of a base there. It is no wider than it has
+    // to be, so that one that runs changes steadily.
+    constexpr double kStep = 0.15;
+    constexpr int kSteps = 5;
+    constexpr int kHalvings = 4;
+    const std::vector<Vec3> vertices(droplet.vertices.begin(), droplet.vertices.end());
+    const std::vector<Vec3> normals(droplet.normals.begin(), droplet.normals.end());
+    const auto seat_wider = [&](double width, bool is_last) {
+        std::copy(vertices.begin(), vertices.end(), droplet.vertices.begin());
+        std::copy(normals.begin(), normals.end(), droplet.normals.begin());
+        widen(frame, droplet, width);
+        return seatAsItIs(terrain, frame, droplet, is_last);
+    };
+    for (int step = 1; step <= kSteps; ++step) {
+        if (!seat_wider(1.0 + kStep * step, false)) {
+            continue;
+        }
+        double low = 1.0 + kStep * (step - 1);
+        double high = low + kStep;
+        for (int k = 0; k < kHalvings; ++k) {
+            const double middle = 0.5 * (low + high);
+            (seat_wider(middle, false) ? high : low) = middle;
+        }
+        return *seat_wider(high, true);
+    }
+    return *seat_wider(1.0, true);
 }
 
 }  // namespace droplet

@@ -37,8 +37,8 @@ struct FlatDroplet {
 
 /// Moves a droplet onto the ground below it. Its rim and its base follow the ground along the droplet's normal, its
 /// surface the rim, smoothly. Where ground ends, falls away or rises too steeply, as at an edge, the rim is drawn back
-/// to there; where it cannot be, the rim goes to the nearest point. The height then gives back the volume, and normals
-/// follow.
+/// to there; where it cannot be, the rim goes to the nearest point. The height then gives back the volume, or a
+/// larger width, and normals follow.
 /// @return  vertices of its base
 std::vector<Vec3> seat(const FlowTerrain& terrain, const DropletFrame& frame, FlatDroplet droplet);
 

@@ -4,7 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+#include <vector>
+
 #include "droplet/error.h"
+#include "droplet/flow/dew.h"
 #include "droplet/flow/flow.h"
 #include "droplet/flow/scatter.h"
 #include "droplet/flow_io/flow_points.h"
@@ -134,6 +142,84 @@ TEST(FaceProperties, NamesWhatIsWrong)
     EXPECT_THAT(refusal_of({.materials = {{"wood", {}}}}), HasSubstr("has no materials"));
     object.uvs.clear();
     EXPECT_THAT(refusal_of({.roughness_picture = half(4)}), HasSubstr("unwrap"));
+}
+
+// A square of 10 cm whose picture shows a disc: droplets are on it alone, and fall at its edge.
+TEST(FaceProperties, SurfacesEndWhereThePictureIsCutOut)
+{
+    constexpr double kSide = 0.1;
+    constexpr double kRadius = 0.3;  // of the disc, in uv
+    constexpr double kEdge = 0.004;  // longest of a face [m]
+    FlowObject object = square();
+    for (Vec3& p : object.vertices) {
+        p = kSide * p;
+    }
+    const auto from_middle = [&](Vec3 p) { return std::hypot(p.x / kSide - 0.5, p.y / kSide - 0.5); };
+    constexpr int kPixels = 256;
+    Picture disc{kPixels, kPixels, {}};
+    for (int y = 0; y < kPixels; ++y) {
+        for (int x = 0; x < kPixels; ++x) {
+            const bool is_in = std::hypot((x + 0.5) / kPixels - 0.5, (y + 0.5) / kPixels - 0.5) < kRadius;
+            disc.rgb.insert(disc.rgb.end(), 3, is_in ? std::uint8_t{255} : std::uint8_t{51});
+        }
+    }
+    object.looks.assign(2, StandLook{});
+    const FlowSurface all = refined(flowSurface(object.vertices, object.triangles), kEdge);
+    EXPECT_FALSE(hasHoles(object));
+    EXPECT_EQ(withoutHoles(all, object).faces.size(), all.faces.size());
+    for (StandLook& look : object.looks) {
+        look.coverage = disc;
+    }
+    EXPECT_TRUE(hasHoles(object));
+    EXPECT_EQ(withoutHoles(all, object).faces.size(), all.faces.size()) << "a little is there everywhere";
+    for (StandLook& look : object.looks) {
+        look.cutoff = 0.5;
+    }
+    const FlowSurface left = withoutHoles(all, object);
+    double area = 0.0;
+    for (std::uint32_t f = 0; f < left.faces.size(); ++f) {
+        const FlowSurface::Face& face = left.faces[f];
+        area += areaOf(face);
+        EXPECT_LT(from_middle(face.corners[0]), kRadius + 1.5 * kEdge / kSide);
+        for (const std::uint32_t neighbour : face.neighbour) {
+            EXPECT_TRUE(neighbour == FlowSurface::kNone || std::count(left.faces[neighbour].neighbour.begin(),
+                                                                      left.faces[neighbour].neighbour.end(), f) == 1);
+        }
+    }
+    const double disc_area = std::numbers::pi * kRadius * kRadius * kSide * kSide;
+    EXPECT_GT(area, disc_area);
+    EXPECT_LT(area, disc_area * std::pow(1.0 + kEdge / (kSide * kRadius), 2));
+
+    const FlowTerrain terrain(left);
+    DewOptions dew;
+    dew.smallest = 1e-3;
+    dew.largest = 2e-3;
+    const std::vector<FlowSample> drops = dewDroplets(terrain, dew).samples;
+    EXPECT_GT(drops.size(), 100U);
+    for (const FlowSample& sample : drops) {
+        EXPECT_LT(from_middle(sample.place), kRadius + kEdge / kSide);
+    }
+    FlowParameters tilted;
+    tilted.gravity = kStandardGravity * Vec3{0.8, 0.0, -0.6};
+    FlowState state = startFlow(terrain, tilted, {FlowStart{{0.05, 0.05, 0.0}, 60e-9, {}}});
+    constexpr int kSteps = 200;
+    double last = 0.0;  // x on the ground
+    bool falls = false;
+    for (int k = 1; k <= kSteps && !falls; ++k) {
+        state = advanceFlow(std::move(state), terrain, tilted, 0.01 * k);
+        const std::vector<FlowSample> samples = sampleFlow(state, terrain, tilted);
+        falls = samples.empty() || samples.front().contact == FlowContact::Air;
+        last = falls ? last : samples.front().place.x;
+    }
+    EXPECT_TRUE(falls);
+    EXPECT_NEAR(last, (0.5 + kRadius) * kSide, 0.01) << "at the edge of the disc, 2 cm before that of the square";
+
+    std::fill(disc.rgb.begin(), disc.rgb.end(), std::uint8_t{0});
+    object.looks.assign(2, StandLook{});
+    for (StandLook& look : object.looks) {
+        look.coverage = disc;
+    }
+    EXPECT_THROW((void)withoutHoles(all, object), Error) << "nothing is left";
 }
 
 TEST(FaceProperties, ScattersDropletsOverAMask)

@@ -53,6 +53,16 @@ FaceProperties faceProperties(const FlowObject& object, const FlowSurface& surfa
 /// @throws Error   InvalidArgument if the object has no uv
 std::vector<double> meansOverFaces(const HeightMap& picture, const FlowObject& object, const FlowSurface& surface);
 
+/// Whether the alpha of a picture cuts something out of an object.
+bool hasHoles(const FlowObject& object);
+
+/// A surface without the faces that the alpha of the object's pictures cuts out as a whole: droplets find no place
+/// there, and fall off at the edge. What is cut has an alpha below the look's cutoff, or of 0 without one.
+/// @param surface  of the object; the finer its faces, the nearer its edge is to that of the pictures
+/// @param object   with texture coordinates, if hasHoles()
+/// @throws Error   InvalidInput if nothing is left
+FlowSurface withoutHoles(const FlowSurface& surface, const FlowObject& object);
+
 /// Coverage of a mask at points of a surface, 0 … 1, for ScatterOptions::coverage. The mask lies over the object's uv
 /// and repeats beyond its unit square.
 /// @param mask     valid; like the others, it must outlive the result
