@@ -450,7 +450,7 @@ private:
             members.push_back(i);
             members.push_back(j);
         }
-        joinPonds(sets, members);
+        joinPonds(balls, sets, members);
         std::sort(members.begin(), members.end());
         members.erase(std::unique(members.begin(), members.end()), members.end());
         std::vector<Pair> grouped;
@@ -709,7 +709,7 @@ private:
     [[nodiscard]] PondField pondField() const { return {c_, p_, field_, end()}; }
 
     /// Ponds take up what they cover, and one another where both stand over the edge between them.
-    void joinPonds(UnionFind& sets, std::vector<std::uint32_t>& members)
+    void joinPonds(std::span<const MovingBall> balls, UnionFind& sets, std::vector<std::uint32_t>& members)
     {
         const std::size_t count = s_.droplets.size();
         const PondField field = pondField();
@@ -732,7 +732,7 @@ private:
                 Ponds found;
                 for (std::size_t k = first; k < last; ++k) {
                     const std::uint32_t i = on_faces[k].second;
-                    if (auto filled = pondOf(field, s_.droplets[i])) {
+                    if (auto filled = pondOf(field, s_.droplets[i], {balls[i].to, balls[i].reach})) {
                         found.emplace_back(i, *std::move(filled));
                     }
                 }
@@ -805,7 +805,7 @@ private:
                     if (d.contact == FlowContact::Air || !may_lie || !(d.volume > 0.0)) {
                         continue;
                     }
-                    const RestingLiquid liquid = restingLiquid(field, d);
+                    const RestingLiquid liquid = restingLiquid(field, d, standingOf(field, d));
                     if (d.volume <= d.held && length(liquid.place - d.held_at) <= liquid.radius && !moves()) {
                         continue;
                     }
@@ -834,7 +834,7 @@ private:
         for (const auto& [i, brim] : brims()) {
             FlowDroplet over = s_.droplets[i];
             over.has_grown = true;
-            const double most = capVolume(restingLiquid(pondField(), over).puddle, p_.contactAngleOn(over.face));
+            const double most = capVolume(restingLiquid(pondField(), over, {}).puddle, p_.contactAngleOn(over.face));
             const double volume = std::max(std::min(over.volume - brim.capacity, most), over.volume - brim.held);
             double gap = 0.0;  // to what stays
             if (over.volume - volume >= p_.small_volume) {
@@ -985,7 +985,8 @@ std::vector<FlowSample> sampleFlow(const FlowState& state, const FlowTerrain& te
         ponds.size(),
         [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
-                if (auto filled = pondOf(field, shown->droplets[i])) {
+                const FlowDroplet& d = shown->droplets[i];
+                if (auto filled = pondOf(field, d, standingOf(field, d))) {
                     ponds[i] = std::move(filled->pond);
                 }
             }

@@ -10,24 +10,27 @@
 
 namespace droplet {
 
-RestingLiquid restingLiquid(const PondField& at, const FlowDroplet& droplet)
+Standing standingOf(const PondField& at, const FlowDroplet& droplet)
+{
+    return {droplet.leg.placeAt(at.time), contactRadius(at.parameters, droplet.face, droplet.volume)};
+}
+
+RestingLiquid restingLiquid(const PondField& at, const FlowDroplet& droplet, const Standing& standing)
 {
     const FlowParameters& p = at.parameters;
     const Liquid& liquid = p.forces.liquid;
     const double angle = p.contactAngleOn(droplet.face);
     const double puddle =
         2.0 * std::sqrt(liquid.surface_tension / (liquid.density * length(at.field.gravity))) * std::sin(0.5 * angle);
-    return {droplet.face,   droplet.leg.placeAt(at.time),
-            droplet.volume, contactRadius(p, droplet.face, droplet.volume),
-            angle,          puddle};
+    return {droplet.face, standing.place, droplet.volume, standing.radius, angle, puddle};
 }
 
-std::optional<FilledHollow> pondOf(const PondField& at, const FlowDroplet& droplet)
+std::optional<FilledHollow> pondOf(const PondField& at, const FlowDroplet& droplet, const Standing& standing)
 {
     if (droplet.contact == FlowContact::Air || !(droplet.volume > 0.0) || !(length(at.field.gravity) > 0.0)) {
         return std::nullopt;
     }
-    const RestingLiquid liquid = restingLiquid(at, droplet);
+    const RestingLiquid liquid = restingLiquid(at, droplet, standing);
     const Vec3 velocity = droplet.leg.velocityAt(at.time);
     Vec3 felt = at.field.gravity;
     if (!at.parameters.motion.rests()) {

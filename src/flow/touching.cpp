@@ -76,6 +76,13 @@ void visitBuckets(const Box& box, double per_metre, std::uint64_t mask, const Vi
 template <typename Joins>
 void connect(std::span<const std::uint32_t> members, const Joins& joins, std::vector<Pair>& pairs)
 {
+    // Most often none touch, which takes no lists.
+    const bool do_any_touch = std::any_of(members.begin(), members.end(), [&](const std::uint32_t& i) {
+        return std::any_of(members.data(), &i, [&](std::uint32_t j) { return joins(std::min(i, j), std::max(i, j)); });
+    });
+    if (!do_any_touch) {
+        return;
+    }
     std::vector<std::vector<std::uint32_t>> groups;
     for (const std::uint32_t i : members) {
         std::vector<std::uint32_t> own{i};
