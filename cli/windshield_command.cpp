@@ -29,7 +29,8 @@ std::string summaryOf(const droplet::WindshieldReport& report)
     return fmt::format("{} frame{}; at {:.4g} s {} still droplets, {} larger, of which {} move\n", report.frames,
                        report.frames == 1 ? "" : "s", last.time, last.still, last.running, last.moving) +
            fmt::format("water: {} rained = {} on the glass + {} run off + {} wiped off\n", litres(water.rained),
-                       litres(water.on_glass_still + water.on_glass_running), litres(water.left), litres(water.wiped)) +
+                       litres(water.on_glass_still + water.on_glass_film + water.on_glass_running), litres(water.left),
+                       litres(water.wiped)) +
            oneLine(report.output) + "\n";
 }
 

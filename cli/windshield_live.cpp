@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Options that the page begins with, and those of every run.
-constexpr std::array<std::string_view, 31> kKnown{"--live",
+constexpr std::array<std::string_view, 32> kKnown{"--live",
                                                   "--preset",
                                                   "--rain",
                                                   "--mist",
@@ -46,6 +46,7 @@ constexpr std::array<std::string_view, 31> kKnown{"--live",
                                                   "--still-diameter",
                                                   "--splashes",
                                                   "--film",
+                                                  "--runoff",
                                                   "--contact-angle",
                                                   "--viscosity-factor",
                                                   "--kinetic-fraction",
@@ -140,11 +141,12 @@ std::string valuesOf(const WindshieldOptions& options)
     const droplet::Wetting& wetting = p.forces.wetting;
     std::string text = fmt::format(
         R"({{"preset":"{}","parameters":{{"speed":{},"rain":{},"mist":{},"noise":{},"wiperPeriod":{},"seed":{},)"
-        R"("hysteresis":{},"stillDiameter":{},"film":{},"splashes":{},"contactAngle":{},"viscosityFactor":{},)"
+        R"("hysteresis":{},"stillDiameter":{},"film":{},"runoff":{},"splashes":{},"contactAngle":{},"viscosityFactor":{},)"
         R"("kineticFraction":{},"gravity":{})",
         options.preset, p.vehicle.speedAt(0.0), p.rainfall, p.mist, p.fluctuation.acceleration,
-        options.wiper.value_or(0.0), p.seed, wetting.hysteresis, p.still_diameter, p.streaks.film, p.splashes ? 1 : 0,
-        wetting.contact_angle, wetting.viscosity_factor, wetting.kinetic_fraction, p.forces.gravity);
+        options.wiper.value_or(0.0), p.seed, wetting.hysteresis, p.still_diameter, p.streaks.film, p.runoff,
+        p.splashes ? 1 : 0, wetting.contact_angle, wetting.viscosity_factor, wetting.kinetic_fraction,
+        p.forces.gravity);
     if (options.surface) {
         text += R"(},"surface":)" + valuesOf(droplet::readObject(*options.surface));
     } else {

@@ -33,6 +33,7 @@ constexpr Range kRadius{Dimension::Length, 0.1, 1e6, "from 0.1m to 1e6m"};
 constexpr Range kSlope{Dimension::Angle, 0.0, 90.0 * kDegree, "from 0deg to 90deg"};
 constexpr Range kNoise{Dimension::Acceleration, 0.0, 1e3, "from 0m/s2 to 1000m/s2"};
 constexpr Range kFilm{Dimension::Length, 0.0, 1e-3, "from 0mm to 1mm"};
+constexpr Range kRunoff{Dimension::Duration, 0.0, 10.0, "from 0s to 10s"};
 constexpr Range kTime{Dimension::Duration, 1e-3, 86400.0, "from 1ms to 24h"};
 constexpr Range kWarmUp{Dimension::Duration, 0.0, 86400.0, "from 0s to 24h"};
 constexpr Range kPeriod{Dimension::Duration, 1.2, 60.0, "from 1.2s to 60s"};
@@ -114,6 +115,11 @@ void declare(CommandLine& line, WindshieldOptions& options)
              into(options.parameters.still_diameter, kStill));
     line.add(kDroplets, "--film", "LENGTH", "Thickness of the film that running droplets leave behind",
              into(options.parameters.streaks.film, kFilm));
+    line.add(kDroplets, "--runoff", "DURATION",
+             "Time after which the film of heavy rain, which runs off in sheets and rivulets, breaks up without more "
+             "rain; 0s: "
+             "there is none, as on water-repellent glass [1s, with --preset 0s]",
+             within(kRunoff));
     declareForces(line, options.parameters.forces);
     line.add(kDroplets, "--shape", "capillary|capsule",
              "Shape of running droplets: capillary has least energy and a tail; capsule is the thesis' "
@@ -229,6 +235,11 @@ void readDroplets(const CommandLine& line, WindshieldOptions& options)
 {
     droplet::ForceModel& forces = options.parameters.forces;
     readForces(line, forces);
+    constexpr double kRunoffLasts = 1.0;  // [s]
+    options.parameters.runoff = line.value("--preset") ? 0.0 : kRunoffLasts;
+    if (const auto runoff = line.value("--runoff")) {
+        options.parameters.runoff = quantity(*runoff, kRunoff);
+    }
     if (const auto hysteresis = line.value("--hysteresis")) {
         forces.wetting.hysteresis = number(*hysteresis, {0.0, 2.0, "a number from 0 to 2"});
         forces.wetting.sliding_angle.reset();

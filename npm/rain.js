@@ -5,7 +5,7 @@ import { DropletError } from './droplet_error.js';
 
 /** Parameters, as droplet_windshield_set() has them; those of the glass come first, before others depend on it. */
 const kParameters = ['glass-width', 'glass-height', 'glass-radius', 'slope', 'seed', 'speed', 'rain', 'noise', 'wiper-period', 'gravity',
-    'contact-angle', 'hysteresis', 'kinetic-fraction', 'viscosity-factor', 'film', 'still-diameter', 'mist', 'splashes'];
+    'contact-angle', 'hysteresis', 'kinetic-fraction', 'viscosity-factor', 'film', 'still-diameter', 'runoff', 'mist', 'splashes'];
 const camelCase = (name) => name.replace(/-(\w)/g, (_, letter) => letter.toUpperCase());
 const kNames = new Map(kParameters.map((name) => [camelCase(name), name]));
 /** Names of all parameters, and of those that a mesh has itself. */
@@ -199,7 +199,15 @@ export async function loadRain(wasm) {
         }
 
         mist() {
-            check(rain.droplet_windshield_mist(this.#kept(), room));
+            return this.#cells(rain.droplet_windshield_mist);
+        }
+
+        runoff() {
+            return this.#cells(rain.droplet_windshield_runoff);
+        }
+
+        #cells(brought) {
+            check(brought(this.#kept(), room));
             const pixels = view().getUint32(room, true);
             const [width, height] = [4, 8].map((at) => view().getInt32(room + at, true));
             const [right, top] = numbers(2, room + 16);

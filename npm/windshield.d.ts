@@ -28,6 +28,8 @@ export interface WindshieldValues {
     film?: number;
     /** Smaller raindrops never move, 0.11 to 2 mm, in metres */
     stillDiameter?: number;
+    /** Time after which the film of heavy rain breaks up without more rain, 0 to 10 s; 0: there is none */
+    runoff?: number;
     /** Growth of the mist's thickness [m/s], up to 1e-6; it ends at 10 µm */
     mist?: number;
     /** 1: maps have the rings of large raindrops that have just hit; 0: they have not */
@@ -161,6 +163,8 @@ export interface Windshield {
     draw(): WaterMap;
     /** Brings the map of the mist up to the state. */
     mist(): MistMap;
+    /** Brings the map of the film that runs off up to the state: 255 is 0.51 mm or more. */
+    runoff(): MistMap;
     /** [px]; after another width all is drawn anew */
     mapWidth: number;
     readonly mapHeight: number;

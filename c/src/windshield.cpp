@@ -43,6 +43,7 @@ struct DropletWindshield {
     bool is_blank = true;      ///< whether nothing has been drawn on the maps
     std::vector<DropletTile> tiles;
     std::vector<std::uint8_t> mist;
+    std::vector<std::uint8_t> runoff;
     std::vector<DropletCorner> corners;  ///< of the glass's triangles
 };
 
@@ -206,6 +207,8 @@ const std::vector<Parameter>& parameters()
         number(
             "still-diameter", 1.1e-4, 2e-3, [](auto& p) -> auto& { return p.still_diameter; }),
         number(
+            "runoff", 0.0, 10.0, [](auto& p) -> auto& { return p.runoff; }),
+        number(
             "mist", 0.0, 1e-6, [](auto& p) -> auto& { return p.mist; }),
         {"splashes", 0.0, 1.0, false,
          [](const DropletWindshield& windshield) { return windshield.parameters.splashes ? 1.0 : 0.0; },
@@ -280,6 +283,32 @@ void put(const droplet::GlassPlace& from, DropletPlace& place)
     put(from.normal, place.normal);
     put(from.across, place.across);
     put(from.up, place.up);
+}
+
+/// Puts cells of the glass into a map.
+/// @param water   has `thickness`, of every cell, empty if there is none
+/// @param levels  for a unit of the thickness
+template <typename Water>
+void putMap(const Water& water, double levels, const DropletWindshield& windshield, std::vector<std::uint8_t>& pixels,
+            DropletMistMap& map)
+{
+    const droplet::Glass& glass = windshield.parameters.glass;
+    if (water.thickness.empty()) {
+        pixels.assign(1, 0);
+        map = {pixels.data(), 1, 1, 1.0, 1.0};
+        return;
+    }
+    pixels.resize(water.thickness.size());
+    const auto scale = static_cast<float>(levels);
+    for (std::size_t row = 0; row < water.rows; ++row) {
+        const auto* const from = water.thickness.data() + row * water.columns;
+        std::uint8_t* const to = pixels.data() + (water.rows - 1 - row) * water.columns;
+        for (std::size_t k = 0; k < water.columns; ++k) {
+            to[k] = static_cast<std::uint8_t>(std::min(scale * static_cast<float>(from[k]) + 0.5F, 255.0F));
+        }
+    }
+    map = {pixels.data(), static_cast<int32_t>(water.columns), static_cast<int32_t>(water.rows),
+           water.columns * water.cell / glass.width(), water.rows * water.cell / glass.height()};
 }
 
 droplet::TexturedMesh objectOf(const DropletMesh& mesh)
@@ -418,8 +447,9 @@ DropletCode droplet_windshield_water(const DropletWindshield* windshield, Drople
     return guarded([&] {
         required("windshield", windshield);
         const droplet::WaterBalance balance = balanceOf(windshield->state);
-        *required("water", water) = {balance.on_glass_mist + balance.on_glass_still + balance.on_glass_running,
-                                     balance.residual()};
+        *required("water", water) = {
+            balance.on_glass_mist + balance.on_glass_film + balance.on_glass_still + balance.on_glass_running,
+            balance.residual()};
     });
 }
 
@@ -521,25 +551,16 @@ DropletCode droplet_windshield_mist(DropletWindshield* windshield, DropletMistMa
 {
     return guarded([&] {
         required("windshield", windshield);
-        required("map", map);
-        const droplet::Mist& mist = windshield->state.mist;
-        const droplet::Glass& glass = windshield->parameters.glass;
-        std::vector<std::uint8_t>& pixels = windshield->mist;
-        if (mist.thickness.empty()) {
-            pixels.assign(1, 0);
-            *map = {pixels.data(), 1, 1, 1.0, 1.0};
-            return;
-        }
-        pixels.resize(mist.thickness.size());
-        constexpr float kLevels = static_cast<float>(255.0 / droplet::kDenseMist);
-        for (std::size_t row = 0; row < mist.rows; ++row) {
-            const float* const from = mist.thickness.data() + row * mist.columns;
-            std::uint8_t* const to = pixels.data() + (mist.rows - 1 - row) * mist.columns;
-            for (std::size_t k = 0; k < mist.columns; ++k) {
-                to[k] = static_cast<std::uint8_t>(std::lround(kLevels * from[k]));
-            }
-        }
-        *map = {pixels.data(), static_cast<int32_t>(mist.columns), static_cast<int32_t>(mist.rows),
-                mist.columns * mist.cell / glass.width(), mist.rows * mist.cell / glass.height()};
+        constexpr double kLevels = 255.0 / droplet::kDenseMist;
+        putMap(windshield->state.mist, kLevels, *windshield, windshield->mist, *required("map", map));
+    });
+}
+
+DropletCode droplet_windshield_runoff(DropletWindshield* windshield, DropletMistMap* map)
+{
+    return guarded([&] {
+        required("windshield", windshield);
+        constexpr double kLevels = droplet::Runoff::kThickness / DROPLET_RUNOFF_LEVEL;
+        putMap(windshield->state.film, kLevels, *windshield, windshield->runoff, *required("map", map));
     });
 }

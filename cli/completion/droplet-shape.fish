@@ -280,6 +280,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l slope -
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l surface -r -F -d 'Mesh instead of that glass: .glb or .gltf, its front +Z, normals outward, with texture coordinates that roll it out flat'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l still-diameter -x -d 'Raindrops smaller than this never move'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l film -x -d 'Thickness of the film that running droplets leave behind'
+complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l runoff -x -d 'Time after which the film of heavy rain, which runs off in sheets and rivulets, breaks up without more rain; 0s: there is none, as on water-repellent glass'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l shape -x -a 'capillary capsule' -d 'Shape of running droplets: capillary has least energy and a tail; capsule is the thesis\''
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l time -x -d 'Time to show; with --drive-cycle the cycle\'s own'
 complete -c droplet-shape -n '__fish_seen_subcommand_from windshield' -l warm-up -x -d 'Time of rain before the first frame'

@@ -218,6 +218,28 @@ droplet::Picture grabbed()
     return picture;
 }
 
+/// Levels of 2 µm for the thickness of a film, upper row first.
+std::vector<std::uint8_t> levelsOf(const droplet::Runoff& film)
+{
+    constexpr double kLevels = droplet::Runoff::kThickness / 2e-6;
+    std::vector<std::uint8_t> levels(film.thickness.size());
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        const std::size_t row = film.rows - 1 - k / film.columns;
+        levels[row * film.columns + k % film.columns] =
+            static_cast<std::uint8_t>(std::min(kLevels * film.thickness[k] + 0.5, 255.0));
+    }
+    return levels;
+}
+
+/// Sets a texture of one channel.
+void setLevels(GLenum unit, int width, int height, const std::uint8_t* levels)
+{
+    glActiveTexture(unit);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, levels);
+}
+
 void save(const droplet::Picture& picture, const std::string& path)
 {
     std::ofstream file(path, std::ios::binary);
@@ -236,6 +258,7 @@ void run(const Arguments& arguments, GLFWwindow* window)
     glfwSetKeyCallback(window, onKey);
 
     droplet::WindshieldParameters parameters = droplet::windshieldPresetNamed("figure-3.12").parameters;
+    parameters.runoff = 1.0;
     const droplet::Glass& glass = parameters.glass;
     const std::vector<droplet::Wiper> wipers = droplet::tandemWipers(glass, 1.2);
     droplet::ViewOptions view;
@@ -265,6 +288,8 @@ void run(const Arguments& arguments, GLFWwindow* window)
     glUniform1i(glGetUniformLocation(rain, "dry"), 1);
     glUniform1i(glGetUniformLocation(rain, "mist"), 2);
     glUniform2f(glGetUniformLocation(rain, "mist_edge"), 1.0F, 1.0F);
+    glUniform1i(glGetUniformLocation(rain, "film"), 3);
+    glUniform2f(glGetUniformLocation(rain, "film_edge"), 1.0F, 1.0F);
     glUniform2f(glGetUniformLocation(rain, "wide"), tangent, tangent * kHeight / kWidth);
     const double contact_angle = std::min(view.shape.contact_angle, 90.0 * droplet::kDegree);
     glUniform1f(glGetUniformLocation(rain, "rim"), static_cast<float>(std::sin(contact_angle)));
@@ -278,9 +303,11 @@ void run(const Arguments& arguments, GLFWwindow* window)
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, maps.width(), maps.height(), 0, GL_RGBA, GL_HALF_FLOAT, pixels.data());
     texture(GL_TEXTURE1, GL_LINEAR_MIPMAP_LINEAR);
     setOutside(behind);
-    texture(GL_TEXTURE2, GL_LINEAR);
-    constexpr std::array<std::uint8_t, 4> kNoMist{};
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, 1, 1, 0, GL_RED, GL_UNSIGNED_BYTE, kNoMist.data());
+    constexpr std::uint8_t kNone = 0;
+    for (const GLenum unit : {GL_TEXTURE2, GL_TEXTURE3}) {
+        texture(unit, GL_LINEAR);
+        setLevels(unit, 1, 1, &kNone);
+    }
     Mesh pane;
     addGlass(pane, glass);
     glEnable(GL_FRAMEBUFFER_SRGB);
@@ -306,6 +333,14 @@ void run(const Arguments& arguments, GLFWwindow* window)
                             pixels.data() + std::size_t{4} * (static_cast<std::size_t>(tile.y) *
                                                                   static_cast<std::size_t>(maps.width()) +
                                                               static_cast<std::size_t>(tile.x)));
+        }
+        if (const droplet::Runoff& film = state.film; !film.thickness.empty()) {
+            setLevels(GL_TEXTURE3, static_cast<int>(film.columns), static_cast<int>(film.rows), levelsOf(film).data());
+            glUseProgram(rain);
+            glUniform2f(glGetUniformLocation(rain, "film_edge"),
+                        static_cast<float>(film.columns * film.cell / glass.width()),
+                        static_cast<float>(film.rows * film.cell / glass.height()));
+            glUniform1f(glGetUniformLocation(rain, "time"), static_cast<float>(std::fmod(state.time, 60.0)));
         }
         glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         glClear(GL_COLOR_BUFFER_BIT);

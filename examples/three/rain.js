@@ -57,6 +57,7 @@ export function rainyGlass(rain, shader, outside, blur = 0) {
     const figures = rain.figures();
     const uniforms = {
         water: { value: textureOf(rain.draw(), RGBAFormat, HalfFloatType) }, mist: { value: textureOf(rain.mist(), RedFormat, UnsignedByteType) },
+        film: { value: textureOf(rain.runoff(), RedFormat, UnsignedByteType) }, film_edge: { value: new Vector2(1, 1) }, time: { value: 0 },
         outside: { value: outside }, dry: { value: outside }, blur: { value: blur }, mist_edge: { value: new Vector2(1, 1) },
         glass: { value: new Vector2(figures.width, figures.height) }, eye: { value: new Vector3() }, tangent: { value: new Vector2() },
         wide: { value: new Vector2() }, rim: { value: 1 }, cabin: { value: new Vector3(0.01, 0.01, 0.012) }, border: { value: 0 },
@@ -73,16 +74,19 @@ export function rainyGlass(rain, shader, outside, blur = 0) {
         for (behind = Math.min(behind + seconds, kStepsAtOnce * kStep + 1e-9); behind >= kStep; behind -= kStep) {
             rain.advance(kStep);
         }
-        const mist = rain.mist();
         uniforms.water.value.image.data = rain.draw().pixels;  // in memory that may have moved
         uniforms.water.value.needsUpdate = true;
-        if (uniforms.mist.value.image.width !== mist.width) {
-            uniforms.mist.value.dispose();
-            uniforms.mist.value = textureOf(mist, RedFormat, UnsignedByteType);
+        for (const [name, map] of [['mist', rain.mist()], ['film', rain.runoff()]]) {
+            const uniform = uniforms[name];
+            if (uniform.value.image.width !== map.width) {
+                uniform.value.dispose();
+                uniform.value = textureOf(map, RedFormat, UnsignedByteType);
+            }
+            uniform.value.image.data = map.pixels;
+            uniform.value.needsUpdate = true;
+            uniforms[`${name}_edge`].value.set(map.right, map.top);
         }
-        uniforms.mist.value.image.data = mist.pixels;
-        uniforms.mist.value.needsUpdate = true;
-        uniforms.mist_edge.value.set(mist.right, mist.top);
+        uniforms.time.value = rain.figures().time % 60;
         uniforms.rim.value = Math.sin(Math.min(rain.get('contactAngle'), Math.PI / 2));
         const { x, y, z } = camera.position;
         uniforms.eye.value.set(x, -z, y);

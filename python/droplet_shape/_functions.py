@@ -695,6 +695,7 @@ _WINDSHIELD = {
     "hysteresis": "number",
     "still_diameter": "m",
     "film": "m",
+    "runoff": "s",
     "shape": "text",
     "contact_angle": "rad",
     "viscosity_factor": "Pa.s",
@@ -761,6 +762,7 @@ def windshield(
     hysteresis: float | None = None,
     still_diameter: str | float | None = None,
     film: str | float | None = None,
+    runoff: str | float | None = None,
     shape: Literal["capillary", "capsule"] | None = None,
     contact_angle: str | float | None = None,
     viscosity_factor: str | float | None = None,
@@ -841,6 +843,8 @@ def windshield(
         preset)
       still_diameter [m]: Raindrops smaller than this never move (default: 1mm)
       film [m]: Thickness of the film that running droplets leave behind (default: 0mm)
+      runoff [s]: Time after which the film of heavy rain, which runs off in sheets and rivulets, breaks up without
+        more rain; 0s: there is none, as on water-repellent glass (default: 1s, with preset 0s)
       shape: capillary, capsule: Shape of running droplets: capillary has least energy and a tail; capsule is the
         thesis' (default: capillary, with preset capsule)
 

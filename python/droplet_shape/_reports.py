@@ -777,6 +777,7 @@ class WindshieldBalance(_Report):
     speed_m_per_s: float
     rained_m3: float
     on_glass_still_m3: float
+    on_glass_film_m3: float
     on_glass_running_m3: float
     left_m3: float
     wiped_m3: float
@@ -823,6 +824,7 @@ class WindshieldReport(_Report):
     forces: WindshieldForces  # Parameters of the forces
     fluctuation: WindshieldFluctuation
     streaks: WindshieldStreaks
+    runoff_s: float  # Time after which the film of heavy rain breaks up without more rain; 0: there is none
     wipers: WindshieldWipers  # Wipers
     view: WindshieldView  # The view
     balance: tuple[WindshieldBalance, ...]  # Balance of the water

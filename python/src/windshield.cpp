@@ -60,6 +60,7 @@ droplet::Dimension dimensionOf(std::string_view name)
         std::pair{std::string_view("gravity"), Dimension::Acceleration},
         std::pair{std::string_view("contact-angle"), Dimension::Angle},
         std::pair{std::string_view("viscosity-factor"), Dimension::Viscosity},
+        std::pair{std::string_view("runoff"), Dimension::Duration},
         std::pair{std::string_view("mist"), Dimension::Rainfall},
         std::pair{std::string_view("slope"), Dimension::Angle},
     };
@@ -186,6 +187,13 @@ public:
         return py::array_t<std::uint8_t>({map.height, map.width}, map.pixels);
     }
 
+    py::array runoff()
+    {
+        DropletMistMap map{};
+        check(droplet_windshield_runoff(made_, &map));
+        return py::array_t<std::uint8_t>({map.height, map.width}, map.pixels);
+    }
+
 private:
     /// Python's names have underscores.
     static std::string named(std::string name)
@@ -241,8 +249,8 @@ Positions are on the unrolled glass: x to the driver's right, y up the glass
 first step. Numbers are in SI units, texts have a unit: speed="50km/h".
 
 speed, rain, noise, wiper_period, seed, gravity, contact_angle, hysteresis,
-kinetic_fraction, viscosity_factor, film, still_diameter, mist, splashes,
-glass_width, glass_height, glass_radius, slope: docs/engines.md has their ranges.)")
+kinetic_fraction, viscosity_factor, film, still_diameter, runoff, mist,
+splashes, glass_width, glass_height, glass_radius, slope: docs/engines.md has their ranges.)")
         .def("get", &Windshield::get, py::arg("name"), "Value of a parameter of set().")
         .def("advance", &Windshield::advance, py::arg("seconds"),
              "Advances the rain by a time [s]; at most 1/30 is advised.")
@@ -256,6 +264,8 @@ glass_width, glass_height, glass_radius, slope: docs/engines.md has their ranges
         .def_property_readonly("running", &Windshield::running,
                                "Droplets that are large enough to run: an array with id, x, y, vx, vy, volume, radius.")
         .def_property_readonly("mist", &Windshield::mist, "Mist as bytes, upper row first; 1 x 1 without mist.")
+        .def_property_readonly("runoff", &Windshield::runoff,
+                               "Film that runs off, as bytes of 2 um, upper row first; 1 x 1 without a film.")
         .def("draw", &Windshield::draw, py::arg("width") = 1024,
              R"(Brings the texture up to the state.
 

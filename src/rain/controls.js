@@ -19,6 +19,7 @@ export const kSliders = [
     { group: 'Glass', name: 'contactAngle', label: 'Contact angle', min: 20, max: 160, step: 1, ...scaled(kDegree), show: (v) => `${(v / kDegree).toFixed(0)}°` },
     { group: 'Glass', name: 'hysteresis', label: 'Static hysteresis', min: 0, max: 1.5, step: 0.01, ...scaled(1), show: (v) => v.toFixed(2) },
     { group: 'Glass', name: 'kineticFraction', label: 'Dynamic, of static', min: 0, max: 1, step: 0.01, ...scaled(1), show: (v) => v.toFixed(2) },
+    { group: 'Glass', name: 'runoff', label: 'Film of heavy rain', min: 0, max: 3, step: 0.1, ...scaled(1), show: (v) => (v > 0 ? `lasts ${v.toFixed(1)} s` : 'none') },
     { group: 'Glass', name: 'slope', label: 'Slope', min: 5, max: 85, step: 1, ...scaled(kDegree), show: (v) => `${(v / kDegree).toFixed(0)}°`, again: true },
     { group: 'Glass', name: 'gravity', label: 'Gravity', min: 0, max: 25, step: 0.1, ...scaled(1), show: (v) => `${v.toFixed(1)} m/s²` },
     { group: 'View', name: 'distance', label: 'Eye to glass', min: 15, max: 140, step: 1, ...scaled(0.01), show: (v) => `${(100 * v).toFixed(0)} cm` },

@@ -12,6 +12,9 @@ uniform sampler2D outside;  // what droplets show, sharp, with mipmaps
 uniform sampler2D dry;      // what bare glass shows in the frame, with mipmaps
 uniform sampler2D mist;     // red: how dense it is, 0 to 1; upper edge first
 uniform vec2 mist_edge;     // where its right and upper edges are, over the glass's width and height
+uniform sampler2D film;     // red: thickness of the film that runs off, 1 is 0.51 mm; upper edge first
+uniform vec2 film_edge;     // as mist_edge
+uniform float time;         // [s], with which waves run over the film
 uniform sampler2D edge;     // red: distance from the edge of the glass [m]; upper edge first; not read without a border
 uniform vec2 glass;         // width and height of the glass [m]
 uniform vec3 eye;           // in the vehicle's frame: x right, y ahead, z up [m]
@@ -59,10 +62,10 @@ vec2 scaleOfOutside()
     return wide.x == 0.0 ? size / vec2(2.0 * kPi, kPi) : size / (2.0 * wide);
 }
 
-// A mipmap level of `dry` between its pixels by cubic splines: four places that the texture unit interpolates.
-vec3 smoothDry(vec2 at, float level)
+// A mipmap level of a texture between its pixels by cubic splines: four places that the texture unit interpolates.
+vec3 smoothly(sampler2D from, vec2 at, float level)
 {
-    vec2 size = max(vec2(textureSize(dry, 0)) * exp2(-level), 1.0);
+    vec2 size = max(vec2(textureSize(from, 0)) * exp2(-level), 1.0);
     vec2 p = at * size - 0.5;
     vec2 f = fract(p);
     vec2 f2 = f * f;
@@ -74,8 +77,8 @@ vec3 smoothDry(vec2 at, float level)
     vec2 low = w0 + w1;
     vec2 a = (p - f - 0.5 + w1 / low) / size;
     vec2 b = (p - f + 1.5 + w3 / (1.0 - low)) / size;
-    return mix(mix(textureLod(dry, b, level).rgb, textureLod(dry, vec2(a.x, b.y), level).rgb, low.x),
-               mix(textureLod(dry, vec2(b.x, a.y), level).rgb, textureLod(dry, a, level).rgb, low.x), low.y);
+    return mix(mix(textureLod(from, b, level).rgb, textureLod(from, vec2(a.x, b.y), level).rgb, low.x),
+               mix(textureLod(from, vec2(b.x, a.y), level).rgb, textureLod(from, a, level).rgb, low.x), low.y);
 }
 
 // A number from 0 to 1 for every place of a grid.
@@ -86,6 +89,26 @@ float hashed(vec2 cell)
     return fract((p.x + p.y) * p.z);
 }
 
+// A number from 0 to 1, smooth from place to place.
+float noise(vec2 p)
+{
+    vec2 cell = floor(p);
+    vec2 f = smoothstep(0.0, 1.0, p - cell);
+    return mix(mix(hashed(cell), hashed(cell + vec2(1.0, 0.0)), f.x),
+               mix(hashed(cell + vec2(0.0, 1.0)), hashed(cell + 1.0), f.x), f.y);
+}
+
+// The film at a position on the glass [m], from the upper left: its thickness with the waves on it [mm], and how far it is from
+// its rim, which is at 0. Its rims are where it is thin, and irregular; what its texture has is far coarser.
+vec2 filmAt(vec2 position)
+{
+    vec2 at = position / glass;
+    float mean = 0.51 * smoothly(film, vec2(at.x / film_edge.x, 1.0 - (1.0 - at.y) / film_edge.y), 0.0).r;
+    float waves = noise(vec2(position.x / 7e-3, position.y / 5e-3 - 9.0 * time)) + 0.6 * noise(position / 2.9e-3 - vec2(3.0, 31.0 * time)) - 0.8;
+    float lies = mean / 0.05 + 0.9 * noise(position / 5e-3) + 0.5 * noise(position / 1.7e-3) - 1.25;
+    return vec2(mean * (1.0 + 0.8 * waves) * smoothstep(0.0, 0.8, lies), lies);
+}
+
 // Grain of the mist, whose droplets differ from place to place: 0 to 1, smooth over half a millimetre and coarser.
 float grain(vec2 position)
 {
@@ -93,10 +116,7 @@ float grain(vec2 position)
     float part = 0.5;
     vec2 p = position / 6e-4;
     for (int k = 0; k < 3; ++k) {
-        vec2 cell = floor(p);
-        vec2 f = smoothstep(0.0, 1.0, p - cell);
-        sum += part * mix(mix(hashed(cell), hashed(cell + vec2(1.0, 0.0)), f.x),
-                          mix(hashed(cell + vec2(0.0, 1.0)), hashed(cell + 1.0), f.x), f.y);
+        sum += part * noise(p);
         part *= 0.6;
         p /= 3.7;
     }
@@ -115,8 +135,8 @@ vec3 bareLight(vec2 at)
     // that is bright.
     float share = 1.0 - pow(1.0 - clamp(dense * (1.0 + 0.9 * (grain(uv * glass) - 0.5) * (1.2 - dense)), 0.0, 1.0), 2.2);
     float level = log2(float(textureSize(dry, 0).x)) - 4.0;
-    vec3 glow = 0.34 * smoothDry(at, level - 2.2) + 0.36 * smoothDry(at, level - 0.6) + 0.30 * smoothDry(at, level + 1.2);
-    vec3 veil = smoothDry(at, level + 3.0);
+    vec3 glow = 0.34 * smoothly(dry, at, level - 2.2) + 0.36 * smoothly(dry, at, level - 0.6) + 0.30 * smoothly(dry, at, level + 1.2);
+    vec3 veil = smoothly(dry, at, level + 3.0);
     return mix(clear, 0.86 * glow + 0.16 * veil + 0.05 * dot(veil, vec3(0.3, 0.6, 0.1)), 0.96 * share);
 }
 
@@ -159,7 +179,21 @@ void main()
     vec2 pixels = scaleOfOutside();
     float apart = max(length(dFdx(direction.xz) * pixels), length(dFdy(direction.xz) * pixels));
     vec3 seen = mix(cabin, textureLod(outside, outsideOf(direction), clamp(log2(max(apart, 1.0)), 0.0, 7.0)).rgb, passes);
-    vec3 light = mix(bareLight(frameOf(ray)), seen, cover) * kPane;
+    vec3 bare = bareLight(frameOf(ray));
+    vec2 position = uv * glass;
+    vec2 there = filmAt(position);
+    if (there.y > 0.0) {
+        // Thin films displace what lies behind them.
+        const float kStep = 4e-4;  // [m]
+        vec2 right = filmAt(position + vec2(kStep, 0.0));
+        vec2 below = filmAt(position + vec2(0.0, kStep));
+        vec2 rises = vec2(right.x - there.x, there.x - below.x) * 1e-3 / kStep;
+        vec3 out_of = refract(inside, -normalize(vec3(-rises, 1.0)), kIor);
+        vec3 behind = out_of.x * across + out_of.y * up + out_of.z * n;
+        float rim_width = max(length(vec2(right.y, below.y) - there.y) / kStep * length(fwidth(position)), 0.05);
+        bare = mix(bare, bareLight(frameOf(behind)), clamp(there.y / rim_width, 0.0, 1.0));
+    }
+    vec3 light = mix(bare, seen, cover) * kPane;
     // The border is printed in black, and ends in dots.
     float inward = texture(edge, uv).r;
     if (border > 0.0 && inward < 1.6 * border) {

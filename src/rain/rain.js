@@ -78,7 +78,7 @@ class Rain {
         this.warm_up = given.warm_up ?? 20;
         /** What the sliders show: parameters, and those of the view. */
         this.values = {
-            wind: 0, distance: given.eye_distance ?? 0.3, blur: given.background_blur ?? 2.6 * Math.PI / 180, exposure: 1,
+            wind: 0, distance: given.eye_distance ?? 0.3, blur: given.background_blur ?? 2.6 * Math.PI / 180, exposure: 1, runoff: 1,
             ...given.parameters,
         };
         this.fieldOfView = given.field_of_view;
@@ -134,8 +134,8 @@ class Rain {
     /** Values of a figure of the thesis. */
     show(figure) {
         this.preset = `figure-${figure}`;
-        const { wind, distance, blur, exposure, mist, splashes, glassWidth, glassHeight, seed } = this.values;
-        this.values = { wind: 0, distance, blur, exposure, mist, splashes, glassWidth, glassHeight, seed };
+        const { wind, distance, blur, exposure, mist, runoff, splashes, glassWidth, glassHeight, seed } = this.values;
+        this.values = { wind: 0, distance, blur, exposure, mist, runoff, splashes, glassWidth, glassHeight, seed };
         this.restart();
         for (const name of parametersOf(this.surface)) {
             this.values[name] ??= this.windshield.get(name);
@@ -239,6 +239,7 @@ class Rain {
         if (!this.paused || this.draws) {
             this.view.setWater(this.windshield.draw());
             this.view.setMist(this.windshield.mist());
+            this.view.setRunoff(this.windshield.runoff());
         }
         const busy = performance.now() - begin;
         if (!this.paused || this.draws || this.backdrop.moves) {

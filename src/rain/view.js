@@ -86,6 +86,7 @@ export class View {
     #targets = new Map();
     #water;
     #mist;
+    #runoff;
     #edge;
     #edge_map;
     #picture;      // a picture, video or panorama: {texture, width, height, video, panorama}
@@ -128,6 +129,7 @@ export class View {
         gl.bindVertexArray(null);
         this.#water = this.#texture(gl.LINEAR);
         this.#mist = this.#texture(gl.LINEAR);
+        this.#runoff = this.#texture(gl.LINEAR);
         this.#edge_map = this.#texture(gl.LINEAR);
         gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
     }
@@ -351,12 +353,20 @@ export class View {
         gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
     }
 
-    setMist({ width, height, right, top, pixels }) {
+    setMist(map) {
+        this.mist_edge = this.#setCells(this.#mist, map);
+    }
+
+    setRunoff(map) {
+        this.film_edge = this.#setCells(this.#runoff, map);
+    }
+
+    #setCells(texture, { width, height, right, top, pixels }) {
         const gl = this.#gl;
         gl.activeTexture(gl.TEXTURE0);
-        gl.bindTexture(gl.TEXTURE_2D, this.#mist);
+        gl.bindTexture(gl.TEXTURE_2D, texture);
         gl.texImage2D(gl.TEXTURE_2D, 0, gl.R8, width, height, 0, gl.RED, gl.UNSIGNED_BYTE, pixels);
-        this.mist_edge = [right, top];
+        return [right, top];
     }
 
     /** What lies behind: `outside`, which droplets show, and `dry`, which bare glass shows. */
@@ -569,7 +579,8 @@ export class View {
         gl.clearColor(0.0025, 0.0025, 0.003, 1);
         gl.clear(gl.COLOR_BUFFER_BIT);
         this.#programs.rain.use({
-            ...camera, water: this.#water, outside, dry, mist: this.#mist, mist_edge: this.mist_edge, edge: this.#edge_map, glass: this.glass, wide, blur: 0,
+            ...camera, water: this.#water, outside, dry, mist: this.#mist, mist_edge: this.mist_edge, film: this.#runoff, film_edge: this.film_edge,
+            time: shown.time % 60, edge: this.#edge_map, glass: this.glass, wide, blur: 0,
             rim: Math.sin(Math.min(windshield.get('contactAngle'), 0.5 * Math.PI)), cabin, border: shown.border,
         });
         gl.bindVertexArray(this.#pane.array);

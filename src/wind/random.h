@@ -28,7 +28,8 @@ enum class RandomPurpose : std::uint64_t {
     Dew,
     Pinning,
     Spray,
-    Finger
+    Finger,
+    Runoff
 };
 
 /// Normal with mean 0 and deviation 1, of two random numbers. G. E. P. Box, M. E. Muller, Ann. Math. Stat. 29 (1958)

@@ -36,6 +36,7 @@ ReportJson rowOf(const BalanceRow& row)
             {"speed_m_per_s", row.speed},
             {"rained_m3", b.rained},
             {"on_glass_still_m3", b.on_glass_still},
+            {"on_glass_film_m3", b.on_glass_film},
             {"on_glass_running_m3", b.on_glass_running},
             {"left_m3", b.left},
             {"wiped_m3", b.wiped},
@@ -83,6 +84,7 @@ void writeWindshieldReport(std::ostream& out, const WindshieldReport& report)
     json["fluctuation"] = {{"acceleration_m_per_s2", parameters.fluctuation.acceleration},
                            {"interval_s", parameters.fluctuation.interval}};
     json["streaks"] = {{"film_m", parameters.streaks.film}, {"spacing_m", parameters.streaks.spacing}};
+    json["runoff_s"] = parameters.runoff;
     json["wipers"] = {
         {"count", parameters.wipers.size()},
         {"period_s", parameters.wipers.empty() ? ReportJson() : ReportJson(parameters.wipers.front().period)}};

@@ -9,8 +9,8 @@ namespace droplet {
 double WaterBalance::residual() const
 {
     CompensatedSum difference;
-    for (const double term :
-         {rained, sprayed, condensed, -on_glass_mist, -on_glass_still, -on_glass_running, -left, -wiped}) {
+    for (const double term : {rained, sprayed, condensed, -on_glass_mist, -on_glass_film, -on_glass_still,
+                              -on_glass_running, -left, -wiped}) {
         difference.add(term);
     }
     const double come = rained + sprayed + condensed;
@@ -31,8 +31,8 @@ WaterBalance balanceOf(const WindshieldState& state)
         running.add(d.volume);
     }
     return {state.rained.value(), state.sprayed.value(), state.condensed.value(), state.mist.volume(),
-            still.value(),        running.value(),       state.left.value(),      state.wiped.value(),
-            state.merged.value(), state.swept.value(),   state.shed.value()};
+            state.film.volume(),  still.value(),         running.value(),         state.left.value(),
+            state.wiped.value(),  state.merged.value(),  state.swept.value(),     state.shed.value()};
 }
 
 }  // namespace droplet

@@ -34,6 +34,7 @@ void WindshieldParameters::validate() const
     fluctuation.validate();
     streaks.validate();
     require(tear_off_weber > 0.0, "tear_off_weber", tear_off_weber, "more than 0");
+    require(runoff >= 0.0 && runoff <= 10.0, "runoff", runoff, "from 0 to 10 s");
     require(mist >= 0.0 && mist <= 1e-6, "mist", mist, "from 0 to 1e-6 m/s");
     for (const Wiper& wiper : wipers) {
         wiper.validate();

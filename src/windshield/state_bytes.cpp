@@ -10,7 +10,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kHead = "droplet-shape windshield 3\n";
+constexpr std::string_view kHead = "droplet-shape windshield 4\n";
 
 /// Writes or reads all members of a state except the lists.
 template <class Archive, class State>
@@ -47,6 +47,12 @@ std::string bytesOf(const WindshieldState& state)
     out.all(state.mist.cell, std::uint64_t{state.mist.columns}, std::uint64_t{state.mist.rows});
     for (const float height : state.mist.thickness) {
         out.put(double{height});
+    }
+    out.put(std::uint64_t{state.film.thickness.size()});
+    out.all(state.film.cell, std::uint64_t{state.film.columns}, std::uint64_t{state.film.rows}, state.film.rest,
+            state.film.next_break);
+    for (const std::int32_t thickness : state.film.thickness) {
+        out.put(static_cast<std::uint64_t>(thickness));
     }
     const StillCells& still = StillCells::of(state.still);
     out.all(still.cell, std::uint64_t{still.columns}, std::uint64_t{still.rows});
@@ -102,6 +108,20 @@ WindshieldState stateFromBytes(std::string_view bytes, const std::string& name)
         in.get(value);
         in.require(value >= 0.0 && value <= 1.0);
         height = static_cast<float>(value);
+    }
+    std::uint64_t cells_of_film = 0;
+    in.all(cells_of_film, state.film.cell, columns, rows, state.film.rest, state.film.next_break);
+    in.require(columns <= kMax && rows <= kMax && columns * rows == cells_of_film &&
+               cells_of_film <= bytes.size() / 8 && (state.film.cell > 0.0 || cells_of_film == 0) &&
+               state.film.rest >= 0.0 && state.film.rest <= 1.0);
+    state.film.columns = static_cast<std::uint32_t>(columns);
+    state.film.rows = static_cast<std::uint32_t>(rows);
+    state.film.thickness.resize(cells_of_film);
+    for (std::int32_t& thickness : state.film.thickness) {
+        std::uint64_t value = 0;
+        in.get(value);
+        in.require(value <= std::numeric_limits<std::int32_t>::max());
+        thickness = static_cast<std::int32_t>(value);
     }
     StillCells& still = StillCells::of(state.still);
     in.all(still.cell, columns, rows);

@@ -31,6 +31,7 @@
 #include "windshield/cap_scale.h"
 #include "windshield/mist_cells.h"
 #include "windshield/motion.h"
+#include "windshield/runoff_cells.h"
 #include "windshield/still_droplets.h"
 #include "windshield/sweep.h"
 #include "windshield/swept.h"
@@ -87,6 +88,7 @@ private:
             return;
         }
         const RaindropSampler sampler(impacts);
+        const double wetted = p_.runoff > 0.0 ? wettedShare(impacts) : 0.0;
         const double expected_in_step = bound * p_.glass.width() * p_.glass.height() * dt_;
         double expected = expected_in_step;
         while (s_.until_raindrop < expected) {
@@ -103,19 +105,50 @@ private:
                 continue;
             }
             if (p_.splashes) {
-                const double speed = terminalSpeed(diameter) * place->normal.z + impacts.speed * place->normal.y;
-                splash(diameter, speed, position, s_.time + dt_ * (1.0 - expected / expected_in_step));
+                splash(diameter, impactSpeed(impacts, diameter, *place), position,
+                       s_.time + dt_ * (1.0 - expected / expected_in_step));
             }
             const double volume = sphereVolume(diameter);
             s_.rained.add(volume);
             ++s_.counts.raindrops;
-            if (volume >= rules_.max) {
+            const bool may_run = volume >= rules_.max;
+            if (p_.runoff > 0.0 &&
+                (thicknessAt(s_.film, position) > kWetFilm || (may_run && random.uniform(6) < wetted))) {
+                layOut(s_.film, {p_.glass.width(), p_.glass.height()});
+                const auto made = splashOf(diameter, impactSpeed(impacts, diameter, *place), p_.forces.liquid);
+                pour(s_.film, position, made ? made->radius : 0.0, volume);
+            } else if (may_run) {
                 s_.droplets.push_back({s_.next_id++, position, {}, volume, 0.0, 0});
             } else {
                 drizzle_.push_back({position, volume});
             }
         }
         s_.until_raindrop -= expected;
+    }
+
+    /// Speed of a raindrop perpendicular to the glass [m/s].
+    static double impactSpeed(const RainImpacts& impacts, double diameter, const GlassPlace& place)
+    {
+        return terminalSpeed(diameter) * place.normal.z + impacts.speed * place.normal.y;
+    }
+
+    /// Share of the middle of the glass that raindrops have wetted within the lifetime of a film, where they splashed:
+    /// circles that lie anywhere cover 1 − exp(−their area per area).
+    double wettedShare(const RainImpacts& impacts) const
+    {
+        const std::optional<GlassPlace> middle = p_.glass.place({0.5 * p_.glass.width(), 0.5 * p_.glass.height()});
+        const Exposure exposure = middle ? Exposure{middle->normal.z, middle->normal.y} : Exposure{};
+        constexpr int kSizes = 32;
+        const double each = p_.raindrops.max / kSizes;
+        double area = 0.0;
+        for (int k = 0; k < kSizes; ++k) {
+            const double diameter = each * (k + 0.5);
+            const double speed = terminalSpeed(diameter) * exposure.upward + impacts.speed * exposure.forward;
+            if (const std::optional<Splash> made = splashOf(diameter, speed, p_.forces.liquid)) {
+                area += each * impacts.density(diameter, exposure) * std::numbers::pi * made->radius * made->radius;
+            }
+        }
+        return 1.0 - std::exp(-area * p_.runoff);
     }
 
     /// Adds the splash of a raindrop if its ring lasts beyond this step.
@@ -411,11 +444,61 @@ private:
                 leaveStreak(i);
             }
         }
+        runOff();
         std::vector<SweptPiece> pieces;
         for (std::size_t i = count; i < s_.droplets.size(); ++i) {
             pieces.push_back({static_cast<std::uint32_t>(i), tracks_.to[i], tracks_.to[i], tracks_.reach[i]});
         }
         absorbSwept(std::move(pieces));
+    }
+
+    /// The film takes droplets where it is deep, runs off, and breaks up where it is thin.
+    void runOff()
+    {
+        if (s_.film.thickness.empty()) {
+            return;
+        }
+        for (std::size_t i = 0; i < s_.droplets.size(); ++i) {
+            RunningDroplet& d = s_.droplets[i];
+            if (d.volume > 0.0 && p_.glass.holds(d.position) && thicknessAt(s_.film, d.position) > kDeepFilm) {
+                pour(s_.film, d.position, tracks_.reach[i], d.volume);
+                d.volume = 0.0;
+            }
+        }
+        StillRemoval removal(still_);
+        constexpr double kDeep = kDeepFilm / Runoff::kThickness;
+        for (std::size_t cell = 0; cell < s_.film.thickness.size(); ++cell) {
+            if (still_.counts[cell] > 0 && s_.film.thickness[cell] > kDeep) {
+                for (std::uint8_t k = 0; k < still_.counts[cell]; ++k) {
+                    const Vec2 position = still_.droplets(cell)[k].position;
+                    pour(s_.film, position, 0.0, removal.take({cell, k}));
+                }
+            }
+        }
+        removal.close();
+        const double acceleration = p_.vehicle.meanAcceleration(s_.time, s_.time + dt_);
+        // As a droplet that is as high as the film: its drag is that of a layer with the thesis' profile.
+        constexpr double kThinnestLayer = 1e-3;  // [m]
+        const Air& air = p_.forces.air;
+        const double drag = 0.5 * air.density * air.drag_coefficient /
+                            (p_.forces.liquid.density * std::max(air.boundary_layer, kThinnestLayer));
+        s_.left.add(flow(s_.film, p_.forces.liquid, dt_, [&](Vec2 position) -> std::optional<Vec2> {
+            const std::optional<GlassPlace> place = p_.glass.place(position);
+            if (!place) {
+                return std::nullopt;
+            }
+            const Vec2 wind = windAlong(*place, speed_, p_.wind);
+            return gravityAlong(*place, p_.forces.gravity) + inertiaAlong(*place, acceleration) +
+                   (drag * sizeOf(wind)) * wind;
+        }));
+        const double share = p_.runoff > dt_ ? dt_ / p_.runoff : 1.0;
+        for (StillDroplet drop : droplet::breakUp(s_.film, share, p_.seed)) {
+            while (drop.volume < rules_.max && joinStill(drop)) {
+            }
+            if (drop.volume >= rules_.max) {
+                startRunning(drop);
+            }
+        }
     }
 
     /// Splits droplets that are too high for the wind. What is left stays where the droplet itself would be, even if
@@ -589,6 +672,7 @@ private:
             }
             std::erase_if(s_.splashes, [&](const Splash& one) { return blade->covers(one.position); });
             s_.wiped.add(takeMist(s_.mist, *blade));
+            s_.wiped.add(takeRunoff(s_.film, *blade));
             StillRemoval removal(still_);
             blade->visitCells(still_.grid(), [&](std::size_t first, std::size_t last) {
                 for (std::size_t cell = first; cell <= last; ++cell) {

@@ -164,6 +164,21 @@ static void rain(void)
     const int32_t y = (int32_t)((1.0 - 0.45 / (mist.top * figures.height)) * mist.height);
     HOLDS(mist.pixels[y * mist.width + x] <= 3);
 
+    DropletMistMap film;
+    HOLDS(droplet_windshield_runoff(windshield, &film) == DROPLET_OK && film.width == 1 && film.pixels[0] == 0);
+    HOLDS(droplet_windshield_set(windshield, "runoff", 11.0) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_windshield_set(windshield, "runoff", 1.0) == DROPLET_OK);
+    for (int frame = 0; frame < 60; ++frame) {
+        HOLDS(droplet_windshield_advance(windshield, 1.0 / 60.0) == DROPLET_OK);
+    }
+    HOLDS(droplet_windshield_runoff(windshield, &film) == DROPLET_OK && film.width >= 175 && film.right >= 1.0);
+    int32_t wet = 0;
+    for (int32_t k = 0; k < film.width * film.height; ++k) {
+        wet += film.pixels[k] > 5 ? 1 : 0;
+    }
+    HOLDS(wet > 20);
+    HOLDS(droplet_windshield_water(windshield, &water) == DROPLET_OK && fabs(water.balance_error) < 1e-12);
+
     DropletPlace place;
     HOLDS(droplet_windshield_place(windshield, 0.35, 0.4, &place) == DROPLET_OK);
     HOLDS(fabs(place.point[0]) < 1e-12 && fabs(place.across[0] - 1.0) < 1e-12 && place.normal[2] > 0.0);

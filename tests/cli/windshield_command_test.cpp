@@ -118,10 +118,10 @@ TEST_F(WindshieldCommand, PresetsOfTheThesisDrawCapsules)
         EXPECT_EQ(simulate(path(name), more).exit_code, 0);
         return readFile(path(name));
     };
-    const std::string without = drawn("a.png", {"--speed", "54km/h"});
+    const std::string without = drawn("a.png", {"--speed", "54km/h", "--runoff", "0s"});
     const std::string with = drawn("b.png", {"--speed", "54km/h", "--preset", "figure-3.12"});
     EXPECT_NE(without, with);
-    EXPECT_EQ(drawn("c.png", {"--speed", "54km/h", "--shape", "capsule"}), with);
+    EXPECT_EQ(drawn("c.png", {"--speed", "54km/h", "--shape", "capsule", "--runoff", "0s"}), with);
     EXPECT_EQ(drawn("d.png", {"--speed", "54km/h", "--preset", "figure-3.12", "--shape", "capillary"}), without);
 }
 

@@ -23,7 +23,7 @@ function advance(rain, seconds) {
 }
 
 test('the same parameters have the command’s droplets and water', async () => {
-    const rain = await windshield({ ...kGlass, rain: mmPerHour(50), speed: 15 });
+    const rain = await windshield({ ...kGlass, rain: mmPerHour(50), speed: 15, runoff: 1 });
     advance(rain, 3 - kStep);  // the last frame of three seconds
     const report = JSON.parse(execFileSync(process.env.PROGRAM, ['windshield', join(folder, 'last.png'), '--time', '3s', '--warm-up', '0s',
         '--fps', '60', '--rain', '50mm/h', '--speed', '15m/s', '--glass-width', '0.3m', '--glass-height', '0.2m', '--frame-size', '160x90',
@@ -33,7 +33,7 @@ test('the same parameters have the command’s droplets and water', async () => 
     assert.ok(Math.abs(figures.time - last.time_s) < 1e-6);
     assert.equal(figures.running, last.running_droplets);
     assert.equal(figures.still, last.still_droplets);
-    const water = last.on_glass_still_m3 + last.on_glass_running_m3;
+    const water = last.on_glass_still_m3 + last.on_glass_film_m3 + last.on_glass_running_m3;
     const { volume } = rain.water();
     assert.ok(Math.abs(volume - water) < 1e-6 * water, `${volume} m³, not ${water} m³`);
 });

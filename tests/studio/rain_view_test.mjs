@@ -80,6 +80,7 @@ async function drawn(page, name, values, shown, size = kSize) {
             if (steps.includes(k)) {
                 view.setWater(windshield.draw());
                 view.setMist(windshield.mist());
+                view.setRunoff(windshield.runoff());
                 view.draw(windshield, {
                     travelled: 0, time: k / 60, blur: 0, camera: { distance }, border: 0, exposure: 1,
                     film: { glowing: 0, falloff: 0, graininess: 0 },

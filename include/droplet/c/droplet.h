@@ -141,6 +141,7 @@ DROPLET_API void droplet_windshield_delete(DropletWindshield* windshield);
 /// | viscosity-factor | Pa s | at least 0 | what slows a moving droplet down |
 /// | film | m | at least 0 | thickness of the water that running droplets leave behind |
 /// | still-diameter | m | 0 to 2 mm | smaller raindrops never move |
+/// | runoff | s | 0 to 10 | time after which a film of heavy rain breaks up without more rain; 0: there is none |
 /// | mist | m/s | 0 to 1e-6 | growth of the mist's thickness, which ends at 10 µm |
 /// | splashes | 1 | 0 or 1 | 1: maps have the rings of large raindrops that have just hit |
 /// | glass-width | m | 0.05 to 5 | a glass that is no mesh |
@@ -350,6 +351,14 @@ typedef struct DropletMistMap {
 /// @param windshield  valid
 /// @param map         receives it
 DROPLET_API DropletCode droplet_windshield_mist(DropletWindshield* windshield, DropletMistMap* map);
+
+/// Thickness of the film in a level of its texture [m].
+#define DROPLET_RUNOFF_LEVEL 2e-6
+
+/// Brings the texture of the film that runs off up to the state: 0 is dry, 255 is 0.51 mm or more.
+/// @param windshield  valid
+/// @param map         receives it, as that of the mist
+DROPLET_API DropletCode droplet_windshield_runoff(DropletWindshield* windshield, DropletMistMap* map);
 
 // ---- 2D liquids ----
 //

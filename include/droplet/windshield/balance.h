@@ -11,6 +11,7 @@ struct WaterBalance {
     double sprayed = 0.0;           ///< volume that sprayers gave
     double condensed = 0.0;         ///< volume of the mist that has condensed
     double on_glass_mist = 0.0;     ///< volume of the mist
+    double on_glass_film = 0.0;     ///< volume of the film that runs off
     double on_glass_still = 0.0;    ///< volume of the still droplets, and of those that arrive in the next step
     double on_glass_running = 0.0;  ///< volume of the running droplets
     double left = 0.0;              ///< volume that has run off over the edges

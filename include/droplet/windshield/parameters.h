@@ -41,6 +41,8 @@ struct WindshieldParameters {
     Streaks streaks;                        ///< film behind running droplets
     double tear_off_weber = kTearOffWeber;  ///< Weber number above which droplets break up, > 0; infinity: none
     bool splashes = false;                  ///< true: the state has the rings of raindrops that have just hit (Splash)
+    double runoff =
+        0.0;  ///< time after which a film of heavy rain breaks up without more rain [s], from 0 to 10; 0: none
     double mist = 0.0;          ///< growth of the mist's thickness up to kDenseMist [m/s], from 0 to 1 µm/s
     std::vector<Wiper> wipers;  ///< empty: none
     std::uint64_t seed = 1;     ///< random seed

@@ -9,6 +9,7 @@
 #include "droplet/windshield/droplets.h"
 #include "droplet/windshield/mist.h"
 #include "droplet/windshield/parameters.h"
+#include "droplet/windshield/runoff.h"
 #include "droplet/windshield/splash.h"
 
 namespace droplet {
@@ -36,6 +37,7 @@ struct WindshieldState {
     std::vector<StillDroplet> arriving;    ///< water of sprayers and fingers that meets the glass in the next step
     std::vector<Splash> splashes;          ///< of raindrops that have just hit, in the order of their times
     Mist mist;                             ///< mist on the glass
+    Runoff film;                           ///< film that runs off the glass
     std::uint64_t next_id = 1;             ///< id of the next running droplet
     std::uint64_t next_raindrop = 0;       ///< number of the next raindrop
     double until_raindrop = 0.0;           ///< time until the next raindrop, as the expected number of raindrops
@@ -63,6 +65,8 @@ WindshieldState startWindshield(const WindshieldParameters& parameters);
 /// - Running droplets absorb still ones along their tracks and merge where they touch.
 /// - Droplets that are too high for the wind at their height, relative to them (tearOffHeight), break up into parts of
 ///   random sizes, half as large as the wind leaves whole or more, scattered downwind.
+/// - Raindrops on wet glass join a film, which runs off, takes droplets where it is deep, and breaks up where it is
+/// thin.
 /// - Mist condenses; droplets that run over it take it along.
 /// - Wipers remove water. Droplets beyond the edges leave.
 ///
