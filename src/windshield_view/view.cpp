@@ -19,6 +19,7 @@
 #include "windshield_view/body_relief.h"
 #include "windshield_view/defocus.h"
 #include "windshield_view/running_rays.h"
+#include "windshield_view/runoff_view.h"
 #include "windshield_view/splash_view.h"
 #include "windshield_view/still_samples.h"
 #include "windshield_view/view_context.h"
@@ -176,6 +177,7 @@ struct DriversView::Content {
           stills(std::in_place, scene),
           running(std::in_place, scene),
           wipers(scene),
+          runoff(scene),
           splashes(scene)
     {
         bare.width = options.width;
@@ -315,7 +317,7 @@ struct DriversView::Content {
             light[sample.pixel] += float4(share * static_cast<float>(sample.cover)) *
                                    seen(scene.backdrop.at(sample.outside), static_cast<float>(sample.light) / 255.0F);
         }
-        if (wipers.hasWaterLeft(tile)) {
+        if (wipers.hasWaterLeft(tile) || runoff.reach(tile)) {
             drawWaterLeft(tile, through, content, writer);
         }
         int moments = has_blades ? wipers.moments() : 1;
@@ -415,21 +417,24 @@ struct DriversView::Content {
         }
     }
 
-    /// Draws water that wipers have left below the light.
+    /// Draws films, and other water that wipers have left, below the light.
     /// @param through  of the last tile, or new
     /// @param writer   gets pixels that show nothing but a film, which need no light
     template <typename Writer>
     void drawWaterLeft(std::size_t number, FilmLevels& through, TileContent& content, Writer& writer) const
     {
-        WiperView::WaterLeft left;
+        WaterLeft left;
         wipers.waterLeft(number, left);
+        if (runoff.reach(number)) {
+            runoff.add(number, left);
+        }
         setReflected(left.reflected, through);
         TileLight& light = content.light;
         if (!left.beads.empty() && !std::exchange(content.has_light, true)) {
             light.fill(float4(0.0F));
         }
         const ViewContext::TilePlaces places = scene.placesOf(number);
-        for (const WiperView::BeadMet& bead : left.beads) {
+        for (const BeadMet& bead : left.beads) {
             const int x = places.left + bead.pixel % kTile;
             const int y = places.top + bead.pixel / kTile;
             Float4& behind = light[bead.pixel];
@@ -638,7 +643,7 @@ struct DriversView::Content {
             for (int c = 0; c < tiles.columns(); ++c) {
                 const std::size_t tile = tiles.number(c, r);
                 if (stills->inTile(tile).empty() && running->inTile(tile).empty() && !wipers.reach(tile) &&
-                    !splashes.reach(tile)) {
+                    !runoff.reach(tile) && !splashes.reach(tile)) {
                     continue;
                 }
                 const int moments = drawResting(tile, through, content, writer);
@@ -678,6 +683,7 @@ struct DriversView::Content {
     std::optional<StillSamples> stills;
     std::optional<RunningRays> running;
     WiperView wipers;
+    RunoffView runoff;
     SplashView splashes;
     std::optional<Environment> around;
     bool has_picture = false;
@@ -776,6 +782,7 @@ void DriversView::show(const WindshieldState& state)
     content_->stills->update(StillCells::of(state.still));
     content_->running->update(state.droplets);
     content_->wipers.update(state.time);
+    content_->runoff.update(state.film, state.time);
     content_->splashes.update(state.splashes, state.time);
 }
 

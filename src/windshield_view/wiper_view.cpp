@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "windshield_view/hashed_number.h"
+#include "windshield_view/smooth_noise.h"
 
 namespace droplet {
 namespace {
@@ -25,39 +26,10 @@ constexpr float kOnArmsSide = -kArmAside - 1.15F * kArmHalf;
 constexpr float kOnOtherSide = kBladeHalf + kWidestBead;
 constexpr float kWidestWedge = 1.7F * kWidestBead * 1.1F;
 
-/// Smooth random field from 0 to 1, and its derivatives.
-struct Field {
-    float value = 0.0F;
-    float by_u = 0.0F;
-    float by_v = 0.0F;
-};
-
 float numberAt(std::int32_t column, std::int32_t row, std::uint32_t seed)
 {
     return hashedNumber(static_cast<std::uint32_t>(column) * 0x9e3779b9U +
                         static_cast<std::uint32_t>(row) * 0x85ebca6bU + seed * 0xc2b2ae35U);
-}
-
-/// @param number  random numbers of (column, row)
-template <typename Number>
-Field fieldFrom(float u, float v, const Number& number)
-{
-    const float column = std::floor(u);
-    const float row = std::floor(v);
-    const auto corner = [&](float i, float j) {
-        return number(static_cast<std::int32_t>(column + i), static_cast<std::int32_t>(row + j));
-    };
-    const float x = u - column;
-    const float y = v - row;
-    const float sx = x * x * (3.0F - 2.0F * x);
-    const float sy = y * y * (3.0F - 2.0F * y);
-    const float a = corner(0.0F, 0.0F);
-    const float b = corner(1.0F, 0.0F);
-    const float c = corner(0.0F, 1.0F);
-    const float d = corner(1.0F, 1.0F);
-    const float twist = a - b - c + d;
-    return {a + sx * (b - a) + sy * (c - a) + sx * sy * twist, 6.0F * x * (1.0F - x) * (b - a + sy * twist),
-            6.0F * y * (1.0F - y) * (c - a + sx * twist)};
 }
 
 Field fieldAt(float u, float v, std::uint32_t seed)
@@ -189,30 +161,6 @@ Float4 WiperView::FilmField::at(float along, float across) const
     Float4 field = low + y * (high - low);
     field[3] = std::sqrt(field[1] * field[1] + field[2] * field[2]);
     return field;
-}
-
-WiperView::FilmOptics WiperView::filmOpticsOf(std::size_t number) const
-{
-    const Eye& eye = scene_.eye;
-    const ViewTile& tile = scene_.tiles[number];
-    const auto columns = static_cast<std::size_t>(scene_.tiles.columns());
-    const float half = 0.5F * kTile;
-    const std::size_t row = number / columns;
-    const Vec3f ray =
-        unit(eye.rayAt(static_cast<float>(number % columns) * kTile + half, static_cast<float>(row) * kTile + half));
-    const auto through = [&](Vec2f slope) {
-        const Interface out = scene_.beyond(slope, tile, ray);
-        const float scale = 1.0F / (std::max(out.transmitted.y, 1e-3F) * eye.tangent());
-        return std::pair(Vec2f{scale * out.transmitted.x, -scale * out.transmitted.z}, out.reflected);
-    };
-    constexpr float kSlope = 0.01F;  // of usual films
-    const auto by = [&](Vec2f slope) {
-        const Vec2f more = through(slope).first;
-        const Vec2f less = through({-slope.x, -slope.y}).first;
-        return Vec2f{(more.x - less.x) / (2.0F * kSlope), (more.y - less.y) / (2.0F * kSlope)};
-    };
-    constexpr float kSteps = 512.0F;  // so few that tables of levels serve many tiles
-    return {by({kSlope, 0.0F}), by({0.0F, kSlope}), std::round(kSteps * through({}).second) / kSteps};
 }
 
 WiperView::Blade WiperView::bladeAt(const Wiper& wiper, double time)
@@ -570,7 +518,7 @@ void WiperView::placeFilms()
                 }
             }
             if (film->last >= 0.0F) {
-                film->optics = filmOpticsOf(tile);
+                film->optics = FilmOptics::of(scene_, tile);
                 films[tile] = std::move(film);
             }
         });

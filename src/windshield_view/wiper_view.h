@@ -11,6 +11,7 @@
 
 #include "droplet/windshield/wipers.h"
 #include "windshield_view/bead.h"
+#include "windshield_view/film_optics.h"
 #include "windshield_view/view_context.h"
 
 namespace droplet {
@@ -48,21 +49,6 @@ public:
     /// Number of moments at which blades are drawn while the shutter is open.
     [[nodiscard]] int moments() const { return moments_; }
 
-    /// Wedge in a pixel.
-    struct BeadMet {
-        WaterMet water;
-        std::uint8_t pixel = 0;
-    };
-    /// Water that wipers have left in the pixels of a tile; none has both a film and a wedge. A film is so thin that
-    /// its slope shifts the picture behind it in proportion; the second order is a hundredth of that for the steepest
-    /// films.
-    struct WaterLeft {
-        std::array<float, kTilePixels> cover;    ///< share of a pixel that a film covers
-        std::array<float, kTilePixels> shift_x;  ///< of the picture behind it [px]
-        std::array<float, kTilePixels> shift_y;
-        float reflected = 0.0F;  ///< share of light that films reflect into the cabin
-        std::vector<BeadMet> beads;
-    };
     void waterLeft(std::size_t tile, WaterLeft& left) const;
     /// Wiper at a place and moment.
     /// @param moment  0 … moments() − 1
@@ -111,12 +97,6 @@ private:
         float there = -1.0F;  ///< when the blade passes on its way there [s after its start]; below 0: never
         float along = 0.0F;   ///< along the way of the blade's outer end [m]
     };
-    /// What a slope of a film does to the picture behind it.
-    struct FilmOptics {
-        Vec2f by_x;              ///< displacement for a unit slope along the glass's x [px]
-        Vec2f by_y;              ///< likewise along its y
-        float reflected = 0.0F;  ///< share of light that is reflected into the cabin
-    };
     /// Film of a wiper in the pixels of a tile. A way of the blade gives a pixel a part of the field until the next
     /// way.
     struct FilmPixels {
@@ -150,7 +130,6 @@ private:
     void placeFilms();
     [[nodiscard]] static FilmPlace filmPlaceOf(const Wiper& wiper, Vec2f from);
     [[nodiscard]] static Passed passed(const WiperState& one, float there);
-    [[nodiscard]] FilmOptics filmOpticsOf(std::size_t tile) const;
     /// Takes the film of a tile to the present time.
     void renew(const WiperState& one, FilmPixels& film, std::size_t tile) const;
     /// Takes the film of a pixel to a way.

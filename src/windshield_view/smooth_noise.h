@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "render/optics.h"
+#include "windshield_view/hashed_number.h"
+
+namespace droplet {
+
+/// Value of a smooth random field from 0 to 1, and its derivatives.
+struct Field {
+    float value = 0.0F;
+    float by_u = 0.0F;
+    float by_v = 0.0F;
+};
+
+/// @param number  random numbers of (column, row)
+template <typename Number>
+Field fieldFrom(float u, float v, const Number& number)
+{
+    const float column = std::floor(u);
+    const float row = std::floor(v);
+    const auto corner = [&](float i, float j) {
+        return number(static_cast<std::int32_t>(column + i), static_cast<std::int32_t>(row + j));
+    };
+    const float x = u - column;
+    const float y = v - row;
+    const float sx = x * x * (3.0F - 2.0F * x);
+    const float sy = y * y * (3.0F - 2.0F * y);
+    const float a = corner(0.0F, 0.0F);
+    const float b = corner(1.0F, 0.0F);
+    const float c = corner(0.0F, 1.0F);
+    const float d = corner(1.0F, 1.0F);
+    const float twist = a - b - c + d;
+    return {a + sx * (b - a) + sy * (c - a) + sx * sy * twist, 6.0F * x * (1.0F - x) * (b - a + sy * twist),
+            6.0F * y * (1.0F - y) * (c - a + sx * twist)};
+}
+
+/// Smooth random field from 0 to 1 with waves of a unit's length, which repeats. It is sampled once.
+class SmoothNoise {
+public:
+    SmoothNoise() : samples_(std::size_t{kSamples} * kSamples)
+    {
+        for (std::int32_t row = 0; row < kSamples; ++row) {
+            for (std::int32_t column = 0; column < kSamples; ++column) {
+                samples_[index(column, row)] =
+                    sample(static_cast<float>(column) / kPerWave, static_cast<float>(row) / kPerWave);
+            }
+        }
+    }
+
+    /// Value, and its slopes along u and v.
+    [[nodiscard]] Float4 at(float u, float v) const
+    {
+        const float x = kPerWave * u;
+        const float y = kPerWave * v;
+        const float left = std::floor(x);
+        const float low = std::floor(y);
+        const auto column = static_cast<std::int32_t>(left);
+        const auto row = static_cast<std::int32_t>(low);
+        const Float4 across = float4(x - left);
+        const Float4& a = samples_[index(column, row)];
+        const Float4& b = samples_[index(column, row + 1)];
+        const Float4 lower = a + across * (samples_[index(column + 1, row)] - a);
+        const Float4 upper = b + across * (samples_[index(column + 1, row + 1)] - b);
+        return lower + float4(y - low) * (upper - lower);
+    }
+
+private:
+    static constexpr std::int32_t kWaves = 32;
+    static constexpr std::int32_t kPerWave = 8;
+    static constexpr std::int32_t kSamples = kWaves * kPerWave;
+
+    static std::size_t index(std::int32_t column, std::int32_t row)
+    {
+        return static_cast<std::size_t>(row & (kSamples - 1)) * kSamples +
+               static_cast<std::size_t>(column & (kSamples - 1));
+    }
+
+    static Float4 sample(float u, float v)
+    {
+        const Field field = fieldFrom(u, v, [](std::int32_t column, std::int32_t row) {
+            return hashedNumber(static_cast<std::uint32_t>(row % kWaves * kWaves + column % kWaves) * 0x9e3779b9U);
+        });
+        return Float4{field.value, field.by_u, field.by_v, 0.0F};
+    }
+
+    std::vector<Float4> samples_;
+};
+
+}  // namespace droplet
