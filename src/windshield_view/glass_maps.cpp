@@ -180,6 +180,7 @@ const GlassMaps& GlassMapFrames::maps(const WindshieldState& state)
     Content& content = *content_;
     content.begin();
     content.sums.update(state);
+    content.sums.updateFilm(state.film);
     tbb::parallel_for(std::size_t{0}, static_cast<std::size_t>(content.height()), [&](std::size_t row) {
         if (content.sums.takeChanged(row, [&](std::size_t pixel) { content.write(pixel); })) {
             content.writeThickness(row);
@@ -192,6 +193,7 @@ GlassFloatMaps GlassMapFrames::floatMaps(const WindshieldState& state)
 {
     Content& content = *content_;
     content.sums.update(state);
+    content.sums.updateFilm(state.film);
     const WaterSums& sums = content.sums;
     const int width = content.width();
     const int height = content.height();

@@ -84,6 +84,7 @@ public:
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
+    [[nodiscard]] Vec2 pixel() const { return {pixel_, down_}; }  ///< sides of a pixel [m]
 
     /// Appends the pixels that a droplet covers, by rows. At least seven sample places lie across it. Their thickness
     /// adds up to its volume, also beyond the edge and between sample places.

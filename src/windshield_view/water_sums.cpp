@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "blocks.h"
+#include "windshield_view/film_raster.h"
 
 namespace droplet {
 namespace {
@@ -41,6 +42,26 @@ void WaterSums::update(const WindshieldState& state)
     update(StillCells::of(state.still));
     update(state.droplets);
     update(state.splashes, state.time);
+}
+
+void WaterSums::updateFilm(const Runoff& film)
+{
+    if (film.thickness.empty() && film_.empty()) {
+        return;
+    }
+    std::vector<WaterPixel> now =
+        film.thickness.empty() ? std::vector<WaterPixel>(water_.size()) : filmOn(raster_, film);
+    film_.resize(water_.size());
+    forBlocks(water_.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k) {
+            if (!(now[k] == film_[k])) {
+                water_[k].add(now[k], 1);
+                water_[k].add(film_[k], -1);
+                is_changed_[k] = 1;
+            }
+        }
+    });
+    film_ = std::move(now);
 }
 
 void WaterSums::add(std::span<const WaterStamp> stamps, int sign)

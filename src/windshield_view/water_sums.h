@@ -32,6 +32,8 @@ public:
 
     /// Brings the sums up to a state of the same simulation.
     void update(const WindshieldState& state);
+    /// Brings the film that runs off up to a state, too.
+    void updateFilm(const Runoff& film);
 
     [[nodiscard]] const WaterRaster& raster() const { return raster_; }
     /// Water of every pixel, row by row from the upper left.
@@ -80,6 +82,7 @@ private:
     StillCells still_;  ///< as drawn
     std::vector<Drawn> running_;
     std::vector<WaterStamp> rims_;          ///< of splashes
+    std::vector<WaterPixel> film_;          ///< in the sums, of every pixel; empty: there is none
     std::vector<std::uint8_t> is_changed_;  ///< for every pixel
 };
 

@@ -1027,6 +1027,48 @@ TEST(GlassMapsOf, AddUpToTheWaterOnTheGlass)
     }
 }
 
+// The film displaces the picture where it is, and nowhere else.
+TEST(View, FilmsOfRainBendWhatLiesBehindThem)
+{
+    const Glass glass;
+    WindshieldState state = startWindshield({});
+    ViewOptions options;
+    options.width = 320;
+    options.height = 180;
+    DriversView view(glass, options);
+    view.setBackground(defaultBackground(options));
+    view.show(state);
+    const Picture dry = view.frame();
+    state.film.cell = 4e-3;
+    state.film.columns = 350;
+    state.film.rows = 200;
+    state.film.thickness.assign(std::size_t{350} * 200, 0);
+    for (std::size_t row = 0; row < 200; ++row) {
+        std::fill_n(state.film.thickness.begin() + static_cast<std::ptrdiff_t>(350 * row), 170, 15'000'000);  // 0.15 mm
+    }
+    view.show(state);
+    const Picture wet = view.frame();
+    int changed_left = 0;
+    int changed_right = 0;
+    for (int y = 0; y < options.height; ++y) {
+        for (int x = 0; x < options.width; ++x) {
+            const std::size_t k = 3 * (static_cast<std::size_t>(y) * 320 + static_cast<std::size_t>(x));
+            const std::optional<Vec2> place = view.onGlass(x, y);
+            const bool differs = !std::equal(&wet.rgb[k], &wet.rgb[k] + 3, &dry.rgb[k]);
+            if (place && place->x < 170 * 4e-3 - 8e-3) {
+                changed_left += differs ? 1 : 0;
+            } else if (!place || place->x > 170 * 4e-3 + 8e-3) {
+                changed_right += differs ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(changed_left, options.width * options.height / 4);
+    EXPECT_EQ(changed_right, 0);
+    state.film = Runoff();
+    view.show(state);
+    EXPECT_EQ(view.frame().rgb, dry.rgb);
+}
+
 TEST(GlassMapsOf, FloatMapsMatchIntegerMaps)
 {
     WindshieldParameters parameters = heavyRain();

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -200,6 +201,74 @@ TEST(WindshieldMapsOf, RefusesOtherSizes)
     WindshieldMaps maps{Glass()};
     std::vector<std::uint16_t> small(16);
     EXPECT_THROW(maps.update(startWindshield({}), small), Error);
+}
+
+WindshieldState drenched(WindshieldParameters& parameters)
+{
+    parameters = storm();
+    parameters.splashes = false;
+    parameters.runoff = 1.0;
+    parameters.tear_off_weber = std::numeric_limits<double>::infinity();  // parts would overlap
+    WindshieldState state = startWindshield(parameters);
+    for (int k = 0; k < 300; ++k) {
+        state = step(std::move(state), parameters, 1.0 / 60.0);
+    }
+    return state;
+}
+
+TEST(FilmInMaps, HasAllWaterAtAnyWidth)
+{
+    WindshieldParameters parameters;
+    const WindshieldState state = drenched(parameters);
+    const WaterBalance all = balanceOf(state);
+    const double on_glass = all.on_glass_film + all.on_glass_still + all.on_glass_running;
+    ASSERT_GT(all.on_glass_film, 0.3 * on_glass);
+    const double area = parameters.glass.width() * parameters.glass.height();
+    for (const int width : {16, 33, 200, 1000}) {
+        const GlassFloatMaps maps = glassFloatMaps(parameters.glass, state, {.width = width});
+        double water = 0.0;
+        for (const float thickness : maps.thickness.values) {
+            water += static_cast<double>(thickness) * area / static_cast<double>(maps.thickness.values.size());
+        }
+        EXPECT_NEAR(water / on_glass, 1.0, 0.005) << width;
+    }
+}
+
+TEST(FilmInMaps, IsThatOfNewMapsAfterAnySteps)
+{
+    WindshieldParameters parameters;
+    WindshieldState state = drenched(parameters);
+    GlassMapFrames frames(parameters.glass, {.width = 300});
+    for (int k = 0; k < 10; ++k) {
+        state = step(std::move(state), parameters, 1.0 / 60.0);
+        if (k % 3 != 1) {
+            frames.maps(state);
+        }
+    }
+    const GlassMaps& kept = frames.maps(state);
+    const GlassMaps fresh = glassMaps(parameters.glass, state, {.width = 300});
+    EXPECT_EQ(kept.thickness.levels, fresh.thickness.levels);
+    EXPECT_EQ(kept.normal.levels, fresh.normal.levels);
+    state.film = Runoff();
+    EXPECT_EQ(frames.maps(state).normal.levels, glassMaps(parameters.glass, state, {.width = 300}).normal.levels);
+}
+
+TEST(FilmInMaps, LeansAsItsThicknessSays)
+{
+    const WindshieldParameters parameters = storm();
+    WindshieldState state = startWindshield(parameters);
+    state.film.cell = 4e-3;
+    state.film.columns = 125;
+    state.film.rows = 75;
+    constexpr double kSlope = 0.02;  // to the right
+    for (std::uint32_t k = 0; k < 125 * 75; ++k) {
+        state.film.thickness.push_back(static_cast<std::int32_t>(kSlope * 4e-3 * (k % 125) / Runoff::kThickness));
+    }
+    const GlassFloatMaps maps = glassFloatMaps(parameters.glass, state, {.width = 500});
+    const std::size_t at = 3 * (150 * 500 + 250);
+    EXPECT_NEAR(static_cast<double>(maps.normal.values[at]), -kSlope, 1e-4);
+    EXPECT_NEAR(static_cast<double>(maps.normal.values[at + 1]), 0.0, 1e-4);
+    EXPECT_NEAR(static_cast<double>(maps.thickness.values[150 * 500 + 250]), kSlope * (0.2505 - 2e-3), 1e-6);
 }
 
 }  // namespace

@@ -53,7 +53,8 @@ struct GlassFloatMaps {
     FloatPicture velocity;
 };
 
-/// Draws maps; pixels are means over their areas. The water of overlapping droplets is added. Rings of splashes change
+/// Draws maps; pixels are means over their areas. The water of overlapping droplets, and of the film that runs off, is
+/// added. Rings of splashes change
 /// normals alone: their water is in droplets already.
 ///
 /// Guarantees: the same arguments give the same bytes with any number of threads.

@@ -38,9 +38,9 @@ struct MapTile {
 ///
 /// A pixel has four half floats (IEEE 754 binary16, GL_RGBA16F): x and y of the water's outward unit normal, to the
 /// driver's right and up the glass, both times the wetness; the mean thickness of the water [mm]; and the wetness, the
-/// share that water covers, which exceeds 1 where droplets overlap. Rings of splashes have no thickness. Bare glass is
-/// 0. All four are means over the pixel, so that they may be interpolated; over the wetness the first two are the
-/// normal of the water alone.
+/// share that water covers, which exceeds 1 where droplets overlap. Rings of splashes have no thickness; the film that
+/// runs off (WindshieldState::film) is a texture of its own. Bare glass is 0. All four are means over the pixel, so
+/// that they may be interpolated; over the wetness the first two are the normal of the water alone.
 class WindshieldMaps {
 public:
     /// Side of a tile [px].
