@@ -92,6 +92,22 @@ export async function loadLiquid2d(wasm) {
             });
         }
 
+        /** Begins an animation in a look, of a width [px], that plays so many frames a second. */
+        record(look, width, framesPerSecond) {
+            withText(look, (place) => check(calls.droplet_liquid2d_record(this.#it, place, width, framesPerSecond)));
+        }
+
+        /** Adds the outlines of the last call to the animation. */
+        keep() {
+            check(calls.droplet_liquid2d_keep(this.#it));
+        }
+
+        /** The animation as a text of Lottie. */
+        lottie() {
+            check(calls.droplet_liquid2d_lottie(this.#it, room));
+            return textAt(view().getUint32(room, true));
+        }
+
         /** Gives its memory back at once. */
         free() {
             calls.droplet_liquid2d_delete(this.#it);

@@ -19,6 +19,7 @@
 #include "droplet/liquid2d/touch.h"
 #include "droplet/liquid2d_io/fluid_presets.h"
 #include "droplet/liquid2d_io/liquid_drawing.h"
+#include "droplet/liquid2d_io/liquid_lottie.h"
 #include "entry_named.h"
 #include "guarded.h"
 #include "require.h"
@@ -37,7 +38,8 @@ struct DropletLiquid2d {
     std::vector<droplet::Region> walls;
     std::vector<DropletOutline> outlines;
     std::vector<float> points;
-    std::string svg;
+    std::optional<droplet::LiquidLottie> recording;
+    std::string text;  ///< that was written last
 };
 
 namespace {
@@ -129,6 +131,24 @@ void add(DropletLiquid2d& liquid, DropletLiquidLayer layer, const std::vector<Ve
         liquid.points.push_back(static_cast<float>(point.x));
         liquid.points.push_back(static_cast<float>(point.y));
     }
+}
+
+const droplet::LiquidLook& lookNamed(const char* name)
+{
+    return droplet::liquidLookNamed(name != nullptr ? name : "flat");
+}
+
+droplet::LiquidView viewOf(const DropletLiquid2d& liquid, int width)
+{
+    droplet::requireWithin("width", width, 16, 16384);
+    const Vec2 size = liquid.scene.size;
+    return {size, width, std::max(static_cast<int>(std::lround(width * size.y / size.x)), 1)};
+}
+
+droplet::LiquidLottie& recordingOf(DropletLiquid2d& liquid)
+{
+    droplet::require(liquid.recording.has_value(), "liquid", "without an animation", "after droplet_liquid2d_record()");
+    return *liquid.recording;
 }
 
 }  // namespace
@@ -283,14 +303,39 @@ DropletCode droplet_liquid2d_svg(DropletLiquid2d* liquid, const char* look, int3
     return guarded([&] {
         required("liquid", liquid);
         required("svg", svg);
-        droplet::requireWithin("width", width, 16, 16384);
-        const droplet::LiquidLook& colours = droplet::liquidLookNamed(look != nullptr ? look : "flat");
-        const Vec2 size = liquid->scene.size;
         std::ostringstream out;
-        droplet::writeLiquidSvg({liquid->shape, liquid->walls},
-                                {size, width, std::max(static_cast<int>(std::lround(width * size.y / size.x)), 1)},
-                                colours, out);
-        liquid->svg = out.str();
-        *svg = liquid->svg.c_str();
+        droplet::writeLiquidSvg({liquid->shape, liquid->walls}, viewOf(*liquid, width), lookNamed(look), out);
+        liquid->text = out.str();
+        *svg = liquid->text.c_str();
+    });
+}
+
+DropletCode droplet_liquid2d_record(DropletLiquid2d* liquid, const char* look, int32_t width, double frames_per_second)
+{
+    return guarded([&] {
+        required("liquid", liquid);
+        droplet::require(frames_per_second >= 1.0 && frames_per_second <= 1000.0, "frames_per_second",
+                         frames_per_second, "from 1 to 1000");
+        liquid->recording.emplace(viewOf(*liquid, width), lookNamed(look), frames_per_second);
+    });
+}
+
+DropletCode droplet_liquid2d_keep(DropletLiquid2d* liquid)
+{
+    return guarded([&] {
+        required("liquid", liquid);
+        recordingOf(*liquid).add({liquid->shape, liquid->walls});
+    });
+}
+
+DropletCode droplet_liquid2d_lottie(DropletLiquid2d* liquid, const char** lottie)
+{
+    return guarded([&] {
+        required("liquid", liquid);
+        required("lottie", lottie);
+        std::ostringstream out;
+        recordingOf(*liquid).write(out);
+        liquid->text = out.str();
+        *lottie = liquid->text.c_str();
     });
 }

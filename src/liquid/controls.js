@@ -17,3 +17,4 @@ export const kPresets = {
 };
 export const kStyles = { realistic: 'Realistic', cartoon: 'Cartoon', wave: 'Wave' };
 export const kLooks = { comic: 'Comic', flat: 'Flat', ink: 'Ink', night: 'Night' };
+export const kRecords = { video: 'Video', lottie: 'Lottie' };

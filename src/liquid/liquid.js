@@ -3,6 +3,7 @@
 import { loadLiquid2d } from '../../npm/liquid2d.js';
 import { download, Recorder, savePicture } from '../live/recorder.js';
 import { kPresets } from './controls.js';
+import { LottieRecorder } from './lottie_recorder.js';
 import { Panel } from './panel.js';
 
 const kLongest = 1 / 24;    // step of a frame [s]; where frames take longer, the liquid is slower than time
@@ -56,15 +57,18 @@ class Liquid {
     constructor(root, canvas, { make, look }, { draw }, leave) {
         Object.assign(this, { root, canvas, make, look, draw, leave });
         this.context = canvas.getContext('2d', { alpha: false });
-        this.values = { preset: 'splash', style: 'cartoon', look: 'comic', particles: 10000 };
+        this.values = { preset: 'splash', style: 'cartoon', look: 'comic', particles: 10000, record: 'video' };
         this.tool = 'pour';
         this.ends = new AbortController();
         this.pointers = new Map();
+        this.recorders = { video: new Recorder(canvas, 'splash'), lottie: new LottieRecorder(this) };
+        if (!this.recorder.works) {
+            this.values.record = 'lottie';
+        }
         this.restart();
         for (const name of ['gravity', 'surfaceTension']) {
             this.values[name] = this.liquid.get(name);
         }
-        this.recorder = new Recorder(canvas, 'splash');
         this.panel = new Panel(root, this);
         if (root.clientWidth >= kWide) {
             this.panel.act('panel');
@@ -87,10 +91,17 @@ class Liquid {
         this.root.remove();
     }
 
-    /** The scene from its start. */
+    get recorder() {
+        return this.recorders[this.values.record];
+    }
+
+    /** The scene from its start. It ends a recording of outlines. */
     restart() {
+        if (this.recorders.lottie.runs) {
+            this.panel.act('record');
+        }
         this.liquid?.free();
-        const { look, ...values } = this.values;
+        const { look, record, ...values } = this.values;
         this.liquid = this.make(values);
         this.outlines = this.liquid.outlines();
         this.draws = true;
@@ -105,6 +116,9 @@ class Liquid {
     }
 
     set(name, value, { again = false } = {}) {
+        if (name === 'record' && this.recorder.runs) {
+            this.panel.act('record');
+        }
         this.values[name] = value;
         if (again) {
             clearTimeout(this.soon);
@@ -114,7 +128,7 @@ class Liquid {
             this.outlines = this.liquid.outlines();
         } else if (name === 'look') {
             this.#dress();
-        } else {
+        } else if (name !== 'record') {
             this.liquid.set({ [name]: value });
         }
         this.draws = true;
@@ -174,6 +188,7 @@ class Liquid {
             this.#touch(step);
             this.liquid.advance(step);
             this.outlines = this.liquid.outlines();
+            this.recorders.lottie.keep();
             this.draws = true;
         }
         const busy = performance.now() - begin;

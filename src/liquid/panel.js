@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bar and the panel over a 2D liquid.
 import { element, Overlay } from '../live/overlay.js';
-import { kLooks, kPresets, kSliders, kStyles } from './controls.js';
+import { kLooks, kPresets, kRecords, kSliders, kStyles } from './controls.js';
 
 const kIcons = {
     pour: '<path d="M4 6h9v3l4-2M4 6v4a4 4 0 0 0 4 4h1a4 4 0 0 0 4-4M18.5 11c1.2 1.7 1.8 2.8 1.8 3.8a1.8 1.8 0 0 1-3.6 0c0-1 .6-2.1 1.8-3.8zM3 20c1.5-1.2 3-1.2 4.5 0s3 1.2 4.5 0 3-1.2 4.5 0 3 1.2 4.5 0"/>',
@@ -16,7 +16,7 @@ const kBar = [
     { icon: 'stir', label: 'Stir (3)', key: '3', tool: true },
     { icon: 'pause', label: 'Pause (Space)', key: ' ', gap: true }, { icon: 'again', label: 'Begin again (B)', key: 'b' },
     { icon: 'solid', label: 'Make it 3D (M)', key: 'm', gap: true }, { icon: 'svg', label: 'Save as SVG (V)', key: 'v' },
-    { icon: 'picture', label: 'Save a picture (S)', key: 's' }, { icon: 'record', label: 'Record a video (R)', key: 'r' },
+    { icon: 'picture', label: 'Save a picture (S)', key: 's' }, { icon: 'record', label: 'Record (R)', key: 'r' },
     { icon: 'panel', label: 'Settings (H)', key: 'h', gap: true }, { icon: 'close', label: 'Close (Escape)', key: 'escape' },
 ];
 
@@ -37,6 +37,7 @@ export class Panel extends Overlay {
         groups.get('Liquid').before(element('h2', {}, 'Scene'), choices('preset', labels, (name) => this.part.begin(name)),
             element('h2', {}, 'Style'), choices('style', kStyles, (name) => this.part.set('style', name)),
             choices('look', kLooks, (name) => this.part.set('look', name)));
+        this.panel.append(element('h2', {}, 'Record as'), choices('record', kRecords, (name) => this.part.set('record', name)));
     }
 
     showAll() {

@@ -197,7 +197,7 @@ export class Overlay {
                 }
                 part.recorder.runs ? part.recorder.stop() : part.recorder.start();
                 button.classList.toggle('recording', part.recorder.runs);
-                button.setAttribute('aria-label', part.recorder.runs ? 'End the recording (R)' : 'Record a video (R)');
+                button.setAttribute('aria-label', part.recorder.runs ? 'End the recording (R)' : this.about.bar.find((each) => each.icon === icon).label);
                 break;
             case 'whole':
                 document.fullscreenElement ? document.exitFullscreen() : this.root.requestFullscreen?.();

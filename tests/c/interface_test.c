@@ -360,6 +360,22 @@ static void liquids(void)
     HOLDS(droplet_liquid2d_svg(liquid, "oil", 800, &svg) == DROPLET_INVALID_ARGUMENT);
     HOLDS(droplet_liquid2d_svg(liquid, NULL, 8, &svg) == DROPLET_INVALID_ARGUMENT);
 
+    const char* lottie = NULL;
+    HOLDS(droplet_liquid2d_keep(liquid) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_liquid2d_lottie(liquid, &lottie) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_liquid2d_record(liquid, "comic", 640, 0.5) == DROPLET_INVALID_ARGUMENT);
+    HOLDS(droplet_liquid2d_record(liquid, "comic", 640, 24.0) == DROPLET_OK);
+    for (int frame = 0; frame < 3; ++frame) {
+        HOLDS(droplet_liquid2d_keep(liquid) == DROPLET_OK);
+    }
+    HOLDS(droplet_liquid2d_lottie(liquid, &lottie) == DROPLET_OK);
+    HOLDS(strstr(lottie, "\"fr\":24") != NULL && strstr(lottie, "\"op\":3,") != NULL && strstr(lottie, "\"w\":640,") != NULL);
+    HOLDS(strstr(lottie, "\"ty\":\"sh\"") != NULL);
+    // Begun again, it is without frames.
+    HOLDS(droplet_liquid2d_record(liquid, NULL, 640, 24.0) == DROPLET_OK);
+    HOLDS(droplet_liquid2d_lottie(liquid, &lottie) == DROPLET_OK);
+    HOLDS(strstr(lottie, "\"op\":0,") != NULL && strstr(lottie, "\"ty\":\"sh\"") == NULL);
+
     DropletLiquidLook look;
     HOLDS(droplet_liquid2d_look("ink", &look) == DROPLET_OK);
     HOLDS(look.water == 0xFFFFFF && look.foam == DROPLET_NO_COLOUR && look.line == 0x141418 && look.line_width == 2.0);

@@ -115,6 +115,28 @@ studio('a frame is saved as SVG, PNG and WebM', kDesktop, async (page) => {
     assert.deepEqual([...(await save('r')).bytes.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3]);
 });
 
+studio('a recording is saved as Lottie', kDesktop, async (page) => {
+    await open(page, 'dam');
+    const lottie = async (act) => {
+        const [file] = await Promise.all([page.waitForEvent('download'), act()]);
+        assert.equal(file.suggestedFilename(), 'splash.json');
+        await file.saveAs(join(folder, 'splash.json'));
+        return JSON.parse(readFileSync(join(folder, 'splash.json')));
+    };
+    await page.locator('#liquid2d-record-lottie').evaluate((button) => button.click());
+    await page.keyboard.press('r');
+    await frames(page, 12);
+    const made = await lottie(() => page.keyboard.press('r'));
+    assert.deepEqual([made.fr, made.w, made.h], [24, 1280, 720]);
+    assert.ok(made.op >= 4 && made.op <= 14, `${made.op}`);
+    assert.deepEqual(made.layers.map(({ nm }) => nm).filter((name) => ['walls', 'liquid', 'background'].includes(name)), ['walls', 'liquid', 'background']);
+    // A new beginning ends it.
+    await page.keyboard.press('r');
+    await frames(page, 3);
+    assert.ok((await lottie(() => page.keyboard.press('b'))).op >= 1);
+    assert.equal(await page.locator('#liquid2d-record.recording').count(), 0);
+});
+
 studio('made 3D, the liquid is on the sheet and a droplet stands beside it', kDesktop, async (page) => {
     await open(page, 'dam');
     await frames(page, 12);

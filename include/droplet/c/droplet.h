@@ -510,6 +510,24 @@ DROPLET_API DropletCode droplet_liquid2d_look(const char* name, DropletLiquidLoo
 DROPLET_API DropletCode droplet_liquid2d_svg(DropletLiquid2d* liquid, const char* look, int32_t width,
                                              const char** svg);
 
+/// Begins an animation without frames, in place of one that was begun before.
+/// @param liquid             valid
+/// @param look               colours and lines: "flat", "comic", "ink" or "night"; NULL: flat
+/// @param width              [px], 16 to 16384
+/// @param frames_per_second  1 to 1000; of what is played, whatever the times between frames are
+DROPLET_API DropletCode droplet_liquid2d_record(DropletLiquid2d* liquid, const char* look, int32_t width,
+                                                double frames_per_second);
+
+/// Adds the outlines that droplet_liquid2d_outlines() gave last as a frame of the animation. DROPLET_INVALID_ARGUMENT:
+/// none was begun.
+/// @param liquid  valid
+DROPLET_API DropletCode droplet_liquid2d_keep(DropletLiquid2d* liquid);
+
+/// The animation's frames so far, as a Lottie file. DROPLET_INVALID_ARGUMENT: none was begun.
+/// @param liquid  valid
+/// @param lottie  receives a text of JSON that stays until the next call
+DROPLET_API DropletCode droplet_liquid2d_lottie(DropletLiquid2d* liquid, const char** lottie);
+
 #ifdef __cplusplus
 }
 #endif
