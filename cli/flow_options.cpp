@@ -14,6 +14,7 @@
 #include "droplet/units.h"
 #include "files.h"
 #include "force_options.h"
+#include "map_options.h"
 #include "object_options.h"
 #include "option_values.h"
 #include "shape_options.h"
@@ -444,6 +445,8 @@ void readFlowPreview(const CommandLine& line, FlowOptions& options, bool is_pict
     }
 }
 
+constexpr const char* kMapPath = "a path such as maps/%05d.png or .exr";
+
 void readOutputs(const CommandLine& line, FlowOptions& options)
 {
     options.output = outputOf(line, options);
@@ -513,23 +516,14 @@ void readOutputs(const CommandLine& line, FlowOptions& options)
     }
     if (const auto maps = line.value("--maps")) {
         options.maps = NumberedPath::of(maps->text, "--maps");
-        const std::string ending = std::filesystem::path(maps->text).extension().string();
-        if (!options.maps || (ending != ".png" && ending != ".exr")) {
-            refuse(*maps, "a path such as maps/%05d.png or .exr");
+        if (!options.maps) {
+            refuse(*maps, kMapPath);
         }
-        options.are_maps_exr = ending == ".exr";
     }
+    options.are_maps_exr = areMapsExr(line, {"--map-width", "--map-thickness", "--map-age"}, kMapPath);
     if (options.deformation > 0.0 && options.kind == FlowOutput::Animation && !options.has_preview && !options.maps) {
         refuse("--deformation is for pictures, textures and meshes of every frame; an animation such as '" +
                options.output + "' does not have it");
-    }
-    for (const char* option : {"--map-width", "--map-thickness", "--map-age"}) {
-        if (line.value(option) && !options.maps) {
-            refuse(std::string(option) + " needs --maps");
-        }
-    }
-    if (line.value("--map-thickness") && options.are_maps_exr) {
-        refuse("--map-thickness needs --maps with .png: .exr has metres");
     }
     options.droplets = ending_in("--droplets", {".csv", ".json", ".usda", ".usdz", ".ply"},
                                  "a file that ends in .csv, .json, .usda or .usdz, or files such as points/%04d.ply");

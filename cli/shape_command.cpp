@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -23,6 +24,7 @@
 #include "droplet/error.h"
 #include "droplet/io/evolver.h"
 #include "droplet/io/gltf.h"
+#include "droplet/render/droplet_maps.h"
 #include "droplet/surface/onto.h"
 #include "droplet/surface/plate.h"
 #include "droplet/surface/simplify.h"
@@ -36,6 +38,7 @@
 #include "picture_watch.h"
 #include "progress_display.h"
 #include "run_command.h"
+#include "shape_maps.h"
 #include "stage_clock.h"
 #include "summary.h"
 #include "surface_files.h"
@@ -111,6 +114,7 @@ struct Extras {
     std::vector<droplet::FileDroplet> droplets;
     std::optional<PreviewSubject> subject;
     std::optional<OutputFile> mask;
+    std::vector<OutputFile> maps;
     std::string texture;                      ///< bytes of a PNG, or empty
     std::optional<droplet::Surface> in_file;  ///< what OUTPUT holds, if it is not the droplets alone
 };
@@ -204,6 +208,7 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
     if (extras.mask) {
         files.push_back(*extras.mask);
     }
+    files.insert(files.end(), extras.maps.begin(), extras.maps.end());
     if (options.evolver) {
         files.push_back({*options.evolver, [&](std::ostream& out) {
                              droplet::writeEvolver(out, droplet.solution.droplets, report.physics);
@@ -256,7 +261,7 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
     stages.begin(Stage::Write);
     DescribedShape described = describe(made, options);
     droplet::Report& report = described.report;
-    Extras extras{std::move(described.droplets), {}, {}, textureOf(made), {}};
+    Extras extras{std::move(described.droplets), {}, {}, {}, textureOf(made), {}};
     if (const auto base = made.settings.base) {
         extras.in_file = droplet::onPlate(made.droplet.solution.droplets, {*base, made.droplet.domain.extent});
         if (made.settings.droplet.mesh.quads) {
@@ -282,6 +287,15 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
     if (options.footprint.mask_out) {
         extras.mask = {*options.footprint.mask_out,
                        [&](std::ostream& out) { writeMask(out, *made.mask, made.settings.droplet.trace); }};
+    }
+    if (options.maps) {
+        const auto maps = std::make_shared<droplet::DropletMaps>(
+            droplet::dropletMaps(made.droplet.surface, {.extent = made.droplet.domain.extent,
+                                                        .width = options.maps->width,
+                                                        .is_tile = options.maps->is_tile,
+                                                        .ground = made.settings.droplet.solve.ground}));
+        extras.maps = mapFiles(maps, *options.maps);
+        report.output.map_thickness = whiteOf(*maps, *options.maps);
     }
     if (options.preview) {
         extras.subject.emplace(
@@ -518,6 +532,11 @@ RunFiles filesOf(const ShapeOptions& options, const std::string& input_name)
     files.writes("--mask-out", options.footprint.mask_out);
     files.writes("--export-evolver", options.evolver);
     files.writes("--html", options.html);
+    if (options.maps) {
+        for (const std::string& path : mapPaths(*options.maps)) {
+            files.writes("--maps", path);
+        }
+    }
     if (options.preview) {
         for (const std::string& path : previewPaths(*options.preview)) {
             files.writes("--preview", path);

@@ -44,6 +44,7 @@ const CommandText& commandText()
             "  droplet-shape logo.png can.glb --surface cylinder:R=33mm,axis=y\n"
             "  droplet-shape blots.png blots.obj --volume 30uL --fill total --json run.json\n"
             "  droplet-shape logo.png logo.glb --preview look.png --ground wood.jpg\n"
+            "  droplet-shape logo.png logo.glb --maps maps/logo.exr --map-width 2k\n"
             "  droplet-shape flag.svg flag.glb --by-colour --nodes each\n"
             "  droplet-shape spill.jpg spill.glb --fill-holes 1mm2 --mask-out mask.png\n"
             "  droplet-shape - - --format stl < logo.png > logo.stl\n"
@@ -57,7 +58,7 @@ const CommandText& commandText()
     return text;
 }
 
-void declareShape(CommandLine& line, ShapeOptions& options)
+void declareShape(CommandLine& line, ShapeOptions& options, ShapeMapOptions& maps)
 {
     line.addArgument(
         "INPUT",
@@ -69,6 +70,7 @@ void declareShape(CommandLine& line, ShapeOptions& options)
     declareShapes(line, options);
     declareMaskOut(line);
     declarePreview(line);
+    declareShapeMaps(line, maps);
     line.add("Run", "--json", "FILE", "Write a report; - is standard output", into(options.json));
     declareHtml(line);
     line.add("Run", "--export-evolver", "FILE", "Write the droplets as input for Surface Evolver; - is standard output",
@@ -76,6 +78,7 @@ void declareShape(CommandLine& line, ShapeOptions& options)
     line.addFlag("Run", "--watch", "Make the droplet again whenever INPUT is saved, until Ctrl-C", options.watch);
     declareRun(line);
     line.exclude({"--watch", "--no-clobber"});
+    line.exclude({"--maps", "--onto"});
 }
 
 /// --watch makes files again and again, which streams cannot hold.
@@ -308,7 +311,8 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
 {
     CommandLine line(commandText());
     ShapeOptions options;
-    declareShape(line, options);
+    ShapeMapOptions maps;
+    declareShape(line, options, maps);
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
         return *text;
@@ -319,6 +323,7 @@ std::variant<ShapeOptions, std::string> parseShape(int argc, const char* const* 
     options.html = readHtml(line);
     std::vector<std::string> warnings;
     options.preview = readPreview(line, warnings);
+    options.maps = readShapeMaps(line, maps);
     readShapes(line, options, "OUTPUT");
     if (const auto mask = line.value("--mask-out")) {
         options.footprint.mask_out = mask->text;

@@ -8,6 +8,7 @@
 #include "droplet/io/output.h"
 #include "droplet_options.h"
 #include "preview.h"
+#include "shape_maps.h"
 
 namespace cli {
 
@@ -19,6 +20,7 @@ struct ShapeOptions {
     std::optional<std::string> json;     ///< path or kStandardStream
     std::optional<std::string> evolver;  ///< path or kStandardStream
     std::optional<PreviewOptions> preview;
+    std::optional<ShapeMapOptions> maps;
     std::optional<std::string> html;  ///< path or kStandardStream
     droplet::Format format = droplet::Format::Glb;
     droplet::Compression compression = droplet::Compression::None;

@@ -22,19 +22,19 @@ std::optional<std::string> materialFile(const std::string& path, droplet::Format
     return file.string();
 }
 
-std::string levelPath(const std::string& path, std::size_t number)
+std::string pathBeside(const std::string& path, const std::string& word)
 {
     std::filesystem::path file(path);
     const std::string extension = file.extension().string();
     file.replace_extension();
-    return file.string() + "-lod" + std::to_string(number) + extension;
+    return file.string() + '-' + word + extension;
 }
 
 std::vector<std::string> levelPaths(const std::string& path, droplet::Format format, std::size_t count)
 {
     std::vector<std::string> paths;
     for (std::size_t k = 1; format != droplet::Format::Glb && format != droplet::Format::Gltf && k <= count; ++k) {
-        paths.push_back(levelPath(path, k));
+        paths.push_back(pathBeside(path, "lod" + std::to_string(k)));
     }
     return paths;
 }

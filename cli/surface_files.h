@@ -17,9 +17,8 @@ namespace cli {
 /// @throws droplet::Error InvalidArgument: the .obj cannot hold its name
 std::optional<std::string> materialFile(const std::string& path, droplet::Format format);
 
-/// Path of a surface with fewer triangles beside the whole one: `logo-lod1.obj`.
-/// @param number  from 1
-std::string levelPath(const std::string& path, std::size_t number);
+/// Path of a file beside another one, with `-word` before its ending: `logo-lod1.obj`.
+std::string pathBeside(const std::string& path, const std::string& word);
 
 /// Paths of the surfaces with fewer triangles; none in glTF, whose file holds them.
 std::vector<std::string> levelPaths(const std::string& path, droplet::Format format, std::size_t count);

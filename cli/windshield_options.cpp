@@ -13,6 +13,7 @@
 #include "droplet/windshield/presets.h"
 #include "files.h"
 #include "force_options.h"
+#include "map_options.h"
 #include "option_values.h"
 #include "value_list.h"
 #include "video_writer.h"
@@ -350,20 +351,8 @@ void readOutputs(const CommandLine& line, WindshieldOptions& options)
         if (!options.maps) {
             refuse(*maps, "a path with one %d or %04d, for the number, in the file's name");
         }
-        const std::string extension = std::filesystem::path(maps->text).extension().string();
-        if (extension != ".png" && extension != ".exr") {
-            refuse(*maps, "a path that ends in .png or .exr");
-        }
-        options.are_maps_exr = extension == ".exr";
     }
-    for (const char* option : {"--map-width", "--map-thickness"}) {
-        if (line.value(option) && !options.maps) {
-            refuse(std::string(option) + " needs --maps");
-        }
-    }
-    if (line.value("--map-thickness") && options.are_maps_exr) {
-        refuse("--map-thickness needs --maps with .png: .exr has metres");
-    }
+    options.are_maps_exr = areMapsExr(line, {"--map-width", "--map-thickness"}, "a path that ends in .png or .exr");
     if (const auto droplets = line.value("--droplets")) {
         const std::string extension = std::filesystem::path(droplets->text).extension().string();
         if (extension != ".csv" && extension != ".json") {

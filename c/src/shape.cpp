@@ -68,10 +68,10 @@ cli::ShapeOptions parsed(const char* input, const Words& words)
     if (options == nullptr) {
         throw Error(ErrorCode::InvalidArgument, "options: help and version are texts of the command alone");
     }
-    if (options->json || options->evolver || options->html || options->preview || options->watch ||
+    if (options->json || options->evolver || options->html || options->preview || options->maps || options->watch ||
         options->footprint.mask_out) {
         throw Error(ErrorCode::InvalidArgument,
-                    "options: --json, --export-evolver, --html, --preview, --watch and --mask-out are of the command "
+                    "options: --json, --export-evolver, --html, --preview, --maps, --watch and --mask-out are of the command "
                     "alone");
     }
     return std::move(*options);

@@ -24,7 +24,7 @@ _droplet_shape()
         studio) options='--no-clobber --help' ;;
         wind-tunnel) options='--preset --volume --wind-speed --slope --hysteresis --sliding-angle --sliding-volume --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --chart --map --measured --trace --time --trace-step --initial-speed --gust --gust-period --json --no-clobber --threads --quiet --config --help --version' ;;
         windshield) options='--preset --rain --mist --speed --drive-cycle --wind-model --noise --wiper-period --splashes --seed --glass-width --glass-height --glass-radius --slope --surface --hysteresis --still-diameter --film --runoff --shape --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --time --warm-up --fps --background --fit --environment --background-blur --frame-size --field-of-view --eye-distance --eye --look-at --samples --exposure --highlight-boost --shutter --layer --codec --quality --maps --map-width --map-thickness --droplets --moving-only --animation --animation-method --compress --live --json --resume --no-clobber --progress --threads --quiet --config --help --version' ;;
-        *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --by-colour --colours --gap --mask-out --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --quads --format --nodes --materials --fill-range --sink --base --lod --weld --compress --colour-map --preview --view --camera --look-at --preview-size --ground --environment --preview-background --preview-colour --turntable --codec --quality --json --html --export-evolver --watch --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        *) options='--width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --by-colour --colours --gap --mask-out --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --quads --format --nodes --materials --fill-range --sink --base --lod --weld --compress --colour-map --preview --view --camera --look-at --preview-size --ground --environment --preview-background --preview-colour --turntable --codec --quality --maps --map-width --map-thickness --map-tile --json --html --export-evolver --watch --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
     esac
     [[ ' animate batch compare dew flow glyphs liquid2d morph studio wind-tunnel windshield ' == *" $command "* ]] || command=
     case $command:$previous in
@@ -86,6 +86,9 @@ _droplet_shape()
         *:--turntable) return ;;
         *:--codec) return ;;
         *:--quality) return ;;
+        *:--maps) files=1 ;;
+        *:--map-width) return ;;
+        *:--map-thickness) return ;;
         *:--json) files=1 ;;
         *:--html) files=1 ;;
         *:--export-evolver) files=1 ;;
@@ -163,9 +166,6 @@ _droplet_shape()
         *:--shape) choices='capillary springs capsule' ;;
         *:--deformation) return ;;
         *:--streaks) files=1 ;;
-        *:--maps) files=1 ;;
-        *:--map-width) return ;;
-        *:--map-thickness) return ;;
         *:--map-age) return ;;
         *:--font) files=1 ;;
         *:--face-index) return ;;

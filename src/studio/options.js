@@ -48,6 +48,8 @@ export const kOptions = {
   "turntable": {"min": 1.0, "max": 360.0},
   "codec": {"default": "libx264, libvpx-vp9 for .webm"},
   "quality": {"min": 1.0, "max": 100.0, "default": "65"},
+  "map-width": {"min": 16.0, "max": 8192.0, "default": "1024"},
+  "map-thickness": {"min": 1e-06, "max": 1.0, "default": "the greatest of both"},
   "solver": {"words": ["auto", "llt", "multigrid"], "default": "auto"},
   "threads": {"min": 1.0, "max": 1024.0, "default": "all cores"},
   "progress": {"words": ["auto", "none", "json"], "default": "auto"}

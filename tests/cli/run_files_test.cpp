@@ -103,6 +103,8 @@ const std::vector<CommandFiles>& all()
           {"--mask-out", "mask.png"},
           {"--export-evolver", "out.fe"},
           {"--html", "out.html"},
+          frames("--maps", "maps.png", "maps-height.png"),
+          frames("--maps", "maps.png", "maps-occlusion.png"),
           {"--preview", "out.png"},
           needing(frames("--preview", "turn.png", "turn-002.png"), {"--turntable", "3"})}},
         {"animate",

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/image/height_map.h"
 #include "support/command.h"
 
 namespace droplet {
@@ -296,6 +297,45 @@ TEST_F(ShapeCommandTest, DerivedFiguresAgreeWithEachOther)
     EXPECT_EQ(shape["dry_area_m2"], 0.0);
     EXPECT_EQ(shape["depth_max_m"], 0.0);
     EXPECT_TRUE(shape["would_slide"].is_null());
+}
+
+TEST_F(ShapeCommandTest, MapsShowTheDroplet)
+{
+    const std::vector<std::string> options{"disc.pgm", "a.glb", "--volume", "100uL", "--map-width", "300", "--maps"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), options.begin(), options.end());
+        return report(more);
+    };
+    const json made = with({"m.png"});
+    const double white = made["output"]["map_thickness_m"].get<double>();
+    EXPECT_NEAR(white, made["shape"]["height_max_m"].get<double>(), 1e-6);
+    const double pixel = made["input"]["width_px"].get<double>() * made["input"]["pixel_size_m"].get<double>() / 300.0;
+    const auto sum = [&](const char* name) {
+        const droplet::HeightMap map = droplet::readHeightMap(directory() / name);
+        EXPECT_EQ(map.width, 300) << name;
+        double total = 0.0;
+        for (const float level : map.levels) {
+            total += level;
+        }
+        return total * pixel * pixel;
+    };
+    EXPECT_NEAR(sum("m-thickness.png") * white, 100e-9, 0.1e-9);
+    EXPECT_NEAR(sum("m-wetness.png") / made["mesh"]["footprint_area_m2"].get<double>(), 1.0, 2e-3);
+    EXPECT_NEAR(sum("m-coverage.png"), sum("m-wetness.png"), 1e-9);
+    EXPECT_NEAR(sum("m-height.png"), sum("m-thickness.png"), 1e-12);
+    EXPECT_GT(sum("m-occlusion.png"), 0.9 * 300 * 300 * pixel * pixel);
+    EXPECT_EQ(with({"m.png", "--map-thickness", "5mm"})["output"]["map_thickness_m"], 5e-3);
+    EXPECT_NEAR(sum("m-thickness.png") * 5e-3, 100e-9, 0.1e-9);
+
+    // OpenEXR has metres, whatever is white.
+    EXPECT_TRUE(with({"m.exr"})["output"]["map_thickness_m"].is_null());
+    EXPECT_NEAR(sum("m-thickness.exr"), 100e-9, 0.1e-9);
+    EXPECT_THAT(bytesOf("m-normal.exr"), StartsWith("v/1\x01"));
+
+    // A tile is the window itself if nothing leans out of it.
+    const std::string height = bytesOf("m-height.exr");
+    with({"m.exr", "--map-tile", "-j", "1"});
+    EXPECT_EQ(bytesOf("m-height.exr"), height);
 }
 
 TEST_F(ShapeCommandTest, TiltMakesTheRimSteepestDownhill)
