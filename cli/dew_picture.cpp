@@ -21,11 +21,9 @@ std::vector<OutputFile> dewPictures(const Dew& dew, const PreviewOptions& option
     painting.render.fit_all_azimuths = options.turns.has_value();
     painting.render.look = droplet::lookOf(material);
     const auto painter = std::make_shared<droplet::FlowPainter>(dew.object, dew.terrain, painting);
-    const auto droplets =
-        std::make_shared<const droplet::Surface>(dropletSurfaces(dew.shown, {dew.bodies, dew.report.options.gravity}));
-    return previewFiles(options, VideoFrames{}.per_second, [&dew, &options, painter, droplets](std::size_t index) {
-        const double turn = options.turns ? turnOf(options, index) : 0.0;
-        return painter->picture({.azimuth = turn}, dew.shown, *droplets);
+    const auto droplets = std::make_shared<const droplet::SettledDroplets>(dew.model.settled());
+    return previewFiles(options, VideoFrames{}.per_second, [&options, painter, droplets](std::size_t index) {
+        return painter->picture({.azimuth = options.turns ? turnOf(options, index) : 0.0}, *droplets);
     });
 }
 

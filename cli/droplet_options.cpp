@@ -13,6 +13,7 @@
 #include "droplet/liquid.h"
 #include "droplet/units.h"
 #include "droplet/wetting.h"
+#include "files.h"
 #include "liquid_options.h"
 
 namespace cli {
@@ -222,6 +223,13 @@ void readGround(const CommandLine& line, DropletSettings& settings)
     auto& solve = settings.droplet.solve;
     if (const auto surface = line.value("--surface")) {
         settings.ground = groundOf(*surface);
+    }
+    if (const auto onto = line.value("--onto")) {
+        const std::string ending = lowerExtension(onto->text);
+        if (ending == ".obj" || ending == ".ply" || ending == ".stl") {
+            refuse(*onto,
+                   "a .glb or .gltf file, which states where its uv lies; the commands dew and flow take this one");
+        }
     }
     if (const auto depth = line.value("--surface-depth")) {
         settings.ground.depth = quantity(*depth, kLength);

@@ -531,6 +531,19 @@ Surface DewModel::surface() const
     return surface;
 }
 
+SettledDroplets DewModel::settled() const
+{
+    SettledDroplets made{surface(), {}};
+    for (const std::size_t i : content_->shown) {
+        const DropletPose& pose = content_->poses[i];
+        const DropletFrame frame = droplet::frameOf(pose);
+        const double top = cornersOf(content_->kinds[i]->second.mesh.vertices)[1].z;
+        made.bases.push_back({frame.place, frame.ahead, frame.normal, static_cast<double>(pose.along),
+                              static_cast<double>(pose.across), top * static_cast<double>(pose.up)});
+    }
+    return made;
+}
+
 std::uint64_t DewModel::write(const FlowObject& object, std::ostream& out, const DewFile& form) const
 {
     const Content& content = *content_;

@@ -185,8 +185,12 @@ void FlowPainter::reshape(const FlowObject& object, const FlowTerrain& terrain)
 
 Picture FlowPainter::picture(const FlowMoment& moment, std::span<const FlowSample> samples, const Surface& droplets)
 {
+    return picture(moment, settled(*content_->terrain, samples, droplets, content_->shownOf(samples)));
+}
+
+Picture FlowPainter::picture(const FlowMoment& moment, SettledDroplets water)
+{
     Content& c = *content_;
-    SettledDroplets water = settled(*c.terrain, samples, droplets, c.shownOf(samples));
     RenderOptions render = c.options.render;
     render.azimuth += moment.azimuth;
     render.stand_water = c.water;

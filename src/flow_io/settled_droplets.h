@@ -6,16 +6,10 @@
 
 #include "droplet/flow/flow.h"
 #include "droplet/flow/flow_terrain.h"
-#include "droplet/render/stand_water.h"
+#include "droplet/flow_io/droplet_surfaces.h"
 #include "droplet/surface/surface.h"
 
 namespace droplet {
-
-/// Droplets that touch an object all around.
-struct SettledDroplets {
-    Surface surface;                 ///< in the object's frame; may have no triangles
-    std::vector<DropletBase> bases;  ///< of those that are not in the air
-};
 
 /// Seats droplets on the object below them, and extends their rims a little into it, so that no light leaks in between.
 /// @param samples   droplets

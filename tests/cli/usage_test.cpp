@@ -289,6 +289,11 @@ TEST_F(UsageTest, RefusesOptionsThatExcludeEachOther)
     expectRefused({"-q", "-v"}, {"--quiet and --verbose exclude each other"});
 }
 
+TEST_F(UsageTest, RefusesMeshesWithoutUvOnto)
+{
+    expectRefused({"--onto", "bunny.stl"}, {"--onto", "bunny.stl", ".glb or .gltf", "dew and flow"});
+}
+
 TEST_F(UsageTest, FillRangesContainTheDropletAndNeedTheLinearModelAndGltf)
 {
     for (const char* wrong :

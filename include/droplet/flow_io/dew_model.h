@@ -13,6 +13,7 @@
 #include "droplet/flow/dew.h"
 #include "droplet/flow/flow.h"
 #include "droplet/flow/flow_terrain.h"
+#include "droplet/flow_io/droplet_surfaces.h"
 #include "droplet/flow_io/flow_object.h"
 #include "droplet/scene/format.h"
 #include "droplet/surface/material.h"
@@ -76,6 +77,9 @@ public:
 
     /// All droplets in one surface, in the object's frame.
     [[nodiscard]] Surface surface() const;
+
+    /// All droplets for a picture.
+    [[nodiscard]] SettledDroplets settled() const;
 
     /// Writes the droplets as glTF or USD, metres, +Y up.
     /// @return         number of bytes written

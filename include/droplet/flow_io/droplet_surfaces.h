@@ -8,6 +8,7 @@
 #include "droplet/body/droplet_body.h"
 #include "droplet/flow/flow.h"
 #include "droplet/flow/flow_terrain.h"
+#include "droplet/render/stand_water.h"
 #include "droplet/surface/surface.h"
 #include "droplet/vector.h"
 
@@ -56,6 +57,12 @@ struct DropletShapes {
 /// Surfaces of all droplets in the object's frame, one after another, each with the vertices and triangles of the
 /// bodies. They are open at the ground. uvs and contact angles are 0.
 Surface dropletSurfaces(std::span<const FlowSample> samples, const DropletShapes& shapes);
+
+/// Droplets for a picture.
+struct SettledDroplets {
+    Surface surface;  ///< in the object's frame, closed or with rims in the object; may have no triangles
+    std::vector<DropletBase> bases;  ///< of those that are not in the air
+};
 
 /// Closed droplets and ponds on an object.
 struct SeatedDroplets {

@@ -12,6 +12,7 @@
 #include "droplet/flow/flow_shapes.h"
 #include "droplet/flow/flow_terrain.h"
 #include "droplet/flow/object_motion.h"
+#include "droplet/flow_io/droplet_surfaces.h"
 #include "droplet/flow_io/flow_object.h"
 #include "droplet/flow_io/trail_film.h"
 #include "droplet/render/render.h"
@@ -81,6 +82,11 @@ public:
     /// @param samples   droplets at that time
     /// @param droplets  dropletSurfaces() of these samples, in the object's frame
     Picture picture(const FlowMoment& moment, std::span<const FlowSample> samples, const Surface& droplets);
+
+    /// Renders a picture of droplets that sit on the object.
+    /// @param moment    time, pose and view
+    /// @param droplets  in the object's frame
+    Picture picture(const FlowMoment& moment, SettledDroplets droplets);
 
     /// Exact bytes of what is wet.
     [[nodiscard]] std::string bytes() const;
