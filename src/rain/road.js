@@ -24,7 +24,8 @@ function hashed(k) {
 }
 
 const kSodium = [1.6, 0.74, 0.2];
-const kWhite = [1.75, 1.62, 1.35];
+const kWhite = [1.7, 1.5, 1.15];    // halogen lamps
+const kBluish = [1.15, 1.35, 1.65];  // and those of xenon
 const kRed = [1.5, 0.05, 0.03];
 const kGreen = [0.08, 1.25, 0.6];
 
@@ -74,11 +75,11 @@ export class Road {
             }
         }
         const kTrain = 170;
-        for (const place of [38, 71, 118, 150]) {
+        for (const [k, place] of [38, 71, 118, 150].entries()) {
             const depth = wrapped(place - passed(kTrain, 1.9), kTrain) + 7;
             const near = smoothstep(7, 11, depth) * (1 - smoothstep(150, 174, depth));
             for (const side of [-0.66, 0.66]) {
-                this.#add(side - kLane, 0.7, depth, 0.1, kWhite, 1.2 * near, 0.34);
+                this.#add(side - kLane, 0.7, depth, 0.1, k % 3 === 1 ? kBluish : kWhite, near, 0.34);
             }
         }
         // Windows, shops and signs at both sides.

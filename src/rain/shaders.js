@@ -3,11 +3,12 @@
 
 const kHead = '#version 300 es\nprecision highp float;\nprecision highp int;\n';
 
-/** The film: light to levels, and levels to light, before the curve of sRGB. */
+/** The film: light to levels, and levels to light, before the curve of sRGB. What is bright keeps its hue, as in the ray-traced view. */
 const kFilm = `
 const float kFilm = 1.15;
-vec3 developed(vec3 light) { return 1.0 - exp(-kFilm * light); }
-vec3 lightOf(vec3 level) { return -log(1.0 - min(level, vec3(0.985))) / kFilm; }
+float brightest(vec3 c) { return max(max(c.r, c.g), max(c.b, 1e-5)); }
+vec3 developed(vec3 light) { return light * (1.0 - exp(-kFilm * brightest(light))) / brightest(light); }
+vec3 lightOf(vec3 level) { return level * -log(1.0 - min(brightest(level), 0.985)) / kFilm / brightest(level); }
 vec3 encoded(vec3 x) { return mix(12.92 * x, 1.055 * pow(max(x, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, x)); }
 `;
 
@@ -285,7 +286,7 @@ void main() {
     float share = rest * rest * rest;
     if (is_mirrored < 0.5 && spread > 0.0) {
         float soft = max(2.0 * fwidth(d), 0.07);
-        share = (1.0 - smoothstep(1.0 - soft, 1.0, d)) * (0.80 + 0.12 * d * d + 0.22 * smoothstep(0.72, 0.95, d));
+        share = (1.0 - smoothstep(1.0 - soft, 1.0, d)) * (0.66 + 0.18 * d * d + 0.42 * smoothstep(0.76, 0.96, d));
     }
     colour = vec4(light * share, 0.0);
 }`;

@@ -22,7 +22,8 @@ const kLens = { glowing: 0.11, falloff: 0.42 };
 const kFilmLasts = 0.75;      // behind a blade [s]
 const kFilmMap = 1024;        // width of the map of films [px]
 const kBladeHalf = 0.0045;    // half its width, as in the ray-traced view [m]
-const kBarParts = 12;         // of a blade or arm
+const kBarEnd = [0, 0.002, 0.006, 0.015, 0.04];  // shares of a blade or arm at which its parts begin, near an end ...
+const kBarParts = 12;                           // ... and so many between
 const kBesideGlass = 0.03;    // how far they are seen beside the glass [m]
 const kPushedReach = 0.024;   // of pushed water from the middle of a blade [m]
 const kStrip = 24;            // parts of its mesh along the blade
@@ -429,6 +430,14 @@ export class View {
         return panorama ? [0, 0] : tangent;
     }
 
+    /** Width of a bar over that in its middle, which is slimmer towards its ends, and round there. */
+    #taper(share, length, half) {
+        const end = Math.min(share, 1 - share);
+        const slim = Math.min(end / 0.4, 1);
+        const round = Math.max(1 - end * length / (1.5 * half), 0);
+        return (0.55 + 0.45 * slim * slim * (3 - 2 * slim)) * Math.sqrt(1 - round * round);
+    }
+
     /** Vertices of a flat bar between two positions, some way above the glass; what is beside it is behind the pillars. */
     #bar(numbers, windshield, from, to, half, paint, above = 0.004) {
         const away = Math.hypot(to.x - from.x, to.y - from.y) || 1;
@@ -436,14 +445,17 @@ export class View {
         const at = (share) => ({ x: from.x + share * (to.x - from.x), y: from.y + share * (to.y - from.y) });
         const corner = (share, across) => {
             const { x, y } = at(share);
-            const { point, normal } = this.#pointOf(windshield, x + across * side.x, y + across * side.y);
+            const wide = across * this.#taper(share, away, half);
+            const { point, normal } = this.#pointOf(windshield, x + wide * side.x, y + wide * side.y);
             return [...point.map((value, k) => value + above * normal[k]), 2 * share - 1, across, ...paint];
         };
-        for (let k = 0; k < kBarParts; ++k) {
-            const { x, y } = at((k + 0.5) / kBarParts);
+        const inner = Array.from({ length: kBarParts - 1 }, (_, k) => (k + 1) / kBarParts);
+        const shares = [...kBarEnd, ...inner, ...kBarEnd.map((share) => 1 - share).reverse()];
+        for (let k = 0; k + 1 < shares.length; ++k) {
+            const { x, y } = at(0.5 * (shares[k] + shares[k + 1]));
             const near = this.#placed(windshield, x, y);
             if (Math.hypot(near.x - x, near.y - y) < kBesideGlass) {
-                const [begin, end] = [k / kBarParts, (k + 1) / kBarParts];
+                const [begin, end] = [shares[k], shares[k + 1]];
                 const [a, b, c, d] = [corner(begin, -1), corner(end, -1), corner(end, 1), corner(begin, 1)];
                 numbers.push(...a, ...b, ...c, ...a, ...c, ...d);
             }

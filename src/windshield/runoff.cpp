@@ -98,10 +98,12 @@ Cells cellsOf(const Runoff& film)
     return {film.cell, film.columns, film.rows};
 }
 
-/// Water that leaves every cell in a step, to the right and upwards; below 0: to the left and downwards.
+/// Water that leaves every cell in a step.
 struct Outflow {
-    std::vector<std::int32_t> x;
-    std::vector<std::int32_t> y;
+    std::vector<std::int32_t> x;  ///< to the right; below 0: to the left
+    std::vector<std::int32_t> y;  ///< upwards; below 0: downwards
+    std::vector<std::int32_t>
+        loose;  ///< to each of four neighbours, which give back as much of their own: it levels out
 };
 
 constexpr std::uint32_t kDriveBlock = 16;  // cells, along which what moves the film hardly changes
@@ -167,15 +169,11 @@ void flowOut(const Runoff& film, std::uint32_t row, std::span<const std::optiona
             const float scale = moves * (kMost / kUnit) / share;
             out.x[cell] = static_cast<std::int32_t>(scale * x);
             out.y[cell] = static_cast<std::int32_t>(scale * y);
+            constexpr auto kHeld = static_cast<std::int32_t>(40e-6 / Runoff::kThickness);
+            constexpr std::int32_t kPart = 32;  // of what is thicker; chosen by eye: rivulets keep their width
+            out.loose[cell] = std::max(film.thickness[cell] - kHeld, 0) / kPart;
         }
     }
-}
-
-/// Part of the water of a cell that levels out with its neighbours.
-std::int32_t loose(std::int32_t thickness)
-{
-    constexpr auto kHeld = static_cast<std::int32_t>(40e-6 / Runoff::kThickness);
-    return std::max(thickness - kHeld, 0) / 24;
 }
 
 /// Moves the film by a step.
@@ -202,30 +200,29 @@ std::int64_t flowOnce(Runoff& film, const Drives& drives, double dt, Outflow& ou
     for (std::size_t k = 0; k < columns; ++k) {
         left += std::max(-out.y[k], 0) + std::max(out.y[(rows - 1) * columns + k], 0);
     }
-    const std::vector<std::int32_t> before = film.thickness;
     forBlocks(
         rows,
         [&](std::size_t begin, std::size_t end) {
             for (std::size_t row = begin; row < end; ++row) {
                 const std::size_t at = row * columns;
                 std::int32_t* const to = film.thickness.data() + at;
-                const std::int32_t* const from = before.data() + at;
                 const std::int32_t* const x = out.x.data() + at;
                 const std::int32_t* const y = out.y.data() + at;
+                const std::int32_t* const loose = out.loose.data() + at;
                 for (std::size_t k = 0; k < columns; ++k) {
                     to[k] -= std::abs(x[k]) + std::abs(y[k]);
                 }
                 for (std::size_t k = 1; k < columns; ++k) {
-                    to[k] += std::max(x[k - 1], 0) + loose(from[k - 1]) - loose(from[k]);
+                    to[k] += std::max(x[k - 1], 0) + loose[k - 1] - loose[k];
                 }
                 for (std::size_t k = 0; k + 1 < columns; ++k) {
-                    to[k] += std::max(-x[k + 1], 0) + loose(from[k + 1]) - loose(from[k]);
+                    to[k] += std::max(-x[k + 1], 0) + loose[k + 1] - loose[k];
                 }
                 for (std::size_t k = 0; row > 0 && k < columns; ++k) {
-                    to[k] += std::max(out.y[at - columns + k], 0) + loose(before[at - columns + k]) - loose(from[k]);
+                    to[k] += std::max(out.y[at - columns + k], 0) + out.loose[at - columns + k] - loose[k];
                 }
                 for (std::size_t k = 0; row + 1 < rows && k < columns; ++k) {
-                    to[k] += std::max(-out.y[at + columns + k], 0) + loose(before[at + columns + k]) - loose(from[k]);
+                    to[k] += std::max(-out.y[at + columns + k], 0) + out.loose[at + columns + k] - loose[k];
                 }
             }
         },
@@ -312,7 +309,8 @@ double flow(Runoff& film, const Liquid& liquid, double dt, const FilmPush& push_
     constexpr double kLongest = 1.0 / 120.0;  // [s]
     const int parts = std::max(static_cast<int>(std::ceil(dt / kLongest - 1e-6)), 1);
     std::int64_t left = 0;
-    Outflow out{std::vector<std::int32_t>(film.thickness.size()), std::vector<std::int32_t>(film.thickness.size())};
+    const std::vector<std::int32_t> none(film.thickness.size());
+    Outflow out{none, none, none};
     for (int k = 0; k < parts; ++k) {
         left += flowOnce(film, drives, dt / parts, out);
     }

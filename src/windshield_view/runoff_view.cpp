@@ -137,8 +137,13 @@ void RunoffView::add(std::size_t tile, WaterLeft& left) const
         if (std::isnan(place.x)) {
             continue;
         }
+        constexpr float kThinnest = 2e-6F;  // [m]
+        constexpr float kWhole = 110e-6F;   // so thick a film has no rims [m]
         const Sloped thickness = thicknessAt(place);
-        const Sloped rim = distanceFromRim(place, thickness);
+        if (thickness.value < kThinnest) {
+            continue;
+        }
+        const Sloped rim = thickness.value < kWhole ? distanceFromRim(place, thickness) : Sloped{1.0F, {}};
         const float wide =
             std::max(std::sqrt(rim.slope.x * rim.slope.x + rim.slope.y * rim.slope.y) * places.pixel, 0.05F);
         const float cover = std::min(rim.value / wide, 1.0F);

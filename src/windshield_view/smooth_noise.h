@@ -11,6 +11,13 @@
 
 namespace droplet {
 
+/// As std::floor(), without a call; for values that fit into an integer.
+inline std::int32_t floorOf(float value)
+{
+    const auto whole = static_cast<std::int32_t>(value);
+    return whole - (value < static_cast<float>(whole) ? 1 : 0);
+}
+
 /// Value of a smooth random field from 0 to 1, and its derivatives.
 struct Field {
     float value = 0.0F;
@@ -58,16 +65,14 @@ public:
     {
         const float x = kPerWave * u;
         const float y = kPerWave * v;
-        const float left = std::floor(x);
-        const float low = std::floor(y);
-        const auto column = static_cast<std::int32_t>(left);
-        const auto row = static_cast<std::int32_t>(low);
-        const Float4 across = float4(x - left);
+        const std::int32_t column = floorOf(x);
+        const std::int32_t row = floorOf(y);
+        const Float4 across = float4(x - static_cast<float>(column));
         const Float4& a = samples_[index(column, row)];
         const Float4& b = samples_[index(column, row + 1)];
         const Float4 lower = a + across * (samples_[index(column + 1, row)] - a);
         const Float4 upper = b + across * (samples_[index(column + 1, row + 1)] - b);
-        return lower + float4(y - low) * (upper - lower);
+        return lower + float4(y - static_cast<float>(row)) * (upper - lower);
     }
 
 private:

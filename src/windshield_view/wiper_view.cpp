@@ -81,13 +81,6 @@ float thickness(float age, float above)
     return kThick * (0.35F + 0.65F * fallOff(age / 0.3F)) * (1.0F + 1.2F * fallOff(above / 0.05F));
 }
 
-/// As std::floor(), without a call; for values that fit into an integer.
-std::int32_t floorOf(float value)
-{
-    const auto whole = static_cast<std::int32_t>(value);
-    return whole - (value < static_cast<float>(whole) ? 1 : 0);
-}
-
 Vec2f toFloats2(Vec2 v)
 {
     return {static_cast<float>(v.x), static_cast<float>(v.y)};
@@ -543,7 +536,9 @@ WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
         const float middle = 0.5F * (inner + outer);
         const float end = std::min(along - inner, outer - along);
         const float taper = 0.55F + 0.45F * smoothstep(0.0F, 0.4F * (outer - inner), end);
-        const float half = kBladeHalf * taper;
+        // Its ends are round.
+        const float round = std::clamp(1.0F - end / (1.5F * kBladeHalf), 0.0F, 1.0F);
+        const float half = kBladeHalf * taper * std::sqrt(1.0F - round * round);
         const float on_blade = std::min(within(half - std::abs(aside), pixel), within(end, pixel));
         // The arm runs from the pivot beside the blade and meets it in its middle.
         const float joint = std::clamp(along / middle, 0.0F, 1.0F);
@@ -555,7 +550,7 @@ WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
         if (cover > met.cover) {
             met.cover = cover;
             // Rubber is dark except for a gleam along one side; the arm is round.
-            const float across = on_blade >= on_arm ? aside / half : arm_aside / arm_half;
+            const float across = on_blade >= on_arm ? aside / std::max(half, 1e-5F) : arm_aside / arm_half;
             const float gleam = std::exp(-12.0F * (across - 0.45F) * (across - 0.45F));
             met.shine = on_blade >= on_arm ? 0.25F + 2.2F * gleam : 0.35F + 2.8F * gleam;
         }
