@@ -104,6 +104,9 @@ vec2 filmAt(vec2 position)
 {
     vec2 at = position / glass;
     float mean = 0.51 * smoothly(film, vec2(at.x / film_edge.x, 1.0 - (1.0 - at.y) / film_edge.y), 0.0).r;
+    if (mean < 2e-3) {
+        return vec2(0.0, -1.0);
+    }
     float waves = noise(vec2(position.x / 7e-3, position.y / 5e-3 - 9.0 * time)) + 0.6 * noise(position / 2.9e-3 - vec2(3.0, 31.0 * time)) - 0.8;
     float lies = mean / 0.05 + 0.9 * noise(position / 5e-3) + 0.5 * noise(position / 1.7e-3) - 1.25;
     return vec2(mean * (1.0 + 0.8 * waves) * smoothstep(0.0, 0.8, lies), lies);
