@@ -239,12 +239,16 @@ void timeFrames()
     struct Case {
         const char* name;
         const char* preset;
-        double rainfall;  // [mm/h]
+        double rainfall;      // [mm/h]
+        double runoff = 0.0;  // [s]
     };
     for (const Case& c : {Case{"figure 3.10", "figure-3.10", 5.0}, Case{"figure 3.11", "figure-3.11", 5.0},
-                          Case{"figure 3.12", "figure-3.12", 5.0}, Case{"25 mm/h", "figure-3.12", 25.0}}) {
+                          Case{"figure 3.12", "figure-3.12", 5.0}, Case{"25 mm/h", "figure-3.12", 25.0},
+                          Case{"25 mm/h, its film", "figure-3.12", 25.0, 1.0},
+                          Case{"49 mm/h, its film", "figure-3.12", 49.0, 1.0}}) {
         WindshieldParameters p = windshieldPresetNamed(c.preset).parameters;
         p.rainfall = c.rainfall * kMillimetrePerHour;
+        p.runoff = c.runoff;
         p.wipers = tandemWipers(p.glass, 1.2);
         ViewOptions options;
         const Picture road = defaultBackground(options);

@@ -50,8 +50,8 @@ std::vector<Taps> tapsOf(std::size_t cells, std::size_t pixels, double wide, dou
         const double from = k == 0 ? -kFar : low;
         const double to = k + 1 == pixels ? kFar : high;
         const double last = static_cast<double>(cells) - 1.0;
-        const auto first = static_cast<std::size_t>(std::clamp(std::floor(from - 2.0), 0.0, last));
-        const auto end = static_cast<std::size_t>(std::clamp(std::ceil(to + 2.0), 0.0, last)) + 1;
+        const auto first = static_cast<std::size_t>(std::clamp(std::floor(from - 1.0), 0.0, last));
+        const auto end = static_cast<std::size_t>(std::clamp(std::ceil(to + 1.0), 1.0, last + 1.0));
         all[k].first = first;
         for (std::size_t c = first; c < end; ++c) {
             const double middle = static_cast<double>(c) + 0.5;
@@ -106,8 +106,8 @@ std::vector<WaterPixel> filmOn(const WaterRaster& raster, const Runoff& film)
                     WaterPixel& to = water[row * width + column];
                     constexpr auto kUnit = static_cast<float>(Runoff::kThickness);
                     constexpr auto kWhole = static_cast<float>(1.0 / WaterPixel::kShare);
-                    to.thickness =
-                        std::llround(static_cast<double>(mean) * (Runoff::kThickness / WaterPixel::kThickness));
+                    constexpr double kUnits = Runoff::kThickness / WaterPixel::kThickness;
+                    to.thickness = static_cast<std::int64_t>(kUnits * static_cast<double>(mean) + 0.5);
                     const float x = -kUnit * slope.x;
                     const float y = -kUnit * slope.y;
                     const float cover = kWhole * std::min(mean * kUnit / static_cast<float>(kWetFilm), 1.0F);
