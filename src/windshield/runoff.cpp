@@ -50,7 +50,7 @@ public:
     /// Cells of a row from a column on, up to a multiple of kDriveBlock.
     [[nodiscard]] const Place* block(std::uint32_t column, std::uint32_t row) const
     {
-        return places_.data() + row % kRows * kColumns + column % kColumns;
+        return places_.data() + std::size_t{row % kRows} * kColumns + column % kColumns;
     }
 
 private:
@@ -96,6 +96,14 @@ double unitOf(const Runoff& film)
 Cells cellsOf(const Runoff& film)
 {
     return {film.cell, film.columns, film.rows};
+}
+
+/// Middle of a cell [m].
+Vec2 middleOf(const Runoff& film, std::size_t cell)
+{
+    const auto row = static_cast<std::uint32_t>(cell / film.columns);
+    const auto column = static_cast<std::uint32_t>(cell % film.columns);
+    return {(column + 0.5) * film.cell, (row + 0.5) * film.cell};
 }
 
 /// Water that leaves every cell in a step.
@@ -265,9 +273,7 @@ void pour(Runoff& film, Vec2 middle, double radius, double volume)
     std::vector<std::size_t> reached;
     cells.visitAround(middle, middle, radius, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k <= last; ++k) {
-            const Vec2 at{(static_cast<double>(k % film.columns) + 0.5) * film.cell,
-                          (static_cast<double>(k / film.columns) + 0.5) * film.cell};
-            if (length(at - middle) <= radius) {
+            if (length(middleOf(film, k) - middle) <= radius) {
                 reached.push_back(k);
             }
         }
@@ -294,8 +300,7 @@ double takeRunoff(Runoff& film, const Sweep& blade)
     std::int64_t taken = 0;
     blade.visitCells(cellsOf(film), [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k <= last; ++k) {
-            if (film.thickness[k] != 0 && blade.covers({(static_cast<double>(k % film.columns) + 0.5) * film.cell,
-                                                        (static_cast<double>(k / film.columns) + 0.5) * film.cell})) {
+            if (film.thickness[k] != 0 && blade.covers(middleOf(film, k))) {
                 taken += std::exchange(film.thickness[k], 0);
             }
         }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "blocks.h"
 #include "windshield/runoff_cells.h"
@@ -46,7 +45,7 @@ std::vector<Taps> tapsOf(std::size_t cells, std::size_t pixels, double wide, dou
         const double low = static_cast<double>(k) * wide;
         const double high = low + wide;
         // Pixels at the edges have all beyond them.
-        constexpr double kFar = std::numeric_limits<double>::infinity();
+        constexpr double kFar = 1e9;
         const double from = k == 0 ? -kFar : low;
         const double to = k + 1 == pixels ? kFar : high;
         const double last = static_cast<double>(cells) - 1.0;
@@ -107,7 +106,7 @@ std::vector<WaterPixel> filmOn(const WaterRaster& raster, const Runoff& film)
                     constexpr auto kUnit = static_cast<float>(Runoff::kThickness);
                     constexpr auto kWhole = static_cast<float>(1.0 / WaterPixel::kShare);
                     constexpr double kUnits = Runoff::kThickness / WaterPixel::kThickness;
-                    to.thickness = static_cast<std::int64_t>(kUnits * static_cast<double>(mean) + 0.5);
+                    to.thickness = static_cast<std::int64_t>(kUnits * static_cast<double>(mean));
                     const float x = -kUnit * slope.x;
                     const float y = -kUnit * slope.y;
                     const float cover = kWhole * std::min(mean * kUnit / static_cast<float>(kWetFilm), 1.0F);

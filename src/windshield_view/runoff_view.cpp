@@ -43,12 +43,12 @@ void RunoffView::update(const Runoff& film, double time)
     rows_ = static_cast<int>(film.rows);
     const int across = columns_ + 2 * kBorder;
     thickness_.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(rows_ + 2 * kBorder));
+    auto* to = thickness_.data();
     for (int row = 0; row < rows_ + 2 * kBorder; ++row) {
         const auto from = static_cast<std::size_t>(std::clamp(row - kBorder, 0, rows_ - 1)) * film.columns;
         for (int column = 0; column < across; ++column) {
             const auto k = from + static_cast<std::size_t>(std::clamp(column - kBorder, 0, columns_ - 1));
-            thickness_[static_cast<std::size_t>(row * across + column)] =
-                static_cast<float>(Runoff::kThickness * film.thickness[k]);
+            *to++ = static_cast<float>(Runoff::kThickness * film.thickness[k]);
         }
     }
     const Tiles& tiles = scene_.tiles;
@@ -56,14 +56,14 @@ void RunoffView::update(const Runoff& film, double time)
     optics_.resize(tiles.count());
     tbb::parallel_for(std::size_t{0}, tiles.count(), [&](std::size_t number) {
         const ViewTile& tile = tiles[number];
-        const auto cellOf = [&](float x, int count) {
+        const auto cell_of = [&](float x, int count) {
             return std::clamp(static_cast<int>(std::floor(x / cell_)), 0, count - 1);
         };
-        for (int row = cellOf(tile.low.y - cell_, rows_); tile.on_glass && row <= cellOf(tile.high.y + cell_, rows_);
+        for (int row = cell_of(tile.low.y - cell_, rows_); tile.on_glass && row <= cell_of(tile.high.y + cell_, rows_);
              ++row) {
             const auto first = static_cast<std::size_t>(row) * film.columns;
-            const auto* const begin = film.thickness.data() + first + cellOf(tile.low.x - cell_, columns_);
-            const auto* const end = film.thickness.data() + first + cellOf(tile.high.x + cell_, columns_) + 1;
+            const auto* const begin = film.thickness.data() + first + cell_of(tile.low.x - cell_, columns_);
+            const auto* const end = film.thickness.data() + first + cell_of(tile.high.x + cell_, columns_) + 1;
             if (std::any_of(begin, end, [](std::int32_t thickness) { return thickness > 0; })) {
                 reach_[number] = 1;
                 break;
@@ -92,7 +92,7 @@ RunoffView::Sloped RunoffView::thicknessAt(Vec2f place) const
     const Weights wx = weights(x - static_cast<float>(column));
     const Weights wy = weights(y - static_cast<float>(row));
     const int across = columns_ + 2 * kBorder;
-    const float* from = thickness_.data() + (row + kBorder - 1) * across + column + kBorder - 1;
+    const float* from = thickness_.data() + std::ptrdiff_t{row + kBorder - 1} * across + column + kBorder - 1;
     Sloped thickness;
     for (std::size_t j = 0; j < 3; ++j, from += across) {
         const float value = wx.of[0] * from[0] + wx.of[1] * from[1] + wx.of[2] * from[2];
