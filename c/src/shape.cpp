@@ -70,9 +70,10 @@ cli::ShapeOptions parsed(const char* input, const Words& words)
     }
     if (options->json || options->evolver || options->html || options->preview || options->maps || options->watch ||
         options->footprint.mask_out) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "options: --json, --export-evolver, --html, --preview, --maps, --watch and --mask-out are of the command "
-                    "alone");
+        throw Error(
+            ErrorCode::InvalidArgument,
+            "options: --json, --export-evolver, --html, --preview, --maps, --watch and --mask-out are of the command "
+            "alone");
     }
     return std::move(*options);
 }
