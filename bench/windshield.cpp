@@ -242,10 +242,10 @@ void timeFrames()
         double rainfall;      // [mm/h]
         double runoff = 0.0;  // [s]
     };
-    for (const Case& c : {Case{"figure 3.10", "figure-3.10", 5.0}, Case{"figure 3.11", "figure-3.11", 5.0},
-                          Case{"figure 3.12", "figure-3.12", 5.0}, Case{"25 mm/h", "figure-3.12", 25.0},
-                          Case{"25 mm/h, its film", "figure-3.12", 25.0, 1.0},
-                          Case{"49 mm/h, its film", "figure-3.12", 49.0, 1.0}}) {
+    for (const Case& c :
+         {Case{"figure 3.10", "figure-3.10", 5.0}, Case{"figure 3.11", "figure-3.11", 5.0},
+          Case{"figure 3.12", "figure-3.12", 5.0}, Case{"25 mm/h", "figure-3.12", 25.0},
+          Case{"25 mm/h, its film", "figure-3.12", 25.0, 1.0}, Case{"49 mm/h, its film", "figure-3.12", 49.0, 1.0}}) {
         WindshieldParameters p = windshieldPresetNamed(c.preset).parameters;
         p.rainfall = c.rainfall * kMillimetrePerHour;
         p.runoff = c.runoff;
