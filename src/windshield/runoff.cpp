@@ -19,6 +19,7 @@
 #include "blocks.h"
 #include "wind/random.h"
 #include "windshield/runoff_cells.h"
+#include "windshield/segment.h"
 
 namespace droplet {
 namespace {
@@ -301,6 +302,23 @@ double takeRunoff(Runoff& film, const Sweep& blade)
     blade.visitCells(cellsOf(film), [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k <= last; ++k) {
             if (film.thickness[k] != 0 && blade.covers(middleOf(film, k))) {
+                taken += std::exchange(film.thickness[k], 0);
+            }
+        }
+    });
+    return static_cast<double>(taken) * unitOf(film);
+}
+
+double takeRunoff(Runoff& film, const MistStroke& stroke)
+{
+    if (film.thickness.empty()) {
+        return 0.0;
+    }
+    const Segment middle(stroke.from, stroke.to);
+    std::int64_t taken = 0;
+    cellsOf(film).visitAround(stroke.from, stroke.to, stroke.reach, [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k <= last; ++k) {
+            if (middle.squaredDistance(middleOf(film, k)) <= stroke.reach * stroke.reach) {
                 taken += std::exchange(film.thickness[k], 0);
             }
         }

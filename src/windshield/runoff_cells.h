@@ -12,6 +12,7 @@
 #include "droplet/windshield/droplets.h"
 #include "droplet/windshield/runoff.h"
 #include "windshield/cells.h"
+#include "windshield/mist_cells.h"
 #include "windshield/still_droplets.h"
 #include "windshield/sweep.h"
 
@@ -36,6 +37,10 @@ void pour(Runoff& film, Vec2 middle, double radius, double volume);
 /// Takes the water that a blade passes over.
 /// @return  its volume [m³]
 double takeRunoff(Runoff& film, const Sweep& blade);
+
+/// Takes the water within half the width of a finger's stroke.
+/// @return  its volume [m³]
+double takeRunoff(Runoff& film, const MistStroke& stroke);
 
 /// What pushes a film at a position, along the glass [m/s²]; empty: there is no glass.
 using FilmPush = std::function<std::optional<Vec2>(Vec2 position)>;

@@ -14,6 +14,7 @@
 #include "wind/random.h"
 #include "windshield/cap_scale.h"
 #include "windshield/mist_cells.h"
+#include "windshield/runoff_cells.h"
 #include "windshield/segment.h"
 #include "windshield/still_droplets.h"
 
@@ -31,7 +32,7 @@ double takeWater(WindshieldState& state, const MistStroke& stroke)
 {
     const Segment middle(stroke.from, stroke.to);
     const auto meets = [&](Vec2 place) { return middle.squaredDistance(place) <= stroke.reach * stroke.reach; };
-    double taken = takeMist(state.mist, stroke);
+    double taken = takeMist(state.mist, stroke) + takeRunoff(state.film, stroke);
     const auto take_from = [&](auto& droplets) {
         std::erase_if(droplets, [&](const auto& droplet) {
             const bool met = meets(droplet.position);

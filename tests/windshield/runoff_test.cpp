@@ -9,6 +9,7 @@
 
 #include "droplet/error.h"
 #include "droplet/windshield/state_bytes.h"
+#include "droplet/windshield/touch.h"
 #include "windshield/runoff_cells.h"
 #include "windshields.h"
 
@@ -167,6 +168,18 @@ TEST(Runoff, BreaksUpIntoDropletsAfterTheRain)
     EXPECT_LT(dry.on_glass_film, 0.5 * film);
     EXPECT_GT(dry.on_glass_still, 0.0);
     EXPECT_LT(std::abs(dry.residual()), 1e-14);
+}
+
+TEST(Runoff, FingersTakeItAndKeepItsWater)
+{
+    const WindshieldParameters p = pouring(100.0);
+    WindshieldState state = after(startWindshield(p), p, kStep, 600);
+    const double before = state.film.volume();
+    ASSERT_GT(thicknessAt(state.film, {0.1, 0.075}) + thicknessAt(state.film, {0.104, 0.075}), 0.0);
+    state = stroked(std::move(state), p, {{0.03, 0.075}, {0.17, 0.075}, 0.02});
+    EXPECT_LT(state.film.volume(), before);
+    EXPECT_EQ(thicknessAt(state.film, {0.1, 0.075}), 0.0);
+    EXPECT_LT(std::abs(balanceOf(state).residual()), 1e-14);
 }
 
 TEST(Runoff, IsNotThereUnlessItIsAskedFor)

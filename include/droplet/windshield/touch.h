@@ -36,8 +36,9 @@ struct FingerStroke {
     void validate() const;
 };
 
-/// Moves a finger: it takes all mist and droplets on its way. A third of their water stays as a bead ahead of it, which
-/// the next stroke takes along; the rest is left as beads along both edges. They meet the glass in the next step.
+/// Moves a finger: it takes all mist, films and droplets on its way. A third of their water stays as a bead ahead of
+/// it, which the next stroke takes along; the rest is left as beads along both edges. They meet the glass in the next
+/// step.
 ///
 /// Guarantees: water is conserved (balanceOf).
 /// @param state       made with the same parameters
