@@ -19,7 +19,7 @@ inline std::int32_t floorOf(float value)
 }
 
 /// Value of a smooth random field from 0 to 1, and its derivatives.
-struct Field {
+struct NoiseValue {
     float value = 0.0F;
     float by_u = 0.0F;
     float by_v = 0.0F;
@@ -27,7 +27,7 @@ struct Field {
 
 /// @param number  random numbers of (column, row)
 template <typename Number>
-Field fieldFrom(float u, float v, const Number& number)
+NoiseValue fieldFrom(float u, float v, const Number& number)
 {
     const float column = std::floor(u);
     const float row = std::floor(v);
@@ -88,7 +88,7 @@ private:
 
     static Float4 sample(float u, float v)
     {
-        const Field field = fieldFrom(u, v, [](std::int32_t column, std::int32_t row) {
+        const NoiseValue field = fieldFrom(u, v, [](std::int32_t column, std::int32_t row) {
             return hashedNumber(static_cast<std::uint32_t>(row % kWaves * kWaves + column % kWaves) * 0x9e3779b9U);
         });
         return Float4{field.value, field.by_u, field.by_v, 0.0F};

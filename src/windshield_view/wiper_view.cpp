@@ -32,7 +32,7 @@ float numberAt(std::int32_t column, std::int32_t row, std::uint32_t seed)
                         static_cast<std::uint32_t>(row) * 0x85ebca6bU + seed * 0xc2b2ae35U);
 }
 
-Field fieldAt(float u, float v, std::uint32_t seed)
+NoiseValue fieldAt(float u, float v, std::uint32_t seed)
 {
     return fieldFrom(u, v, [&](std::int32_t i, std::int32_t j) { return numberAt(i, j, seed); });
 }
@@ -127,8 +127,8 @@ WiperView::FilmField::FilmField() : samples_(static_cast<std::size_t>(kSamplesAl
         for (std::int32_t column = 0; column < kSamplesAlong; ++column) {
             const float u = static_cast<float>(column) / kSamplesAlong;
             const float v = static_cast<float>(row) / kSamplesAcross;
-            const Field thick = octave(u, v, kThickAlong, kThickAcross);
-            const Field thin = octave(u, v, kThinAlong, kThinAcross);
+            const NoiseValue thick = octave(u, v, kThickAlong, kThickAcross);
+            const NoiseValue thin = octave(u, v, kThinAlong, kThinAcross);
             samples_[static_cast<std::size_t>(row) * kSamplesAlong + static_cast<std::size_t>(column)] =
                 Float4{kThickShare * thick.value + kThinShare * thin.value,
                        (thick_slope.x * thick.by_u + thin_slope.x * thin.by_u) / kRoundAlong,
@@ -427,7 +427,7 @@ WaterMet WiperView::wedge(const WiperState& one, Vec2f from, float pixel)
     // The wedge drains along the blade's line, last at thick places, and is wider further out.
     const float left = wedge.drained;
     const float place = (radius - inner) / (outer - inner);
-    const Field uneven = fieldAt(radius / 0.018F + 2.0F * left, 0.5F, wedge.seed);
+    const NoiseValue uneven = fieldAt(radius / 0.018F + 2.0F * left, 0.5F, wedge.seed);
     const float width = 1.7F * kWidestBead * (0.35F + 0.65F * place) *
                         std::max(uneven.value * 0.6F + 0.5F - 1.1F * left, 0.0F) *
                         smoothstep(0.0F, 0.03F, std::min(radius - inner, outer - radius));
@@ -557,7 +557,7 @@ WiperMet WiperView::at(Vec2f place, float pixel, int moment) const
         const float beyond = blade.forward * aside - half;
         if (blade.forward != 0.0F && end > 0.0F && beyond > -pixel && beyond < kWidestBead + pixel) {
             const Vec2f ahead{-blade.forward * blade.along.y, blade.forward * blade.along.x};
-            const Field uneven = fieldAt(along / 0.014F, 2.0F * blade.pushed, 2 * one.stroke + 5U);
+            const NoiseValue uneven = fieldAt(along / 0.014F, 2.0F * blade.pushed, 2 * one.stroke + 5U);
             const float fades = isInOtherField(one, place) ? 1.0F - smoothstep(0.6F, 0.95F, blade.pushed) : 1.0F;
             const float width =
                 kWidestBead * blade.pushed * fades * (0.35F + 0.65F * uneven.value) * smoothstep(0.0F, 0.03F, end);
