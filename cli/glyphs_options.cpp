@@ -40,7 +40,7 @@ const CommandText& commandText()
     return text;
 }
 
-void declare(CommandLine& line, GlyphsOptions& options)
+void declare(CommandLine& line, GlyphsOptions& options, ShapeMapOptions& maps)
 {
     constexpr const char* kGroup = "Type";
     line.add(kGroup, "--font", "FILE", "Font: TrueType, OpenType, a collection, WOFF or Type 1");
@@ -79,6 +79,7 @@ void declare(CommandLine& line, GlyphsOptions& options)
     declareBatch(line);
     declareDroplets(line, options.shape);
     declarePreview(line, PreviewOf::Text);
+    declareShapeMaps(line, maps);
     declareHtml(line);
     declareRun(line);
 }
@@ -172,9 +173,26 @@ void refuseInapplicable(const CommandLine& line, bool is_text)
         }
         return;
     }
-    for (const char* option : {"--align", "--line-spacing", "--onto", "--preview", "--view", "--preview-size",
-                               "--ground", "--camera", "--look-at", "--environment", "--preview-background",
-                               "--preview-colour", "--turntable", "--codec", "--quality", "--html"}) {
+    for (const char* option : {"--align",
+                               "--line-spacing",
+                               "--onto",
+                               "--preview",
+                               "--view",
+                               "--preview-size",
+                               "--ground",
+                               "--camera",
+                               "--look-at",
+                               "--environment",
+                               "--preview-background",
+                               "--preview-colour",
+                               "--turntable",
+                               "--codec",
+                               "--quality",
+                               "--maps",
+                               "--map-width",
+                               "--map-thickness",
+                               "--map-tile",
+                               "--html"}) {
         if (line.value(option)) {
             clash(option, "--text alone");
         }
@@ -187,7 +205,8 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
 {
     CommandLine line(commandText());
     GlyphsOptions options;
-    declare(line, options);
+    ShapeMapOptions maps;
+    declare(line, options, maps);
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
         return *text;
@@ -235,6 +254,7 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
         if (options.shape.preview) {
             lookFromFront(line, *options.shape.preview);
         }
+        options.shape.maps = readShapeMaps(line, maps);
     }
     readDroplets(line, options.shape, "--output");
     options.shape.footprint.by_colour = readByColour(line, warnings);

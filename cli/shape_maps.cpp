@@ -34,6 +34,12 @@ droplet::DeepPicture deep(const FloatPicture& map, double black, double white)
     return picture;
 }
 
+/// Height of the lowest place, which is black in a PNG [m].
+double lowestOf(const DropletMaps& maps)
+{
+    return *std::min_element(maps.height.values.begin(), maps.height.values.end());
+}
+
 }  // namespace
 
 void declareShapeMaps(CommandLine& line, ShapeMapOptions& options)
@@ -44,10 +50,12 @@ void declareShapeMaps(CommandLine& line, ShapeMapOptions& options)
         "Textures of the droplets from straight above, for decals and displacement, such as maps/logo.png or .exr: "
         "six files, -height, -normal, -thickness, -coverage, -wetness and -occlusion");
     line.add(kGroup, "--map-width", "N", "Width of the textures in pixels", into(options.width, {16, 8192, "8192"}));
-    line.add(kGroup, "--map-thickness", "LENGTH", "Height and thickness that is white in a PNG [the greatest of both]",
+    line.add(kGroup, "--map-thickness", "LENGTH",
+             "Thickness that is white in a PNG, and height above the lowest place [the greatest of both]",
              into(options.full_thickness, kMapThickness));
     line.addFlag(kGroup, "--map-tile", "Textures that repeat: what leans out over an edge comes in at the opposite one",
                  options.is_tile);
+    line.exclude({"--maps", "--onto"});
 }
 
 std::optional<ShapeMapOptions> readShapeMaps(const CommandLine& line, const ShapeMapOptions& declared)
@@ -79,11 +87,11 @@ std::optional<double> whiteOf(const DropletMaps& maps, const ShapeMapOptions& op
     if (options.full_thickness) {
         return options.full_thickness;
     }
-    float most = 0.0F;
-    for (const FloatPicture* map : {&maps.height, &maps.thickness}) {
-        most = std::max(most, *std::max_element(map->values.begin(), map->values.end()));
-    }
-    return most > 0.0F ? most : 1.0;  // the window may be beside the droplets
+    const std::vector<float>& heights = maps.height.values;
+    const std::vector<float>& thickness = maps.thickness.values;
+    const double most = std::max<double>(*std::max_element(heights.begin(), heights.end()) - lowestOf(maps),
+                                         *std::max_element(thickness.begin(), thickness.end()));
+    return most > 0.0 ? most : 1.0;  // the window may be beside the droplets
 }
 
 std::vector<OutputFile> mapFiles(std::shared_ptr<const DropletMaps> maps, const ShapeMapOptions& options)
@@ -98,7 +106,9 @@ std::vector<OutputFile> mapFiles(std::shared_ptr<const DropletMaps> maps, const 
                                  writeExr(map, out);
                              } else if (&map == &maps->normal) {
                                  writePng(deep(map, -1.0, 1.0), out);
-                             } else if (&map == &maps->height || &map == &maps->thickness) {
+                             } else if (&map == &maps->height) {
+                                 writePng(deep(map, lowestOf(*maps), lowestOf(*maps) + *white), out);
+                             } else if (&map == &maps->thickness) {
                                  writePng(deep(map, 0.0, *white), out);
                              } else {
                                  writePng(deep(map, 0.0, 1.0), out);

@@ -22,7 +22,7 @@ struct ShapeMapOptions {
     bool is_exr = false;  ///< otherwise PNG
     int width = 1024;     ///< [px]
     bool is_tile = false;
-    std::optional<double> full_thickness = {};  ///< that is white in a PNG [m]; empty: of the maps
+    std::optional<double> full_thickness = {};  ///< whiteOf(); empty: of the maps
 };
 
 /// Declares --maps and the options that belong to it.
@@ -37,7 +37,7 @@ std::optional<ShapeMapOptions> readShapeMaps(const CommandLine& line, const Shap
 /// Paths of all maps.
 std::vector<std::string> mapPaths(const ShapeMapOptions& options);
 
-/// Height and thickness that is white in PNGs of maps [m]; nothing for OpenEXR.
+/// Thickness that is white in PNGs of maps, and height above the lowest place [m]; nothing for OpenEXR.
 std::optional<double> whiteOf(const droplet::DropletMaps& maps, const ShapeMapOptions& options);
 
 /// Files of maps.

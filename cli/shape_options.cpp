@@ -78,7 +78,6 @@ void declareShape(CommandLine& line, ShapeOptions& options, ShapeMapOptions& map
     line.addFlag("Run", "--watch", "Make the droplet again whenever INPUT is saved, until Ctrl-C", options.watch);
     declareRun(line);
     line.exclude({"--watch", "--no-clobber"});
-    line.exclude({"--maps", "--onto"});
 }
 
 /// --watch makes files again and again, which streams cannot hold.

@@ -190,6 +190,7 @@ const std::vector<CommandFiles>& all()
           frames("--output", "out.obj", "out.mtl"),
           {"--json", "out.json"},
           {"--html", "out.html"},
+          frames("--maps", "maps.png", "maps-height.png"),
           {"--preview", "out.png"},
           needing(frames("--preview", "turn.png", "turn-002.png"), {"--turntable", "3"})}},
         {"glyphs",

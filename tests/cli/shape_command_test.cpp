@@ -332,6 +332,11 @@ TEST_F(ShapeCommandTest, MapsShowTheDroplet)
     EXPECT_NEAR(sum("m-thickness.exr"), 100e-9, 0.1e-9);
     EXPECT_THAT(bytesOf("m-normal.exr"), StartsWith("v/1\x01"));
 
+    // On a sphere the ground falls away, and is black where it is lowest.
+    const json on_ball = with({"b.png", "--surface", "sphere:R=2cm"});
+    EXPECT_GT(on_ball["output"]["map_thickness_m"].get<double>(), 1.5 * white);
+    EXPECT_GT(sum("b-height.png"), 0.3 * 300 * 300 * pixel * pixel);
+
     // A tile is the window itself if nothing leans out of it.
     const std::string height = bytesOf("m-height.exr");
     with({"m.exr", "--map-tile", "-j", "1"});

@@ -84,7 +84,7 @@ struct OutputReport {
     std::optional<CompressionError> compression_error = {};  ///< empty without compression
     std::vector<LevelReport> levels = {};                    ///< but the first, which is the surface
     std::optional<double> base = {};                         ///< thickness of the plate below all droplets [m]
-    std::optional<double> map_thickness = {};                ///< height and thickness that is white in maps [m]
+    std::optional<double> map_thickness = {};                ///< that is white in PNGs of maps [m]
 };
 
 /// Kind of ground.
