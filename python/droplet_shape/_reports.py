@@ -114,7 +114,7 @@ class ReportOutput(_Report):
     triangles: int  # Number of triangles
     quads: int  # Number of quadrilaterals in the file, each of two of these triangles
     base_m: float | None  # Thickness of the plate below all droplets, which makes one solid of them; null without one
-    map_thickness_m: float | None  # Height and thickness that is white in PNGs of maps; null without them
+    map_thickness_m: float | None
     levels: tuple[ReportLevels, ...]  # Levels of detail but the first
     closed: bool  # Whether the surface is closed
     manifold: bool  # Whether the surface is a manifold

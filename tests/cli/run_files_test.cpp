@@ -354,6 +354,7 @@ protected:
     {
         const std::string& words = GetParam().no_output_means;
         return (!words.empty() && refused.error.find(words) != std::string::npos) ||
+               refused.error.find("--maps and --onto exclude each other") != std::string::npos ||
                refused.error.find("this build has no page") != std::string::npos;
     }
 
