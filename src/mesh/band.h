@@ -44,7 +44,8 @@ struct Filling {
 Filling fill(const Cavity& cavity, const std::vector<Vec2>& points, double finest);
 
 /// Triangulates polygons with points inside and adds no vertex; inner edges may join two rim vertices.
-/// @return triangles by index: the polygons' vertices in order, then the points; each begins with its smallest index, and
+/// @return triangles by index: the polygons' vertices in order, then the points; each begins with its smallest index,
+/// and
 ///         they ascend
 std::vector<Triangle> triangulateUnrefined(const std::vector<std::vector<Vec2>>& polygons,
                                            const std::vector<Vec2>& points);
