@@ -83,11 +83,11 @@ void warnOfDefects(const droplet::FlowSurfaceReport& report, const std::string& 
     warn(report.turned - report.inside_out, "face the other way than their neighbours and are turned");
     const std::size_t sides = 3 * (report.triangles - report.without_area - report.duplicates);
     if (report.parts > 1 && 2 * report.boundary_edges > sides) {
-        warnings.push_back(
-            fmt::format("{}: {} of {} sides of triangles have no neighbour, in {} parts, so droplets soon fall off; "
-                        "join the corners "
-                        "that should be one (merge by distance)",
-                        path, report.boundary_edges, sides, report.parts));
+        warnings.push_back(fmt::format(
+            "{}: {} of {} sides of triangles have no neighbour, in {} parts, so droplets that run soon fall off; "
+            "join the corners "
+            "that should be one (merge by distance)",
+            path, report.boundary_edges, sides, report.parts));
     }
 }
 

@@ -166,8 +166,10 @@ PlacedVertex Atlas::placeVertex(const Facet& facet, Vec2 p, double z, Vec3 norma
     return placed;
 }
 
-Atlas atlasOf(const TexturedMesh& object, Vec2 extent)
+Atlas atlasOf(const TexturedMesh& given, Vec2 extent)
 {
+    TexturedMesh object = given;
+    object.uvs = joinedUvs(given);
     Atlas atlas;
     atlas.facets = facetsOf(object, extent);
     std::vector<std::array<std::uint32_t, 3>> vertices;

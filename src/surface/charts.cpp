@@ -95,4 +95,28 @@ std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& f
     return chart_facing;
 }
 
+std::vector<Vec2> joinedUvs(const TexturedMesh& object)
+{
+    constexpr double kSame = 1e-6;  // bits of single precision from 1 on, in which Blender's grids end
+    std::vector<std::array<double, 3>> places;
+    for (const Vec3& p : object.vertices) {
+        places.push_back({p.x, p.y, p.z});
+    }
+    std::vector<std::uint32_t> place;
+    std::vector<std::vector<Vec2>> known(numberEqual(places, place));
+    std::vector<Vec2> uvs = object.uvs;
+    for (std::size_t v = 0; v < uvs.size(); ++v) {
+        std::vector<Vec2>& here = known[place[v]];
+        const auto same = std::find_if(here.begin(), here.end(), [&](Vec2 uv) {
+            return std::max(std::abs(uv.x - uvs[v].x), std::abs(uv.y - uvs[v].y)) <= kSame;
+        });
+        if (same != here.end()) {
+            uvs[v] = *same;
+        } else {
+            here.push_back(uvs[v]);
+        }
+    }
+    return uvs;
+}
+
 }  // namespace droplet

@@ -13,4 +13,8 @@ namespace droplet {
 /// @return  facing of every chart: 1, or −1 if it mirrors the picture
 std::vector<double> joinCharts(const TexturedMesh& object, std::vector<Facet>& facets);
 
+/// Texture coordinates that are equal where vertices at one place differ in their last bits, as single-precision sums
+/// leave them: such an edge is no seam.
+std::vector<Vec2> joinedUvs(const TexturedMesh& object);
+
 }  // namespace droplet

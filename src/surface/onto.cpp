@@ -34,7 +34,7 @@ void addWarnings(OntoReport& report)
     };
     left_out(report.outside, "not completely on a chart of the object's uv");
     left_out(report.across, "across a seam between charts of the object's uv");
-    left_out(report.folded, "too high for the hollow of the object below them");
+    left_out(report.folded, "too high for the hollow of the object below");
     if (report.mirrored > 0) {
         report.warnings.push_back(counted(report.mirrored, "droplet") + " mirrored, on " +
                                   counted(report.flipped_charts, "flipped chart") + " of the object's uv");

@@ -389,6 +389,31 @@ TEST(Onto, EdgesBelongToTheChart)
     }
 }
 
+// Blender's grids repeat corners whose uv differs in the last bits.
+TEST(Onto, LastBitsOfUvAreNoSeam)
+{
+    const auto laid = [](double apart) {
+        Sheet left = plane();
+        left.uv_end.x = 0.5;
+        Sheet right = plane();
+        right.uv_begin.x = 0.5;
+        TexturedMesh object = meshOf(left);
+        const std::size_t first = object.vertices.size();
+        object = together(std::move(object), meshOf(right));
+        for (std::size_t v = first; v < object.uvs.size(); ++v) {
+            if (object.uvs[v].x == 0.5) {
+                object.uvs[v] = {0.5 + apart, object.uvs[v].y - 0.7 * apart};
+            }
+        }
+        const Surface beside = roundDroplet({.outer = 2e-3, .centre = {5e-3, 0}});
+        return placeOnto(together(roundDroplet({.outer = 2e-3}), beside), object, kPicture).report.laid;
+    };
+    EXPECT_EQ(laid(0.0), 2U);
+    EXPECT_EQ(laid(3e-8), 2U);
+    EXPECT_EQ(laid(-3e-7), 2U);
+    EXPECT_EQ(laid(1e-4), 1U);
+}
+
 // x is stretched by 1 + 4u, in facets. Heights must follow √(1 + 4u) without steps at the facets.
 // Measured errors: 1.6e-3, 4.3e-4, 1.1e-4; the stretch of single facets has an error of 2 % with 32 columns.
 TEST(Onto, HeightsFollowTheLocalStretchSmoothly)
