@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow_io/object_faces.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -44,7 +45,10 @@ FlowObject onFaces(const FlowObject& object, const FlowSurface& surface)
                 result.uvs.push_back(mixed(object.uvs, triangle, weights[k]));
             }
             if (!object.colours.empty()) {
-                result.colours.push_back(mixed(object.colours, triangle, weights[k]));
+                // Weights add up to 1 but for the last bit.
+                const Vec3 colour = mixed(object.colours, triangle, weights[k]);
+                result.colours.push_back(
+                    {std::clamp(colour.x, 0.0, 1.0), std::clamp(colour.y, 0.0, 1.0), std::clamp(colour.z, 0.0, 1.0)});
             }
         }
         result.triangles.push_back({first, first + 1, first + 2});

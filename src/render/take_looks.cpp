@@ -27,7 +27,7 @@ std::optional<Layer> takeTexture(const FileTexture& texture, const std::string& 
                                  std::vector<std::string>& warnings)
 {
     std::optional<Layer> picture;
-    std::string fault = texture.fault;
+    std::string fault = texture.fault.empty() ? "" : texture.name + " " + texture.fault;
     if (!texture.image.empty()) {
         try {
             picture = decodeLayer(texture.image);
@@ -36,12 +36,11 @@ std::optional<Layer> takeTexture(const FileTexture& texture, const std::string& 
                 bytes = image;
             }
         } catch (const Error& error) {
-            fault = error.what();
+            fault = texture.name + ": " + error.what();
         }
     }
     if (!fault.empty()) {
-        warnings.push_back(picture ? name + ": " + texture.name + " " + fault
-                                   : name + " is shown without a texture: " + texture.name + " " + fault);
+        warnings.push_back(picture ? name + ": " + fault : name + " is shown without a texture: " + fault);
     }
     return picture;
 }

@@ -22,6 +22,7 @@
 #include "droplet/error.h"
 #include "droplet/flow/dew.h"
 #include "droplet/flow_io/flow_object.h"
+#include "flow_io/object_faces.h"
 #include "support/command.h"
 #include "support/objects.h"
 #include "support/paths.h"
@@ -212,6 +213,24 @@ FlowObject glowingBall()
     object.images.resize(1);
     object.images[0].glows = png.str();
     return object;
+}
+
+// Pictures take colours from 0 to 1 alone: neither 1 + 1e-16 nor -1e-16.
+TEST(DewModel, FacesHaveColoursBetweenTheirCorners)
+{
+    for (const double side : {0.1, 0.37, 1.7}) {
+        FlowObject object;
+        object.vertices = {{0.0, 0.0, 0.0}, {side, 0.1 * side, 0.0}, {0.8 * side, side, 0.0}, {0.0, 0.7 * side, 0.0}};
+        object.normals.assign(4, {0.0, 0.0, 1.0});
+        object.triangles = {{0, 1, 2}, {0, 2, 3}};
+        object.colours = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {1.0, 1.0, 1.0}};
+        const FlowObject faces = onFaces(object, refined(flowSurface(object.vertices, object.triangles), 0.03 * side));
+        ASSERT_GT(faces.colours.size(), 3000U);
+        for (const Vec3& colour : faces.colours) {
+            ASSERT_GE(std::min({colour.x, colour.y, colour.z}), 0.0);
+            ASSERT_LE(std::max({colour.x, colour.y, colour.z}), 1.0);
+        }
+    }
 }
 
 TEST(DewModel, FilesKeepTheObjectsLightAndColours)
