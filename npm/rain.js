@@ -203,7 +203,10 @@ export async function loadRain(wasm) {
         }
 
         runoff() {
-            return this.#cells(rain.droplet_windshield_runoff);
+            const map = this.#cells(rain.droplet_windshield_runoff);
+            check(rain.droplet_windshield_runoff_drift(this.#kept(), room));
+            const [x, y] = numbers(2);
+            return { ...map, drift: { x, y } };
         }
 
         #cells(brought) {

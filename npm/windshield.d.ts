@@ -163,8 +163,8 @@ export interface Windshield {
     draw(): WaterMap;
     /** Brings the map of the mist up to the state. */
     mist(): MistMap;
-    /** Brings the map of the film that runs off up to the state: 255 is 0.51 mm or more. */
-    runoff(): MistMap;
+    /** Brings the map of the film that runs off up to the state: 255 is 0.51 mm or more; with the way that small waves have run over it [m]. */
+    runoff(): MistMap & { drift: Position };
     /** [px]; after another width all is drawn anew */
     mapWidth: number;
     readonly mapHeight: number;

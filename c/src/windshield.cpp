@@ -564,3 +564,13 @@ DropletCode droplet_windshield_runoff(DropletWindshield* windshield, DropletMist
         putMap(windshield->state.film, kLevels, *windshield, windshield->runoff, *required("map", map));
     });
 }
+
+DropletCode droplet_windshield_runoff_drift(const DropletWindshield* windshield, double drift[2])
+{
+    return guarded([&] {
+        required("windshield", windshield);
+        required("drift", drift);
+        drift[0] = windshield->state.film.drift.x;
+        drift[1] = windshield->state.film.drift.y;
+    });
+}

@@ -340,7 +340,8 @@ void run(const Arguments& arguments, GLFWwindow* window)
             glUniform2f(glGetUniformLocation(rain, "film_edge"),
                         static_cast<float>(film.columns * film.cell / glass.width()),
                         static_cast<float>(film.rows * film.cell / glass.height()));
-            glUniform1f(glGetUniformLocation(rain, "time"), static_cast<float>(std::fmod(state.time, 60.0)));
+            glUniform2f(glGetUniformLocation(rain, "drift"), static_cast<float>(film.drift.x),
+                        static_cast<float>(-film.drift.y));
         }
         glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
         glClear(GL_COLOR_BUFFER_BIT);

@@ -57,7 +57,7 @@ export function rainyGlass(rain, shader, outside, blur = 0) {
     const figures = rain.figures();
     const uniforms = {
         water: { value: textureOf(rain.draw(), RGBAFormat, HalfFloatType) }, mist: { value: textureOf(rain.mist(), RedFormat, UnsignedByteType) },
-        film: { value: textureOf(rain.runoff(), RedFormat, UnsignedByteType) }, film_edge: { value: new Vector2(1, 1) }, time: { value: 0 },
+        film: { value: textureOf(rain.runoff(), RedFormat, UnsignedByteType) }, film_edge: { value: new Vector2(1, 1) }, drift: { value: new Vector2() },
         outside: { value: outside }, dry: { value: outside }, blur: { value: blur }, mist_edge: { value: new Vector2(1, 1) },
         glass: { value: new Vector2(figures.width, figures.height) }, eye: { value: new Vector3() }, tangent: { value: new Vector2() },
         wide: { value: new Vector2() }, rim: { value: 1 }, cabin: { value: new Vector3(0.01, 0.01, 0.012) }, border: { value: 0 },
@@ -76,7 +76,8 @@ export function rainyGlass(rain, shader, outside, blur = 0) {
         }
         uniforms.water.value.image.data = rain.draw().pixels;  // in memory that may have moved
         uniforms.water.value.needsUpdate = true;
-        for (const [name, map] of [['mist', rain.mist()], ['film', rain.runoff()]]) {
+        const film = rain.runoff();
+        for (const [name, map] of [['mist', rain.mist()], ['film', film]]) {
             const uniform = uniforms[name];
             if (uniform.value.image.width !== map.width) {
                 uniform.value.dispose();
@@ -86,7 +87,7 @@ export function rainyGlass(rain, shader, outside, blur = 0) {
             uniform.value.needsUpdate = true;
             uniforms[`${name}_edge`].value.set(map.right, map.top);
         }
-        uniforms.time.value = rain.figures().time % 60;
+        uniforms.drift.value.set(film.drift.x, -film.drift.y);
         uniforms.rim.value = Math.sin(Math.min(rain.get('contactAngle'), Math.PI / 2));
         const { x, y, z } = camera.position;
         uniforms.eye.value.set(x, -z, y);

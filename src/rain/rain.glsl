@@ -14,7 +14,7 @@ uniform sampler2D mist;     // red: how dense it is, 0 to 1; upper edge first
 uniform vec2 mist_edge;     // where its right and upper edges are, over the glass's width and height
 uniform sampler2D film;     // red: thickness of the film that runs off, 1 is 0.51 mm; upper edge first
 uniform vec2 film_edge;     // as mist_edge
-uniform float time;         // [s], with which waves run over the film
+uniform vec2 drift;         // way that small waves have run over the film [m], down positive
 uniform sampler2D edge;     // red: distance from the edge of the glass [m]; upper edge first; not read without a border
 uniform vec2 glass;         // width and height of the glass [m]
 uniform vec3 eye;           // in the vehicle's frame: x right, y ahead, z up [m]
@@ -107,7 +107,7 @@ vec2 filmAt(vec2 position)
     if (mean < 2e-3) {
         return vec2(0.0, -1.0);
     }
-    float waves = noise(vec2(position.x / 7e-3, position.y / 5e-3 - 9.0 * time)) + 0.6 * noise(position / 2.9e-3 - vec2(3.0, 31.0 * time)) - 0.8;
+    float waves = noise((position - 0.5 * drift) / vec2(7e-3, 5e-3)) + 0.6 * noise((position - drift) / 2.9e-3 - vec2(3.0, 0.0)) - 0.8;
     float lies = mean / 0.05 + 0.9 * noise(position / 5e-3) + 0.5 * noise(position / 1.7e-3) - 1.25;
     return vec2(mean * (1.0 + 0.8 * waves) * smoothstep(0.0, 0.8, lies), lies);
 }

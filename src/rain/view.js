@@ -360,6 +360,7 @@ export class View {
 
     setRunoff(map) {
         this.film_edge = this.#setCells(this.#runoff, map);
+        this.drift = [map.drift.x, -map.drift.y];
     }
 
     #setCells(texture, { width, height, right, top, pixels }) {
@@ -592,7 +593,7 @@ export class View {
         gl.clear(gl.COLOR_BUFFER_BIT);
         this.#programs.rain.use({
             ...camera, water: this.#water, outside, dry, mist: this.#mist, mist_edge: this.mist_edge, film: this.#runoff, film_edge: this.film_edge,
-            time: shown.time % 60, edge: this.#edge_map, glass: this.glass, wide, blur: 0,
+            drift: this.drift, edge: this.#edge_map, glass: this.glass, wide, blur: 0,
             rim: Math.sin(Math.min(windshield.get('contactAngle'), 0.5 * Math.PI)), cabin, border: shown.border,
         });
         gl.bindVertexArray(this.#pane.array);

@@ -50,7 +50,7 @@ std::string bytesOf(const WindshieldState& state)
     }
     out.put(std::uint64_t{state.film.thickness.size()});
     out.all(state.film.cell, std::uint64_t{state.film.columns}, std::uint64_t{state.film.rows}, state.film.rest,
-            state.film.next_break);
+            state.film.next_break, state.film.drift);
     for (const std::int32_t thickness : state.film.thickness) {
         out.put(static_cast<std::uint64_t>(thickness));
     }
@@ -110,7 +110,7 @@ WindshieldState stateFromBytes(std::string_view bytes, const std::string& name)
         height = static_cast<float>(value);
     }
     std::uint64_t cells_of_film = 0;
-    in.all(cells_of_film, state.film.cell, columns, rows, state.film.rest, state.film.next_break);
+    in.all(cells_of_film, state.film.cell, columns, rows, state.film.rest, state.film.next_break, state.film.drift);
     in.require(columns <= kMax && rows <= kMax && columns * rows == cells_of_film &&
                cells_of_film <= bytes.size() / 8 && (state.film.cell > 0.0 || cells_of_film == 0) &&
                state.film.rest >= 0.0 && state.film.rest <= 1.0);

@@ -15,6 +15,10 @@ namespace droplet {
 namespace {
 
 constexpr int kBorder = 2;  // cells
+// Waves on the film, chosen by eye [m].
+constexpr float kLong = 7e-3F;
+constexpr float kHigh = 5e-3F;  // of long ones, up the glass
+constexpr float kShort = 2.9e-3F;
 
 Vec2f scaled(float factor, Vec2f v)
 {
@@ -28,7 +32,7 @@ Vec2f sum(Vec2f a, Vec2f b)
 
 }  // namespace
 
-void RunoffView::update(const Runoff& film, double time)
+void RunoffView::update(const Runoff& film)
 {
     reach_.clear();
     if (film.thickness.empty()) {
@@ -37,7 +41,12 @@ void RunoffView::update(const Runoff& film, double time)
     if (!noise_) {
         noise_.emplace();
     }
-    time_ = static_cast<float>(std::fmod(time, 60.0));
+    // Long waves run half as fast. The field repeats.
+    const auto run = [](double way, float wave) {
+        return static_cast<float>(std::remainder(way / static_cast<double>(wave), double{SmoothNoise::kWaves}));
+    };
+    long_run_ = {run(0.5 * film.drift.x, kLong), run(0.5 * film.drift.y, kHigh)};
+    short_run_ = {run(film.drift.x, kShort), run(film.drift.y, kShort)};
     cell_ = static_cast<float>(film.cell);
     columns_ = static_cast<int>(film.columns);
     rows_ = static_cast<int>(film.rows);
@@ -118,11 +127,8 @@ RunoffView::Sloped RunoffView::distanceFromRim(Vec2f place, const Sloped& thickn
 
 RunoffView::Sloped RunoffView::wavesAt(Vec2f place) const
 {
-    constexpr float kLong = 7e-3F;  // [m]
-    constexpr float kHigh = 5e-3F;
-    constexpr float kShort = 2.9e-3F;
-    const Float4 large = noise_->at(place.x / kLong, place.y / kHigh + 9.0F * time_);
-    const Float4 small = noise_->at(place.x / kShort - 3.0F, place.y / kShort + 31.0F * time_);
+    const Float4 large = noise_->at(place.x / kLong - long_run_.x, place.y / kHigh - long_run_.y);
+    const Float4 small = noise_->at(place.x / kShort - 3.0F - short_run_.x, place.y / kShort - short_run_.y);
     return {large[0] + 0.6F * small[0] - 0.8F,
             {large[1] / kLong + 0.6F / kShort * small[1], large[2] / kHigh + 0.6F / kShort * small[2]}};
 }

@@ -19,8 +19,8 @@ public:
     /// @param scene  must outlive this
     explicit RunoffView(const ViewContext& scene) : scene_(scene) {}
 
-    /// Takes the film to the present time [s].
-    void update(const Runoff& film, double time);
+    /// Takes the film to the present.
+    void update(const Runoff& film);
 
     /// Whether the film may be visible in a tile (upper bound).
     [[nodiscard]] bool reach(std::size_t tile) const { return !reach_.empty() && reach_[tile] != 0; }
@@ -41,7 +41,8 @@ private:
     float cell_ = 0.0F;
     int columns_ = 0;
     int rows_ = 0;
-    float time_ = 0.0F;
+    Vec2f long_run_;  ///< of the waves, in their lengths
+    Vec2f short_run_;
     std::vector<float> thickness_;  ///< [m], with a border of two cells as thick as those at the edge
     std::optional<SmoothNoise> noise_;
     std::vector<std::uint8_t> reach_;

@@ -50,6 +50,8 @@ NoiseValue fieldFrom(float u, float v, const Number& number)
 /// Smooth random field from 0 to 1 with waves of a unit's length, which repeats. It is sampled once.
 class SmoothNoise {
 public:
+    static constexpr std::int32_t kWaves = 32;  ///< after which it repeats
+
     SmoothNoise() : samples_(std::size_t{kSamples} * kSamples)
     {
         for (std::int32_t row = 0; row < kSamples; ++row) {
@@ -76,7 +78,6 @@ public:
     }
 
 private:
-    static constexpr std::int32_t kWaves = 32;
     static constexpr std::int32_t kPerWave = 8;
     static constexpr std::int32_t kSamples = kWaves * kPerWave;
 

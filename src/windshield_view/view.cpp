@@ -782,7 +782,7 @@ void DriversView::show(const WindshieldState& state)
     content_->stills->update(StillCells::of(state.still));
     content_->running->update(state.droplets);
     content_->wipers.update(state.time);
-    content_->runoff.update(state.film, state.time);
+    content_->runoff.update(state.film);
     content_->splashes.update(state.splashes, state.time);
 }
 

@@ -177,6 +177,10 @@ static void rain(void)
         wet += film.pixels[k] > 5 ? 1 : 0;
     }
     HOLDS(wet > 20);
+    double drift[2] = {0.0, 0.0};
+    HOLDS(droplet_windshield_runoff_drift(windshield, drift) == DROPLET_OK && fabs(drift[1]) > 1e-3 &&
+          fabs(drift[1]) < 0.037);
+    HOLDS(droplet_windshield_runoff_drift(windshield, NULL) == DROPLET_INVALID_ARGUMENT);
     HOLDS(droplet_windshield_water(windshield, &water) == DROPLET_OK && fabs(water.balance_error) < 1e-12);
 
     DropletPlace place;
@@ -369,7 +373,8 @@ static void liquids(void)
         HOLDS(droplet_liquid2d_keep(liquid) == DROPLET_OK);
     }
     HOLDS(droplet_liquid2d_lottie(liquid, &lottie) == DROPLET_OK);
-    HOLDS(strstr(lottie, "\"fr\":24") != NULL && strstr(lottie, "\"op\":3,") != NULL && strstr(lottie, "\"w\":640,") != NULL);
+    HOLDS(strstr(lottie, "\"fr\":24") != NULL && strstr(lottie, "\"op\":3,") != NULL &&
+          strstr(lottie, "\"w\":640,") != NULL);
     HOLDS(strstr(lottie, "\"ty\":\"sh\"") != NULL);
     // Begun again, it is without frames.
     HOLDS(droplet_liquid2d_record(liquid, NULL, 640, 24.0) == DROPLET_OK);

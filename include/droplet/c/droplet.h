@@ -360,6 +360,11 @@ DROPLET_API DropletCode droplet_windshield_mist(DropletWindshield* windshield, D
 /// @param map         receives it, as that of the mist
 DROPLET_API DropletCode droplet_windshield_runoff(DropletWindshield* windshield, DropletMistMap* map);
 
+/// Way that small waves have run over the film since the start, for shaders that draw them [m].
+/// @param windshield  valid
+/// @param drift       receives x and y, up positive
+DROPLET_API DropletCode droplet_windshield_runoff_drift(const DropletWindshield* windshield, double drift[2]);
+
 // ---- 2D liquids ----
 //
 // Positions are in the window: x from 0 at the left edge to the width, y from 0 at the lower edge to the height [m].

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "droplet/vector.h"
+
 namespace droplet {
 
 /// Film of heavy rain that runs off the glass in sheets and rivulets: its water in square cells of the unrolled glass.
@@ -17,6 +19,7 @@ struct Runoff {
     std::vector<std::int32_t> thickness;  ///< mean over a cell, row by row from the lower left; empty: there is no film
     double rest = 0.0;                    ///< water for the film that is less than one unit of a cell [m³]
     std::uint64_t next_break = 0;         ///< number of the next step in which it breaks up
+    Vec2 drift;                           ///< way that the small waves on it have run since the start [m]
 
     /// Volume of all its water [m³].
     [[nodiscard]] double volume() const;
