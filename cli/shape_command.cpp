@@ -547,6 +547,9 @@ RunFiles filesOf(const ShapeOptions& options, const std::string& input_name)
 
 void checkShape(const ShapeOptions& options, const std::string& input_name)
 {
+    if (options.maps) {
+        makeFolderOf(options.maps->path);
+    }
     checkFiles(filesOf(options, input_name), options.run.files);
     if (options.preview) {
         checkVideo(*options.preview);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Renders maps of droplets on a plane beside the droplets themselves, in Blender with Cycles:
 
-    droplet-shape logo.png logo.glb --width 6cm --maps maps/logo.exr --map-width 2048
+    droplet-shape logo.png logo.glb --width 6cm --maps maps/logo.exr --map-width 2k
     blender --background --factory-startup --python decal.py -- maps/logo.exr 6cm logo.png [MODEL [SAMPLES]]
 
 6cm is the width of the footprint's picture. With MODEL, logo.glb, the droplets stand to the right of the decal, in the
@@ -20,7 +20,11 @@ if "bool" not in numpy.__dict__:
 
 maps, width, picture, *more = sys.argv[sys.argv.index("--") + 1:]
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
-unit = next(name for name in UNITS if width.endswith(name))
+unit = next((name for name in UNITS if width.endswith(name)), None)
+if unit is None:
+    sys.exit(f"decal.py: the width, {width}, needs a unit: mm, cm or m")
+if not maps.endswith(".exr"):
+    sys.exit("decal.py takes maps in OpenEXR, which have metres")
 width = float(width[:-len(unit)]) * UNITS[unit]
 model = more[0] if more else None
 samples = int(more[1]) if len(more) > 1 else 64
@@ -102,14 +106,11 @@ def wet_decal():
     # The map's normals are those of the plane, on which the maps lie upright.
     normal = node(tree, "ShaderNodeNormalMap", Strength=1.0)
     normal.space = "OBJECT"  # of the flat plane, whatever the height does to it
-    if maps.endswith(".exr"):  # -1 ... 1; the node wants 0 ... 1
-        scale = node(tree, "ShaderNodeVectorMath")
-        scale.operation = "MULTIPLY_ADD"
-        scale.inputs[1].default_value = scale.inputs[2].default_value = (0.5, 0.5, 0.5)
-        link(texture(tree, "normal"), scale.inputs[0])
-        link(scale.outputs["Vector"], normal.inputs["Color"])
-    else:
-        link(texture(tree, "normal"), normal.inputs["Color"])
+    scale = node(tree, "ShaderNodeVectorMath")  # -1 ... 1; the node wants 0 ... 1
+    scale.operation = "MULTIPLY_ADD"
+    scale.inputs[1].default_value = scale.inputs[2].default_value = (0.5, 0.5, 0.5)
+    link(texture(tree, "normal"), scale.inputs[0])
+    link(scale.outputs["Vector"], normal.inputs["Color"])
     link(normal.outputs["Normal"], shader.inputs["Normal"])
     return material
 
@@ -132,7 +133,7 @@ height = width * image.size[1] / image.size[0]
 side = max(width, height)
 apart = 0.53 * width if model else 0.0
 
-bpy.ops.mesh.primitive_plane_add(size=40 * side, location=(0, 0, -1e-4 * side))
+bpy.ops.mesh.primitive_plane_add(size=40 * side, location=(0, 0, -1e-5 * side))
 bpy.context.object.data.materials.append(dry_floor())
 
 bpy.ops.mesh.primitive_grid_add(x_subdivisions=512, y_subdivisions=int(512 * height / width), size=1, location=(-apart, 0, 0))
