@@ -73,6 +73,7 @@ std::optional<ShapeMapOptions> readShapeMaps(const CommandLine& line, const Shap
 std::vector<std::string> mapPaths(const ShapeMapOptions& options)
 {
     std::vector<std::string> paths;
+    paths.reserve(kShapeMaps.size());
     for (const char* const map : kShapeMaps) {
         paths.push_back(pathBeside(options.path, map));
     }
@@ -94,7 +95,7 @@ std::optional<double> whiteOf(const DropletMaps& maps, const ShapeMapOptions& op
     return most > 0.0 ? most : 1.0;  // the window may be beside the droplets
 }
 
-std::vector<OutputFile> mapFiles(std::shared_ptr<const DropletMaps> maps, const ShapeMapOptions& options)
+std::vector<OutputFile> mapFiles(const std::shared_ptr<const DropletMaps>& maps, const ShapeMapOptions& options)
 {
     const std::vector<std::string> paths = mapPaths(options);
     const std::optional<double> white = whiteOf(*maps, options);

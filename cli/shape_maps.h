@@ -41,6 +41,7 @@ std::vector<std::string> mapPaths(const ShapeMapOptions& options);
 std::optional<double> whiteOf(const droplet::DropletMaps& maps, const ShapeMapOptions& options);
 
 /// Files of maps.
-std::vector<OutputFile> mapFiles(std::shared_ptr<const droplet::DropletMaps> maps, const ShapeMapOptions& options);
+std::vector<OutputFile> mapFiles(const std::shared_ptr<const droplet::DropletMaps>& maps,
+                                 const ShapeMapOptions& options);
 
 }  // namespace cli

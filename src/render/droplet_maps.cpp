@@ -351,7 +351,9 @@ private:
         const double metres = std::min(pixel.x, pixel.y);
         const double lowest = *std::min_element(maps_.height.values.begin(), maps_.height.values.end());
         const double farthest = (highest_ - lowest) / kFlat;
-        for (double reach = metres; reach < farthest + metres; reach += std::max(metres, kGrowth * reach)) {
+        double reach = 0.0;
+        while (reach < farthest) {
+            reach += std::max(metres, kGrowth * reach);
             Step step;
             step.right = static_cast<int>(std::lround(reach * way.direction.x / pixel.x));
             step.down = static_cast<int>(std::lround(-reach * way.direction.y / pixel.y));

@@ -161,8 +161,9 @@ Vec2 waveVelocity(const Drives& drives)
 /// Takes all water of a block of cells.
 std::int64_t takeBlock(Runoff& film, std::size_t block)
 {
-    const auto across = static_cast<std::uint32_t>(block % blocksOf(film.columns)) * kDriveBlock;
-    const auto up = static_cast<std::uint32_t>(block / blocksOf(film.columns)) * kDriveBlock;
+    const std::size_t blocks = std::max(blocksOf(film.columns), 1U);
+    const auto across = static_cast<std::uint32_t>(block % blocks) * kDriveBlock;
+    const auto up = static_cast<std::uint32_t>(block / blocks) * kDriveBlock;
     std::int64_t taken = 0;
     for (std::uint32_t row = up; row < std::min(up + kDriveBlock, film.rows); ++row) {
         for (std::uint32_t column = across; column < std::min(across + kDriveBlock, film.columns); ++column) {
