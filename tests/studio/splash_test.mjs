@@ -49,6 +49,9 @@ studio('Splash begins with ten thousand particles', kDesktop, async (page) => {
     console.log(`${count} particles: simulation and outlines ${await state(page, 'busy')} ms a frame`);
     await page.keyboard.press(' ');
     await page.waitForFunction(() => document.documentElement.dataset.state === 'paused');
+    // The canvas fades in, and what is drawn is seen a frame later.
+    await page.waitForFunction(() => getComputedStyle(document.querySelector('.liquid2d canvas')).opacity === '1');
+    await frames(page, 2);
     const clip = { x: 20, y: 20, width: 700, height: 480 };  // without the fading hint
     const held = await page.screenshot({ clip });
     await page.waitForTimeout(300);
