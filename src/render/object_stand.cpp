@@ -29,17 +29,6 @@ std::vector<bool> clearTriangles(const ObjectStand& object)
     return clear;
 }
 
-bool isOpen(const FileMesh& mesh)
-{
-    std::vector<Triangle> welded = mesh.triangles;
-    for (Triangle& triangle : welded) {
-        for (std::uint32_t& v : triangle) {
-            v = mesh.weld[v];
-        }
-    }
-    return !openEdges(welded).empty();
-}
-
 }  // namespace
 
 bool ObjectStand::isSeenThrough() const
@@ -79,7 +68,7 @@ ObjectStand readObjectStand(const std::filesystem::path& path)
     readFile(path, [&] {
         FileMesh scene = readScene(path, {.needs_uv = true, .looks = true});
         TakenLooks taken = takeLooks(scene, shown(path), object.warnings);
-        object.is_open = isOpen(scene);
+        object.is_open = !openEdges(weldedTriangles(scene.triangles, scene.weld)).empty();
         object.mesh = {std::move(scene.vertices), std::move(scene.normals), std::move(scene.uvs),
                        std::move(scene.triangles)};
         if (!taken.looks.empty() && !scene.materials.empty()) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "surface/open_edges.h"
 
 // OpenMesh returns handles with a mesh, and its functions take handles without one.
 // NOLINTBEGIN(cppcoreguidelines-slicing)
@@ -152,13 +153,7 @@ Topology topology(const HalfEdges& half_edges)
 
 HalfEdges halfEdges(const Surface& surface)
 {
-    std::vector<Triangle> welded = surface.triangles;
-    for (Triangle& triangle : welded) {
-        for (std::uint32_t& v : triangle) {
-            v = surface.weld[v];
-        }
-    }
-    return halfEdges(surface.vertices, welded);
+    return halfEdges(surface.vertices, weldedTriangles(surface.triangles, surface.weld));
 }
 
 }  // namespace droplet

@@ -8,6 +8,16 @@
 
 namespace droplet {
 
+std::vector<Triangle> weldedTriangles(std::vector<Triangle> triangles, const std::vector<std::uint32_t>& weld)
+{
+    for (Triangle& triangle : triangles) {
+        for (std::uint32_t& v : triangle) {
+            v = weld[v];
+        }
+    }
+    return triangles;
+}
+
 std::vector<DirectedEdge> openEdges(const std::vector<Triangle>& triangles)
 {
     std::vector<DirectedEdge> edges;

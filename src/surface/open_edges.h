@@ -9,6 +9,10 @@
 
 namespace droplet {
 
+/// Triangles of the first of all copies of every vertex.
+/// @param weld  index of the first copy, for each vertex
+std::vector<Triangle> weldedTriangles(std::vector<Triangle> triangles, const std::vector<std::uint32_t>& weld);
+
 /// First and second vertex.
 using DirectedEdge = std::array<std::uint32_t, 2>;
 

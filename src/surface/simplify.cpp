@@ -23,6 +23,7 @@
 #include "box_corners.h"
 #include "droplet/error.h"
 #include "surface/half_edges.h"
+#include "surface/open_edges.h"
 
 // OpenMesh returns handles with a mesh, and its functions take handles without one.
 // NOLINTBEGIN(cppcoreguidelines-slicing)
@@ -439,11 +440,7 @@ SimplifiedSurface simplify(const Surface& surface, std::size_t triangles)
 Surface welded(const Surface& surface)
 {
     surface.validate();
-    std::vector<Triangle> triangles = surface.triangles;
-    for (Triangle& t : triangles) {
-        t = {surface.weld[t[0]], surface.weld[t[1]], surface.weld[t[2]]};
-    }
-    return reduced(surface, std::move(triangles));
+    return reduced(surface, weldedTriangles(surface.triangles, surface.weld));
 }
 
 }  // namespace droplet
