@@ -191,6 +191,12 @@ void RunFiles::writes(const std::string& name, const std::optional<std::string>&
     }
 }
 
+void RunFiles::writesInFolder(const std::string& name, const std::string& path)
+{
+    writes(name, path);
+    written.back().makes_folder = true;
+}
+
 void RunFiles::writesFrames(const std::string& name, const NumberedPath& pattern, const FrameNumbers& numbers)
 {
     written.push_back({name, pattern.text(), pattern, numbers});
@@ -242,6 +248,8 @@ void checkFiles(const RunFiles& files, const droplet::OutputOptions& options)
     for (const NamedFile& output : files.written) {
         if (output.pattern) {
             makeFolderOf(output.pattern->at(output.numbers.first));
+        } else if (output.makes_folder) {
+            makeFolderOf(output.path);
         }
     }
     for (const NamedFile& output : files.written) {

@@ -23,6 +23,7 @@ struct NamedFile {
     std::string path;                     ///< or kStandardStream; with `pattern` its text
     std::optional<NumberedPath> pattern;  ///< set if every frame gets a file
     FrameNumbers numbers;                 ///< with `pattern`
+    bool makes_folder = false;            ///< whether its folder is made if it does not exist, as that of a pattern is
 };
 
 /// All files that a run reads and writes. Every command lists them before it works.
@@ -34,6 +35,8 @@ struct RunFiles {
     void reads(const std::string& name, const std::optional<std::string>& path);
     /// Adds a file that is written, if its option is given.
     void writes(const std::string& name, const std::optional<std::string>& path);
+    /// Adds a file that is written, whose folder is made if it does not exist.
+    void writesInFolder(const std::string& name, const std::string& path);
     /// Adds a file for every frame that is written.
     void writesFrames(const std::string& name, const NumberedPath& pattern, const FrameNumbers& numbers);
 };
@@ -49,7 +52,7 @@ void makeFolderOf(const std::string& path);
 void refuseClashes(const RunFiles& files);
 
 /// Finds errors before any work is done: those of refuseClashes(), and outputs that cannot be written or must not be
-/// replaced. Creates the folders of patterns.
+/// replaced. Creates the folders of patterns and of files that make theirs.
 /// @throws droplet::Error InvalidArgument, OutputFailed
 void checkFiles(const RunFiles& files, const droplet::OutputOptions& options);
 

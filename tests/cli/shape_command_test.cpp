@@ -332,6 +332,12 @@ TEST_F(ShapeCommandTest, MapsShowTheDroplet)
     EXPECT_NEAR(sum("m-thickness.exr"), 100e-9, 0.1e-9);
     EXPECT_THAT(bytesOf("m-normal.exr"), StartsWith("v/1\x01"));
 
+    // Its folder is made, but not by a run that is refused.
+    EXPECT_EQ(run({"disc.pgm", "a.glb", "--maps", "new/m.png", "--json", "a.glb"}).exit_code, 2);
+    EXPECT_FALSE(fs::exists(directory() / "new"));
+    make({"disc.pgm", "a.glb", "--map-width", "32", "--maps", "new/m.png"});
+    EXPECT_TRUE(fs::exists(directory() / "new/m-occlusion.png"));
+
     // On a sphere the ground falls away, and is black where it is lowest.
     const json on_ball = with({"b.png", "--surface", "sphere:R=2cm"});
     EXPECT_GT(on_ball["output"]["map_thickness_m"].get<double>(), 1.5 * white);
