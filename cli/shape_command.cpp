@@ -294,8 +294,8 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
                                                         .width = options.maps->width,
                                                         .is_tile = options.maps->is_tile,
                                                         .ground = made.settings.droplet.solve.ground}));
-        extras.maps = mapFiles(maps, *options.maps);
         report.output.map_thickness = whiteOf(*maps, *options.maps);
+        extras.maps = mapFiles(maps, *options.maps, report.output.map_thickness);
     }
     if (options.preview) {
         extras.subject.emplace(
@@ -534,7 +534,7 @@ RunFiles filesOf(const ShapeOptions& options, const std::string& input_name)
     files.writes("--html", options.html);
     if (options.maps) {
         for (const std::string& path : mapPaths(*options.maps)) {
-            files.writes("--maps", path);
+            files.writesInFolder("--maps", path);
         }
     }
     if (options.preview) {
@@ -547,9 +547,6 @@ RunFiles filesOf(const ShapeOptions& options, const std::string& input_name)
 
 void checkShape(const ShapeOptions& options, const std::string& input_name)
 {
-    if (options.maps) {
-        makeFolderOf(options.maps->path);
-    }
     checkFiles(filesOf(options, input_name), options.run.files);
     if (options.preview) {
         checkVideo(*options.preview);

@@ -95,26 +95,23 @@ std::optional<double> whiteOf(const DropletMaps& maps, const ShapeMapOptions& op
     return most > 0.0 ? most : 1.0;  // the window may be beside the droplets
 }
 
-std::vector<OutputFile> mapFiles(const std::shared_ptr<const DropletMaps>& maps, const ShapeMapOptions& options)
+std::vector<OutputFile> mapFiles(const std::shared_ptr<const DropletMaps>& maps, const ShapeMapOptions& options,
+                                 std::optional<double> white)
 {
     const std::vector<std::string> paths = mapPaths(options);
-    const std::optional<double> white = whiteOf(*maps, options);
     std::vector<OutputFile> files;
     for (std::size_t k = 0; k < paths.size(); ++k) {
-        files.push_back({paths[k], [maps, white, k](std::ostream& out) {
-                             const FloatPicture& map = *all(*maps)[k];
-                             if (!white) {
-                                 writeExr(map, out);
-                             } else if (&map == &maps->normal) {
-                                 writePng(deep(map, -1.0, 1.0), out);
-                             } else if (&map == &maps->height) {
-                                 writePng(deep(map, lowestOf(*maps), lowestOf(*maps) + *white), out);
-                             } else if (&map == &maps->thickness) {
-                                 writePng(deep(map, 0.0, *white), out);
-                             } else {
-                                 writePng(deep(map, 0.0, 1.0), out);
-                             }
-                         }});
+        files.push_back(
+            {paths[k], [maps, white, k](std::ostream& out) {
+                 const FloatPicture& map = *all(*maps)[k];
+                 if (!white) {
+                     writeExr(map, out);
+                     return;
+                 }
+                 const bool is_length = &map == &maps->height || &map == &maps->thickness;
+                 const double black = &map == &maps->normal ? -1.0 : &map == &maps->height ? lowestOf(*maps) : 0.0;
+                 writePng(deep(map, black, is_length ? black + *white : 1.0), out);
+             }});
     }
     return files;
 }

@@ -41,7 +41,8 @@ std::vector<std::string> mapPaths(const ShapeMapOptions& options);
 std::optional<double> whiteOf(const droplet::DropletMaps& maps, const ShapeMapOptions& options);
 
 /// Files of maps.
+/// @param white  whiteOf()
 std::vector<OutputFile> mapFiles(const std::shared_ptr<const droplet::DropletMaps>& maps,
-                                 const ShapeMapOptions& options);
+                                 const ShapeMapOptions& options, std::optional<double> white);
 
 }  // namespace cli
