@@ -40,7 +40,7 @@ text.data.body = "drop"
 text.data.align_x, text.data.align_y = "CENTER", "CENTER"
 text.data.offset = 0.03  # bolder
 bpy.context.view_layer.update()
-bpy.ops.mesh.droplet_add(source="OBJECT", width=30, triangles=60000)
+bpy.ops.mesh.droplet_add(source="OBJECT", width=30, triangles=60000, clear_shadows=False)
 
 bpy.ops.mesh.primitive_plane_add(size=60)
 ground = bpy.data.materials.new("ground")

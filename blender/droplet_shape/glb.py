@@ -28,6 +28,8 @@ class Look:
     thickness: float = 0.0  # [m]
     attenuation_colour: tuple = (1.0, 1.0, 1.0)  # what is left of white light after attenuation_distance
     attenuation_distance: float | None = None  # [m]
+    film_ior: float = 1.3
+    film_thickness: float | None = None  # of a thin film on the surface [nm]
 
 
 @dataclass(frozen=True)
@@ -125,6 +127,7 @@ def _look(material):
     surface = material.get("pbrMetallicRoughness", {})
     extensions = material.get("extensions", {})
     volume = extensions.get("KHR_materials_volume", {})
+    film = extensions.get("KHR_materials_iridescence", {})
     return Look(
         name=material.get("name", "water"),
         base_colour=tuple(surface.get("baseColorFactor", (1.0, 1.0, 1.0, 1.0))),
@@ -135,6 +138,8 @@ def _look(material):
         thickness=volume.get("thicknessFactor", 0.0),
         attenuation_colour=tuple(volume.get("attenuationColor", (1.0, 1.0, 1.0))),
         attenuation_distance=volume.get("attenuationDistance"),
+        film_ior=film.get("iridescenceIor", 1.3),
+        film_thickness=film.get("iridescenceThicknessMaximum"),
     )
 
 

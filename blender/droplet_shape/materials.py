@@ -14,9 +14,12 @@ def socket(node, names):
     return next(node.inputs[name] for name in names if name in node.inputs)
 
 
-def make_material(look, scale):
-    """Material with this look. scale: units of the scene in a metre. An equal material is used again."""
-    state = repr((look, float(f"{scale:.6g}")))  # scales that differ by rounding share a material
+def make_material(look, scale, clear_shadows):
+    """Material with this look. An equal material is used again.
+
+    scale: units of the scene in a metre. clear_shadows: see let_light_through().
+    """
+    state = repr((look, float(f"{scale:.6g}"), clear_shadows))  # scales that differ by rounding share a material
     for known in bpy.data.materials:
         if known.get("droplet_look") == state:
             return known
@@ -47,7 +50,52 @@ def make_material(look, scale):
         if hasattr(material, "refraction_depth"):
             material.refraction_depth = 2 * look.thickness * scale
     material.diffuse_color = (*look.base_colour[:3], 1.0)
+    if clear_shadows:
+        let_light_through(material)
     return material
+
+
+def let_light_through(material):
+    """Lets the light of lamps pass clear matter straight on. Without it, a path tracer finds lamps behind refraction by
+    chance alone: shadows are black, or full of grain. Light is not focused then.
+
+    Returns whether something changed: whether there is clear matter that cast shadows.
+    """
+    changed = False
+    if not material.use_nodes:
+        return changed
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    for output in [node for node in nodes if node.type == "OUTPUT_MATERIAL" and node.target in {"ALL", "CYCLES"}]:
+        if not output.inputs["Surface"].links:
+            continue
+        shader = output.inputs["Surface"].links[0].from_node
+        if shader.type != "BSDF_PRINCIPLED" or socket(shader, _TRANSMISSION).default_value == 0:
+            continue
+        x, y = output.location
+        output.location = x + 400, y
+        path = nodes.new("ShaderNodeLightPath")
+        path.location = x, y + 350
+        straight = nodes.new("ShaderNodeBsdfTransparent")
+        straight.location = x, y - 150
+        # Light crosses the surface twice.
+        colour = shader.inputs["Base Color"].default_value
+        straight.inputs["Color"].default_value = (*(math.sqrt(channel) for channel in colour[:3]), 1.0)
+        mix = nodes.new("ShaderNodeMixShader")
+        mix.location = x + 200, y
+        # Rays that matt ground scatters pass, too: both ways to find a lamp must see the same.
+        either = nodes.new("ShaderNodeMath")
+        either.operation = "MAXIMUM"
+        either.location = x + 200, y + 350
+        links.new(path.outputs["Is Shadow Ray"], either.inputs[0])
+        links.new(path.outputs["Is Diffuse Ray"], either.inputs[1])
+        links.new(either.outputs["Value"], mix.inputs["Fac"])
+        links.new(shader.outputs["BSDF"], mix.inputs[1])
+        links.new(straight.outputs["BSDF"], mix.inputs[2])
+        links.new(mix.outputs["Shader"], output.inputs["Surface"])
+        changed = True
+    if changed and hasattr(material, "shadow_method"):  # Eevee before 4.2
+        material.shadow_method = "HASHED"
+    return changed
 
 
 def _surface(material, look, colour, target, y):
@@ -59,6 +107,9 @@ def _surface(material, look, colour, target, y):
     shader.inputs["Roughness"].default_value = look.roughness
     shader.inputs["IOR"].default_value = look.ior
     socket(shader, _TRANSMISSION).default_value = look.transmission
+    if look.film_thickness is not None and "Thin Film Thickness" in shader.inputs:  # from 4.2 on
+        shader.inputs["Thin Film Thickness"].default_value = look.film_thickness
+        shader.inputs["Thin Film IOR"].default_value = look.film_ior
     output = nodes.new("ShaderNodeOutputMaterial")
     output.location = 400, y
     output.target = target

@@ -30,6 +30,10 @@ _KINDS_OF_DEW = {"dew": "Dew", "rain": "Fresh Rain", "bottle": "Cold Bottle", "s
 class Maker:
     """An operator whose make(context) may find that something is wrong."""
 
+    clear_shadows: BoolProperty(
+        name="Clear Shadows", description="Light passes the liquid straight on. Otherwise shadows are dark and grainy in "
+        "Cycles, unless the lamp casts shadow caustics and the ground receives them", default=True)
+
     def execute(self, context):
         try:
             self.make(context)
@@ -113,7 +117,7 @@ class DropletSettings(Maker, AddObjectHelper):
         chosen = {"ANGLE": "contact_angle", "VOLUME": "volume", "HEIGHT": "height"}.get(self.fill)
         if chosen:
             layout.prop(self, chosen)
-        for name in ("share", "liquid", "look", "model", "triangles", "use_gravity", "sink", "options"):
+        for name in ("share", "liquid", "look", "clear_shadows", "model", "triangles", "use_gravity", "sink", "options"):
             layout.prop(self, name)
 
     def draw_place(self, layout):
@@ -137,9 +141,9 @@ def _add(context, data, name):
     return item
 
 
-def _add_droplet(context, mesh, look):
+def _add_droplet(context, mesh, look, clear_shadows):
     item = _add(context, mesh, mesh.name)
-    if look.transmission > 0 and hasattr(item, "cycles"):
+    if look.transmission > 0 and not clear_shadows and hasattr(item, "cycles"):
         item.cycles.is_caustics_caster = True  # has an effect below lamps that cast and on ground that receives them
     return item
 
@@ -274,9 +278,9 @@ class MESH_OT_droplet_add(bpy.types.Operator, DropletSettings):
 
         _leave_edit_mode(context)
         mesh = meshes.make_mesh(part, welded, "Droplet")
-        mesh.materials.append(materials.make_material(result.model.look, scale))
+        mesh.materials.append(materials.make_material(result.model.look, scale, self.clear_shadows))
         materials.prepare_eevee(context.scene, result.model.look)
-        droplet = _add_droplet(context, mesh, result.model.look)
+        droplet = _add_droplet(context, mesh, result.model.look, self.clear_shadows)
         droplet.matrix_world = matrix
         meshes.add_shape_keys(droplet, part, welded)  # those of --fill-range
         if target is not None:
@@ -378,7 +382,7 @@ class MESH_OT_droplet_sequence_add(bpy.types.Operator, DropletSettings):
         settings = preferences(context)
         result = command.run(command.find_program(settings.program), settings.timeout, arguments, inputs)
 
-        material = materials.make_material(result.model.look, self.scale)
+        material = materials.make_material(result.model.look, self.scale, self.clear_shadows)
         materials.prepare_eevee(context.scene, result.model.look)
         parent = _add(context, None, "Droplet")
         parent.matrix_world = self.sunk(frame @ Matrix.Scale(self.scale, 4))
@@ -386,7 +390,7 @@ class MESH_OT_droplet_sequence_add(bpy.types.Operator, DropletSettings):
             welded = glb.weld(part)
             mesh = meshes.make_mesh(part, welded, f"Droplet {part.name}")
             mesh.materials.append(material)
-            item = _add_droplet(context, mesh, result.model.look)
+            item = _add_droplet(context, mesh, result.model.look, self.clear_shadows)
             item.parent = parent
             meshes.add_shape_keys(item, part, welded, fps, context.scene.frame_start)
         _select(context, parent)
@@ -437,7 +441,7 @@ class MESH_OT_droplet_dew_add(bpy.types.Operator, Maker):
             self.layout.prop(self, name)
         if context.active_object is not None:
             self.layout.prop_search(self, "vertex_group", context.active_object, "vertex_groups")
-        for name in ("seed", "detail", "use_gravity", "options"):
+        for name in ("seed", "detail", "use_gravity", "clear_shadows", "options"):
             self.layout.prop(self, name)
 
     def make(self, context):
@@ -472,15 +476,33 @@ class MESH_OT_droplet_dew_add(bpy.types.Operator, Maker):
             raise DropletError("no droplet fits on the object")
         (part,) = result.model.parts
         mesh = meshes.make_mesh(part, glb.weld(part), "Dew")
-        mesh.materials.append(materials.make_material(result.model.look, self.scale))
+        mesh.materials.append(materials.make_material(result.model.look, self.scale, self.clear_shadows))
         materials.prepare_eevee(context.scene, result.model.look)
-        dew = _add_droplet(context, mesh, result.model.look)
+        dew = _add_droplet(context, mesh, result.model.look, self.clear_shadows)
         dew.matrix_world = ground.frame @ Matrix.Scale(self.scale, 4)
         dew.parent = target
         dew.matrix_parent_inverse = target.matrix_world.inverted()
         _select(context, dew)
         context.view_layer.objects.active = target  # the redo panel covers it again
         self.report({"INFO"}, f"{len(mesh.polygons)} triangles of droplets")
+
+
+class OBJECT_OT_droplet_clear_shadows(bpy.types.Operator):
+    """Let light pass clear materials of the selected objects straight on, such as those of imported glTF files"""
+
+    bl_idname = "object.droplet_clear_shadows"
+    bl_label = "Clear Shadows"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.mode == "OBJECT"
+
+    def execute(self, context):
+        worn = {slot.material for item in context.selected_objects for slot in item.material_slots if slot.material}
+        count = sum(materials.let_light_through(material) for material in worn)
+        self.report({"INFO"}, f"materials whose shadows are clear now: {count}")
+        return {"FINISHED"}
 
 
 class VIEW3D_MT_droplet_add(bpy.types.Menu):
@@ -514,16 +536,23 @@ def _menu(self, context):
     self.layout.menu(VIEW3D_MT_droplet_add.bl_idname, icon="META_BALL")
 
 
-_CLASSES = (MESH_OT_droplet_add, MESH_OT_droplet_dew_add, MESH_OT_droplet_sequence_add, VIEW3D_MT_droplet_add)
+def _object_menu(self, context):
+    self.layout.operator(OBJECT_OT_droplet_clear_shadows.bl_idname, text="Clear Shadows of Liquids")
+
+
+_CLASSES = (MESH_OT_droplet_add, MESH_OT_droplet_dew_add, MESH_OT_droplet_sequence_add, OBJECT_OT_droplet_clear_shadows,
+            VIEW3D_MT_droplet_add)
 
 
 def register():
     for kind in _CLASSES:
         bpy.utils.register_class(kind)
     bpy.types.VIEW3D_MT_mesh_add.append(_menu)
+    bpy.types.VIEW3D_MT_object.append(_object_menu)
 
 
 def unregister():
+    bpy.types.VIEW3D_MT_object.remove(_object_menu)
     bpy.types.VIEW3D_MT_mesh_add.remove(_menu)
     for kind in reversed(_CLASSES):
         bpy.utils.unregister_class(kind)

@@ -28,6 +28,8 @@ import addon_utils
 import bmesh
 import bpy
 import numpy as np
+
+np.bool = bool  # Blender 3.4's importer of glTF needs it; numpy 1.24 has left it out
 from mathutils import Matrix, Vector
 from mathutils.bvhtree import BVHTree
 
@@ -97,6 +99,13 @@ def centroid(item):
     a, b, c = (points[triangles[:, i]] - middle for i in range(3))
     volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6
     return middle + ((a + b + c) / 4 * volumes[:, None]).sum(axis=0) / volumes.sum()
+
+
+def words_of(option, *command):
+    """Words that the command allows for an option."""
+    told = json.loads(subprocess.run([PROGRAM, *command, "--help=json"], check=True, capture_output=True).stdout)
+    (found,) = (one for one in told["options"] if one["name"] == option)
+    return found["words"]
 
 
 class AddonTest(unittest.TestCase):
@@ -248,10 +257,8 @@ class Dew(AddonTest):
             bpy.ops.mesh.droplet_dew_add()
 
     def test_kinds_are_those_of_the_command(self):
-        told = json.loads(subprocess.run([PROGRAM, "dew", "--help=json"], check=True, capture_output=True).stdout)
-        (preset,) = (option for option in told["options"] if option["name"] == "--preset")
         kinds = bpy.ops.mesh.droplet_dew_add.get_rna_type().properties["preset"].enum_items.keys()
-        self.assertEqual(list(kinds), preset["words"])
+        self.assertEqual(list(kinds), words_of("--preset", "dew"))
 
     def test_speed(self):
         monkey = self.monkey()
@@ -349,6 +356,8 @@ class Look(AddonTest):
         (material,) = item.data.materials
         output = material.node_tree.get_output_node(target)
         node = output.inputs["Surface"].links[0].from_node
+        if node.type == "MIX_SHADER":  # of clear shadows
+            node = node.inputs[1].links[0].from_node
         self.assertEqual(node.type, "BSDF_PRINCIPLED")
         transmission = node.inputs.get("Transmission Weight") or node.inputs["Transmission"]
         return node, transmission.default_value, output
@@ -383,6 +392,62 @@ class Look(AddonTest):
             np.testing.assert_allclose(tuple(node.inputs["Base Color"].default_value)[:3], (0.03, 0.06, 0.35),
                                        rtol=1e-3)
         self.assertAlmostEqual(densities[0] / densities[1], 2, places=4)
+
+    def test_every_look_of_the_command(self):
+        looks = {}
+        for name in words_of("--material"):
+            item = self.droplet(filepath=self.disc, look=name, **FAST)
+            node, transmission, _ = self.principled(item, "CYCLES" if name != "plain" else "ALL")
+            looks[name] = (tuple(node.inputs["Base Color"].default_value)[:3], node.inputs["Metallic"].default_value,
+                           round(node.inputs["Roughness"].default_value, 6), round(transmission, 6), round(node.inputs["IOR"].default_value, 6))
+        self.assertEqual(looks["gold"][1], 1)
+        self.assertEqual(looks["frosted"][2:4], (0.35, 0.8))
+        self.assertEqual(looks["lacquer"][3], 0)
+        self.assertEqual(looks["ice"][3], 0.9)
+
+    def test_shadows_are_clear_unless_caustics_are_wanted(self):
+        for clear in (True, False):
+            item = self.droplet(filepath=self.disc, clear_shadows=clear, **FAST)
+            output = item.data.materials[0].node_tree.get_output_node("CYCLES")
+            self.assertEqual(output.inputs["Surface"].links[0].from_node.type == "MIX_SHADER", clear)
+            self.assertEqual(item.cycles.is_caustics_caster, not clear)
+        level, grain = self.light_below(True)
+        self.assertGreater(level, 0.7)
+        self.assertLess(grain, 0.05)
+        self.assertGreater(self.light_below(False)[1], 0.5)
+
+    def light_below(self, clear):
+        """Light on the ground below a droplet, seen from above in Cycles, over that of open ground; and its deviation
+        between pixels, over itself."""
+        self.setUp()
+        self.droplet(filepath=self.disc, clear_shadows=clear, **FAST)
+        bpy.ops.mesh.primitive_plane_add(size=10)
+        bpy.ops.object.light_add(type="SUN", rotation=(0.3, 0, 0))
+        bpy.context.object.data.energy = 1
+        bpy.ops.object.camera_add(location=(0, 0, 5))
+        bpy.context.object.data.type, bpy.context.object.data.ortho_scale = "ORTHO", 3
+        scene = bpy.context.scene
+        scene.camera, scene.render.engine, scene.cycles.samples = bpy.context.object, "CYCLES", 32
+        scene.cycles.use_denoising, scene.world.use_nodes = False, False
+        scene.world.color = 0, 0, 0
+        scene.render.resolution_x = scene.render.resolution_y = 32
+        scene.render.filepath, scene.render.image_settings.file_format = self.folder.name + "/seen.exr", "OPEN_EXR"
+        bpy.ops.render.render(write_still=True)
+        seen = bpy.data.images.load(scene.render.filepath)
+        level = np.array(seen.pixels[:]).reshape(32, 32, 4)[..., 0]
+        below = level[12:20, 12:20]
+        return below.mean() / level[1:3, 1:3].mean(), below.std() / below.mean()
+
+    def test_imported_files_get_clear_shadows(self):
+        self.droplet(filepath=self.disc, **FAST)
+        subprocess.run([PROGRAM, self.disc, self.folder.name + "/water.glb", "--model", "linear", "--triangles", "3k", "--quiet"], check=True)
+        bpy.ops.import_scene.gltf(filepath=self.folder.name + "/water.glb")
+        self.assertEqual(bpy.ops.object.droplet_clear_shadows(), {"FINISHED"})
+        (material,) = bpy.context.selected_objects[0].data.materials
+        mixed = [node for node in material.node_tree.nodes if node.type == "MIX_SHADER"]
+        self.assertEqual(len(mixed), 1)
+        bpy.ops.object.droplet_clear_shadows()  # a second time changes nothing
+        self.assertEqual(sum(node.type == "MIX_SHADER" for node in material.node_tree.nodes), 1)
 
     def test_mercury_is_metal(self):
         item = self.droplet(filepath=self.disc, liquid="mercury", fill="ANGLE", contact_angle=math.radians(60), **FAST)
