@@ -11,6 +11,7 @@
 #include "droplet/units.h"
 #include "files.h"
 #include "force_options.h"
+#include "liquid_options.h"
 #include "object_options.h"
 #include "option_values.h"
 #include "video_writer.h"
@@ -121,7 +122,7 @@ void declare(CommandLine& line, DewCommandOptions& options)
              into(options.detail, {{"low", droplet::DewDetail::Low},
                                    {"medium", droplet::DewDetail::Medium},
                                    {"high", droplet::DewDetail::High}}));
-    line.add(kOut, "--material", "NAME", "Look of the droplets: water, ink, mercury, honey or plain [by liquid]");
+    declareMaterial(line, kOut, "Look of the droplets [by liquid]");
     line.add(
         kOut, "--instancing",
         "auto is one mesh up to 20000 droplets; none one mesh; nodes a node for each droplet, with shared meshes; gpu "

@@ -404,8 +404,8 @@ void declareSurface(CommandLine& line, DropletSettings& settings)
         into(mesh.grading,
              {{"auto", std::nullopt}, {"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}}));
     line.addFlag(kGroup, "--open", "Leave out the base", settings.droplet.open);
-    line.add(kGroup, "--material", "water|ink|mercury|honey|plain",
-             "Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own]");
+    declareMaterial(line, kGroup,
+                    "Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own]");
     line.add(kGroup, "--unit", "Unit of length in OBJ and STL",
              into(settings.unit,
                   {{"m", LengthUnit::Metre}, {"cm", LengthUnit::Centimetre}, {"mm", LengthUnit::Millimetre}}));

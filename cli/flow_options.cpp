@@ -14,6 +14,7 @@
 #include "droplet/units.h"
 #include "files.h"
 #include "force_options.h"
+#include "liquid_options.h"
 #include "map_options.h"
 #include "object_options.h"
 #include "option_values.h"
@@ -181,7 +182,7 @@ void declare(CommandLine& line, FlowOptions& options)
              "Small-scale deformation of droplets that move slowly: standard deviation of their outline, over its "
              "distance from the middle, 0 to 0.3; in pictures, textures and meshes of every frame",
              into(options.deformation, {0.0, 0.3, "a number from 0 to 0.3"}));
-    line.add(kOut, "--material", "NAME", "Look of the droplets: water, ink, mercury, honey or plain [by liquid]");
+    declareMaterial(line, kOut, "Look of the droplets [by liquid]");
     line.add("Picture", "--preview", "FILE",
              "Write a rendered picture of the last frame beside meshes, as PNG; - is standard output");
     declareView(line);

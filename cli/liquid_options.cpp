@@ -3,8 +3,20 @@
 
 #include <string>
 
+#include "droplet/surface/material.h"
+
 namespace cli {
 namespace {
+
+template <class Things, class Name>
+std::string wordsOf(const Things& things, const Name& name)
+{
+    std::string words;
+    for (const auto& thing : things) {
+        words += (words.empty() ? "" : "|") + name(thing);
+    }
+    return words;
+}
 
 constexpr Range kTension{droplet::Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m to 1000N/m"};
 
@@ -12,11 +24,9 @@ constexpr Range kTension{droplet::Dimension::SurfaceTension, 1e-6, 1e3, "from 0.
 
 void declareLiquidProperties(CommandLine& line, const char* group, const Range& density)
 {
-    std::string names;
-    for (const droplet::Liquid& liquid : droplet::liquids()) {
-        names += (names.empty() ? "" : "|") + liquid.name;
-    }
-    line.add(group, "--liquid", names.c_str(), "Liquid, at 20 C [" + droplet::Liquid().name + "]");
+    line.add(group, "--liquid",
+             wordsOf(droplet::liquids(), [](const droplet::Liquid& liquid) { return liquid.name; }).c_str(),
+             "Liquid, at 20 C [" + droplet::Liquid().name + "]");
     line.add(group, "--surface-tension", "S", "Surface tension, instead of the liquid's own", within(kTension));
     line.add(group, "--density", "D", "Density, instead of the liquid's own", within(density));
 }
@@ -38,6 +48,12 @@ void readLiquidProperties(const CommandLine& line, const Range& density, droplet
     if (!name && (tension || own_density)) {
         liquid.name = "custom";
     }
+}
+
+void declareMaterial(CommandLine& line, const char* group, const std::string& text)
+{
+    const auto name = [](droplet::Material material) { return droplet::lookOf(material).name; };
+    line.add(group, "--material", wordsOf(droplet::materials(), name).c_str(), text);
 }
 
 }  // namespace cli

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "command_line.h"
 #include "droplet/liquid.h"
 #include "option_values.h"
@@ -16,5 +18,9 @@ void declareLiquidProperties(CommandLine& line, const char* group, const Range& 
 /// @param liquid  in and out: the command's default
 /// @throws droplet::Error InvalidArgument, naming option, value and what is allowed
 void readLiquidProperties(const CommandLine& line, const Range& density, droplet::Liquid& liquid);
+
+/// Declares --material, whose words are the names of all materials.
+/// @param text  description
+void declareMaterial(CommandLine& line, const char* group, const std::string& text);
 
 }  // namespace cli

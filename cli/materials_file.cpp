@@ -4,8 +4,6 @@
 #include <fmt/core.h>
 #include <toml++/toml.h>
 
-#include <algorithm>
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -74,9 +72,7 @@ private:
                 entry.index = indexOf(value);
                 has_index = true;
             } else if (name == "material") {
-                entry.material =
-                    droplet::materialNamed(textOf(value, name, {"water", "ink", "mercury", "honey", "plain"},
-                                                  "one of water, ink, mercury, honey, plain"));
+                entry.material = materialOf(value);
             } else if (name == "colour") {
                 entry.colour = colourOf(value);
             } else if (name == "roughness") {
@@ -106,14 +102,13 @@ private:
         return static_cast<std::size_t>(*number - 1);
     }
 
-    [[nodiscard]] std::string textOf(const toml::node& value, std::string_view name,
-                                     std::initializer_list<std::string_view> known, const std::string& allowed) const
+    [[nodiscard]] droplet::Material materialOf(const toml::node& value) const
     {
-        const auto text = value.value_exact<std::string>();
-        if (!text || std::find(known.begin(), known.end(), *text) == known.end()) {
-            refuse(value, fmt::format("{} must be {}", name, allowed));
+        try {
+            return droplet::materialNamed(value.value_exact<std::string>().value_or(""));
+        } catch (const droplet::Error& error) {
+            refuse(value, error.what());
         }
-        return *text;
     }
 
     [[nodiscard]] droplet::CssColour colourOf(const toml::node& value) const

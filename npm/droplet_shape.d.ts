@@ -73,7 +73,7 @@ export interface Options {
     /** Leave out the base */
     open?: boolean;
     /** Look in glTF, OBJ, USD, previews and the page; does not change the shape [the liquid's own] */
-    material?: 'water' | 'ink' | 'mercury' | 'honey' | 'plain';
+    material?: 'water' | 'ink' | 'mercury' | 'honey' | 'plain' | 'gel' | 'enamel' | 'glass' | 'resin' | 'oil' | 'milk' | 'lacquer' | 'blood' | 'gold' | 'frosted' | 'ice';
     /** Unit of length in OBJ and STL [mm] */
     unit?: 'm' | 'cm' | 'mm';
     /** Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; triangles counts their halves */
@@ -156,8 +156,8 @@ export interface DewOptions {
     gravity?: string | number;
     /** Triangles of droplets: medium has 64 of small ones to 352 of large ones [medium] */
     detail?: 'low' | 'medium' | 'high';
-    /** Look of the droplets: water, ink, mercury, honey or plain [by liquid] */
-    material?: string;
+    /** Look of the droplets [by liquid] */
+    material?: 'water' | 'ink' | 'mercury' | 'honey' | 'plain' | 'gel' | 'enamel' | 'glass' | 'resin' | 'oil' | 'milk' | 'lacquer' | 'blood' | 'gold' | 'frosted' | 'ice';
     /** auto is one mesh up to 20000 droplets; none one mesh; nodes a node for each droplet, with shared meshes; gpu EXT_mesh_gpu_instancing, for glTF [auto] */
     instancing?: 'auto' | 'none' | 'nodes' | 'gpu';
     /** Leave the object out of a .glb, .gltf, .usda or .usdz */

@@ -61,9 +61,7 @@ _droplet_shape()
         *:--triangles) return ;;
         *:--edge) return ;;
         *:--grading) choices='auto 1 2 4 8 16 32 64' ;;
-        dew:--material) return ;;
-        flow:--material) return ;;
-        *:--material) choices='water ink mercury honey plain' ;;
+        *:--material) choices='water ink mercury honey plain gel enamel glass resin oil milk lacquer blood gold frosted ice' ;;
         *:--unit) choices='m cm mm' ;;
         *:--format) choices='glb gltf obj ply stl usda usdz 3mf' ;;
         *:--nodes) choices='one each' ;;

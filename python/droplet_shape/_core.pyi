@@ -11,7 +11,10 @@ from ._reports import Report, SequenceReport
 _Path = Union[str, os.PathLike[str]]
 _Format = Literal["glb", "gltf", "obj", "ply", "stl", "usda", "usdz", "3mf"]
 _FilmFormat = Literal["glb", "gltf", "usda", "usdz"]
-_Material = Literal["water", "ink", "mercury", "honey", "plain"]
+_Material = Literal[
+    "water", "ink", "mercury", "honey", "plain", "gel", "enamel", "glass", "resin",
+    "oil", "milk", "lacquer", "blood", "gold", "frosted", "ice",
+]
 _Unit = Literal["m", "cm", "mm"]
 _Compress = Literal["none", "quantize", "meshopt"]
 _Nodes = Literal["one", "each"]

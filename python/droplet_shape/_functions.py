@@ -1062,7 +1062,10 @@ def flow(
     seed: str | int | None = None,
     shape: Literal["capillary", "springs", "capsule"] | None = None,
     deformation: float | None = None,
-    material: str | None = None,
+    material: Literal[
+        "water", "ink", "mercury", "honey", "plain", "gel", "enamel", "glass", "resin", "oil", "milk", "lacquer",
+        "blood", "gold", "frosted", "ice",
+    ] | None = None,
     compress: Literal["none", "quantize", "meshopt"] | None = None,
     streaks: Path | None = None,
     maps: Path | None = None,
@@ -1178,7 +1181,8 @@ def flow(
         capsule a cut capsule (default: capillary)
       deformation: Small-scale deformation of droplets that move slowly: standard deviation of their outline, over its
         distance from the middle, 0 to 0.3; in pictures, textures and meshes of every frame (default: 0)
-      material: Look of the droplets: water, ink, mercury, honey or plain (default: by liquid)
+      material: water, ink, mercury, honey, plain, gel, enamel, glass, resin, oil, milk, lacquer, blood, gold,
+        frosted, ice: Look of the droplets (default: by liquid)
       compress: none, quantize, meshopt: Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three
         quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size (default: none)
       streaks: Write the streaks at the end as a mesh, .glb, .obj, .ply or .stl, or those of every frame, such as
@@ -1287,7 +1291,10 @@ def dew(
     density: str | float | None = None,
     gravity: str | float | None = None,
     detail: Literal["low", "medium", "high"] | None = None,
-    material: str | None = None,
+    material: Literal[
+        "water", "ink", "mercury", "honey", "plain", "gel", "enamel", "glass", "resin", "oil", "milk", "lacquer",
+        "blood", "gold", "frosted", "ice",
+    ] | None = None,
     instancing: Literal["auto", "none", "nodes", "gpu"] | None = None,
     droplets_only: bool = False,
     compress: Literal["none", "quantize", "meshopt"] | None = None,
@@ -1350,7 +1357,8 @@ def dew(
     Output:
       detail: low, medium, high: Triangles of droplets: medium has 64 of small ones to 352 of large ones (default:
         medium)
-      material: Look of the droplets: water, ink, mercury, honey or plain (default: by liquid)
+      material: water, ink, mercury, honey, plain, gel, enamel, glass, resin, oil, milk, lacquer, blood, gold,
+        frosted, ice: Look of the droplets (default: by liquid)
       instancing: auto, none, nodes, gpu: auto is one mesh up to 20000 droplets; none one mesh; nodes a node for each
         droplet, with shared meshes; gpu EXT_mesh_gpu_instancing, for glTF (default: auto)
       droplets_only: Leave the object out of a .glb, .gltf, .usda or .usdz

@@ -324,7 +324,7 @@ A frame without liquid has a surface without triangles.)")
 
 path        ends in .glb, .gltf, .usda or .usdz; or an object that is open for
             bytes
-material    water, ink, mercury, honey or plain [the liquid's own]
+material    water, glass, gold or another look [the liquid's own]
 no_clobber  refuse to replace a file
 format      glb, gltf, usda or usdz, whatever the path's extension is [by the
             extension; glb for an object]

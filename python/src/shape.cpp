@@ -259,7 +259,7 @@ path        ends in .glb, .gltf, .obj (with its .mtl), .ply, .stl, .usda or
             .usdz; or an object that is open for bytes, such as io.BytesIO()
 format      glb, gltf, obj, ply, stl, usda, usdz or 3mf; a file object needs it [by
             the path]
-material    water, ink, mercury, honey or plain: the look in glTF, OBJ and USD,
+material    water, glass, gold or another look, in glTF, OBJ and USD,
             below the colours of by_colour [the liquid's own]
 unit        m, cm or mm: unit of length in OBJ and STL
 compress    none, quantize or meshopt: compression of a .glb

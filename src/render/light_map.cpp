@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/facets.h"
+
 namespace droplet {
 namespace {
 
@@ -133,7 +135,11 @@ private:
         if (!medium.clear) {
             return;
         }
-        const Vec3f normal = facing(ray.direction, way.inside ? -1.0F * meeting.normal : meeting.normal);
+        Vec3f normal = facing(ray.direction, way.inside ? -1.0F * meeting.normal : meeting.normal);
+        if (!isSmooth(medium.roughness)) {
+            const std::uint32_t shift = hashOf(meeting.place.x, meeting.place.y);
+            normal = facing(ray.direction, facetNormal(ray.direction, normal, medium.roughness, facetChoice(0, shift)));
+        }
         const Interface there = atInterface(ray.direction, normal, way.inside ? medium.ior : 1.0F / medium.ior);
         const auto onward = [&](float share, bool inside) {
             return Way{share * way.light, way.min, inside, way.meetings + 1, droplet};
@@ -141,8 +147,11 @@ private:
         follow({meeting.place, mirrored(ray.direction, normal)}, onward(there.reflected, way.inside));
         if (there.reflected < 1.0F) {
             Way through = onward(1.0F - there.reflected, !way.inside);
-            if (!way.inside && media_.map) {
-                through.light = media_.mapAt(meeting, 0.0) * through.light;
+            if (!way.inside) {
+                through.light = medium.transmission * through.light;
+                if (media_.map) {
+                    through.light = media_.mapAt(meeting, 0.0) * through.light;
+                }
             }
             follow({meeting.place, there.transmitted}, through);
         }
@@ -209,7 +218,11 @@ void blurMap(LightMap& map, float deviation)
 
 Medium mediumOf(const Look& look, double mean_height, double scale)
 {
-    Medium medium{look.transmission > 0.0, static_cast<float>(look.ior), {}};
+    Medium medium{look.transmission > 0.0,
+                  static_cast<float>(look.ior),
+                  {},
+                  look.roughness,
+                  static_cast<float>(look.transmission)};
     if (look.tinted && mean_height > 0.0) {
         medium.absorption = absorptionOf(attenuationOf(look, mean_height), scale);
     }

@@ -19,7 +19,9 @@ namespace droplet {
 struct Medium {
     bool clear = true;  ///< false: opaque
     float ior = 1.0F;
-    Vec3f absorption;  ///< coefficient, per length
+    Vec3f absorption;        ///< coefficient, per length
+    double roughness = 0.0;  ///< of its surface, 0 … 1
+    float transmission = 1;  ///< share of the light that enters
 };
 
 /// Medium of a look.

@@ -3,8 +3,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 
+#include "droplet/surface/material.h"
 #include "droplet/vector.h"
 
 namespace droplet {
@@ -99,6 +103,42 @@ inline Interface atInterface(Vec3f direction, Vec3f normal, float ratio)
     const float across = (ratio * cosine - far_cosine) / (ratio * cosine + far_cosine);
     const float along = (cosine - ratio * far_cosine) / (cosine + ratio * far_cosine);
     return {0.5F * (across * across + along * along), unit(ratio * direction + (ratio * cosine - far_cosine) * normal)};
+}
+
+/// Share of unpolarised light that a thin film between two media reflects: red, green, blue. Reflections between its
+/// two sides add up (G. B. Airy, 1833; Born and Wolf, section 1.6.2). Each channel is the mean of a band of 60 nm about
+/// the primaries of sRGB.
+/// @param cosine     of the angle to the normal on the near side, above 0
+/// @param near, far  refractive indices; `near` below that of the film
+inline Vec3f reflectedByFilm(float cosine, float near, float far, const ThinFilm& film)
+{
+    constexpr std::array<float, 3> kBands{611e-9F, 549e-9F, 464e-9F};
+    constexpr std::array<float, 4> kWithin{-22.5e-9F, -7.5e-9F, 7.5e-9F, 22.5e-9F};
+    const auto ior = static_cast<float>(film.ior);
+    const float sine2 = near * near * (1.0F - cosine * cosine);
+    const float below2 = 1.0F - sine2 / (far * far);
+    if (below2 <= 0.0F) {
+        return grey(1.0F);
+    }
+    const float inside = std::sqrt(std::max(1.0F - sine2 / (ior * ior), 1e-6F));
+    const float below = std::sqrt(below2);
+    const auto amplitude = [](float a, float b) { return (a - b) / (a + b); };
+    const std::array<std::array<float, 2>, 2> parts{
+        {{amplitude(near * cosine, ior * inside), amplitude(ior * inside, far * below)},
+         {amplitude(ior * cosine, near * inside), amplitude(far * inside, ior * below)}}};
+    const float path = 4.0F * std::numbers::pi_v<float> * ior * static_cast<float>(film.thickness) * inside;
+    std::array<float, 3> shares{};
+    for (std::size_t c = 0; c < kBands.size(); ++c) {
+        for (const float off : kWithin) {
+            const float turn = std::cos(path / (kBands[c] + off));
+            for (const auto& [first, second] : parts) {
+                const float both = 2.0F * first * second * turn;
+                const float squares = first * first * second * second;
+                shares[c] += (first * first + second * second + both) / (1.0F + squares + both) / 8.0F;
+            }
+        }
+    }
+    return {shares[0], shares[1], shares[2]};
 }
 
 /// Share of diffuse light that a surface of refractive index n ≥ 1 reflects, from the optically thinner side (S. Q.

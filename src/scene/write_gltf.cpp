@@ -100,6 +100,15 @@ tinygltf::Material materialOf(const SceneMaterial& from, double side)
             Value(Value::Object{{"transmissionFactor", Value(look.transmission)}});
         material.extensions["KHR_materials_ior"] = Value(Value::Object{{"ior", Value(look.ior)}});
     }
+    if (look.film) {
+        constexpr double kNanometres = 1e9;
+        const double thickness = kNanometres * look.film->thickness;
+        material.extensions["KHR_materials_iridescence"] =
+            Value(Value::Object{{"iridescenceFactor", Value(1.0)},
+                                {"iridescenceIor", Value(look.film->ior)},
+                                {"iridescenceThicknessMinimum", Value(thickness)},
+                                {"iridescenceThicknessMaximum", Value(thickness)}});
+    }
     if (has_volume) {
         // The thickness is in the mesh's unit; the distance of attenuation is not.
         Value::Object volume{{"thicknessFactor", Value(*from.thickness / side)}};

@@ -23,7 +23,7 @@ const kFields = [
     { name: 'spread', label: 'Spread', unit: '', more: true, when: isLogNormal, report: ({ sizes }) => sizes.spread },
     { name: 'hysteresis', label: 'Hysteresis', unit: '', window: [0, 2], more: true, report: ({ forces }) => forces.hysteresis },
     { name: 'liquid', label: 'Liquid', labels: {}, more: true },
-    { name: 'material', label: 'Look', labels: { water: 'Clear water', ink: 'Blue ink' }, more: true },
+    { name: 'material', label: 'Look', labels: { water: 'Clear water', ink: 'Blue ink', oil: 'Iridescent oil', frosted: 'Frosted glass' }, more: true },
     { name: 'detail', label: 'Triangles', labels: { low: 'few', medium: 'usual', high: 'many' }, more: true },
     { name: 'instancing', label: 'Droplets', labels: { auto: 'automatic', none: 'one mesh', nodes: 'a node each', gpu: 'instances' }, file: true },
     { name: 'compress', label: 'Compress', labels: { none: 'none', quantize: '16 bits', meshopt: 'meshopt' }, file: true },

@@ -4,8 +4,12 @@ import { Color, MeshPhysicalMaterial } from 'three';
 import { kLooks } from './looks.js';
 
 export function materialOf(look) {
-    const { colour, metalness, roughness, transmission, ior, tinted } = kLooks[look];
+    const { colour, metalness, roughness, transmission, ior, tinted, film } = kLooks[look];
     const material = new MeshPhysicalMaterial({ metalness, roughness, transmission, ior });
+    if (film) {
+        const nanometres = 1e9 * film.thickness;
+        Object.assign(material, { iridescence: 1, iridescenceIOR: film.ior, iridescenceThicknessRange: [nanometres, nanometres] });
+    }
     if (tinted) {
         material.attenuationColor = new Color(...colour);
     } else {

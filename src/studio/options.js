@@ -31,7 +31,7 @@ export const kOptions = {
   "triangles": {"min": 1.0, "max": 100000000.0, "default": "40k"},
   "edge": {"min": 1e-09, "max": 1000.0},
   "grading": {"words": ["auto", "1", "2", "4", "8", "16", "32", "64"], "default": "auto"},
-  "material": {"words": ["water", "ink", "mercury", "honey", "plain"], "default": "the liquid's own"},
+  "material": {"words": ["water", "ink", "mercury", "honey", "plain", "gel", "enamel", "glass", "resin", "oil", "milk", "lacquer", "blood", "gold", "frosted", "ice"], "default": "the liquid's own"},
   "unit": {"words": ["m", "cm", "mm"], "default": "mm"},
   "format": {"words": ["glb", "gltf", "obj", "ply", "stl", "usda", "usdz", "3mf"], "default": "by OUTPUT's extension"},
   "nodes": {"words": ["one", "each"], "default": "one"},

@@ -29,7 +29,7 @@ export const kLayerFields = [
     },
     {
         name: 'material', label: 'Look', value: 'own',
-        choices: { own: 'as the liquid', ...wordsOf('material', { water: 'Clear water', ink: 'Blue ink' }) },
+        choices: { own: 'as the liquid', ...wordsOf('material', { water: 'Clear water', ink: 'Blue ink', oil: 'Iridescent oil', frosted: 'Frosted glass' }) },
     },
     {
         name: 'by', label: 'Amount', value: 'free',

@@ -375,7 +375,7 @@ TEST_F(ColoursTest, RefusesWrongMaterialsWithFileLineAndKey)
     refused("[[drop]]\nindex = 1\n", "'drop' is unknown; allowed are tables [[droplet]]");
     refused("[[droplet]]\nmaterial = \"ink\"\n", "index is missing");
     refused("[[droplet]]\nindex = 0\n", "index must be \"all\" or the number of a droplet, from 1");
-    refused("[[droplet]]\nindex = 1\nmaterial = \"beer\"\n", "material must be one of water, ink");
+    refused("[[droplet]]\nindex = 1\nmaterial = \"beer\"\n", "material is 'beer', must be one of water, ink");
     refused("[[droplet]]\nindex = 1\ncolour = 7\n", "colour must be a colour such as");
     refused("[[droplet]]\nindex = 1\nroughness = 2\n", "roughness must be a number from 0 to 1");
     refused("[[droplet]]\nindex = 1\nior = 0.9\n", "ior must be a number from 1 to 4");

@@ -249,12 +249,12 @@ TEST_P(Gltf, BoundsArePreciselyThoseOfTheFloats)
 
 TEST_P(Gltf, RequiresNoExtension)
 {
-    for (const char* name : {"water", "ink", "mercury", "honey", "plain"}) {
+    for (const Material material : materials()) {
         const tinygltf::Model model =
-            parsed(written(roundDroplet(), {.binary = GetParam(), .material = materialNamed(name)}), GetParam());
+            parsed(written(roundDroplet(), {.binary = GetParam(), .material = material}), GetParam());
         EXPECT_THAT(model.extensionsRequired, ::testing::IsEmpty());
         ASSERT_EQ(model.materials.size(), 1U);
-        EXPECT_EQ(model.materials[0].name, name);
+        EXPECT_EQ(model.materials[0].name, lookOf(material).name);
         EXPECT_EQ(onlyPrimitive(model).material, 0);
         std::vector<std::string> used;
         for (const auto& [extension, value] : model.materials[0].extensions) {
@@ -273,12 +273,12 @@ TEST_P(Gltf, TheSameSurfaceGivesTheSameBytes)
 TEST_P(Gltf, IsByteForByteWhatTinygltfWrites)
 {
     for (const Surface& surface : {roundDroplet(), withContactAngles(roundDroplet()), strip(5), strip(70'000)}) {
-        for (const char* name : {"water", "ink", "mercury", "honey", "plain"}) {
-            const std::string bytes = written(surface, {.binary = GetParam(), .material = materialNamed(name)});
+        for (const Material material : materials()) {
+            const std::string bytes = written(surface, {.binary = GetParam(), .material = material});
             const tinygltf::Model model = parsed(bytes, GetParam());
             std::ostringstream again;
             tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, again, true, GetParam());
-            EXPECT_TRUE(bytes == again.str()) << name;
+            EXPECT_TRUE(bytes == again.str()) << lookOf(material).name;
         }
     }
 }
@@ -516,6 +516,17 @@ TEST_F(GltfMaterial, PlainIsOpaqueGrey)
     EXPECT_TRUE(plain.extensions.empty());
 }
 
+TEST_F(GltfMaterial, OilIsIridescent)
+{
+    const tinygltf::Material oil = made(Material::Oil, true);
+    const ThinFilm film = lookOf(Material::Oil).film.value();
+    EXPECT_EQ(number(oil, "iridescence", "iridescenceFactor"), 1.0);
+    EXPECT_EQ(number(oil, "iridescence", "iridescenceIor"), film.ior);
+    EXPECT_NEAR(number(oil, "iridescence", "iridescenceThicknessMaximum"), 1e9 * film.thickness, 1e-6);
+    EXPECT_TRUE(uses(oil, "volume"));
+    EXPECT_FALSE(uses(made(Material::Water, true), "iridescence"));
+}
+
 TEST(MaterialOf, IsTheLiquidsOwnOrWater)
 {
     EXPECT_EQ(materialOf(liquidNamed("honey")), Material::Honey);
@@ -524,21 +535,24 @@ TEST(MaterialOf, IsTheLiquidsOwnOrWater)
     EXPECT_EQ(materialOf({"custom", 0.05, 900.0}), Material::Water);
 }
 
-TEST(MaterialNamed, KnowsFiveAndNoOther)
+TEST(MaterialNamed, KnowsAllLooksAndNoOther)
 {
-    EXPECT_EQ(materialNamed("water"), Material::Water);
-    EXPECT_EQ(materialNamed("ink"), Material::Ink);
-    EXPECT_EQ(materialNamed("mercury"), Material::Mercury);
-    EXPECT_EQ(materialNamed("honey"), Material::Honey);
-    EXPECT_EQ(materialNamed("plain"), Material::Plain);
-    for (const char* wrong : {"", "Water", "glass", "water "}) {
+    std::string names;
+    for (const Material material : materials()) {
+        const std::string name = lookOf(material).name;
+        EXPECT_EQ(materialNamed(name), material);
+        names += (names.empty() ? "" : ", ") + name;
+    }
+    EXPECT_EQ(
+        names,
+        "water, ink, mercury, honey, plain, gel, enamel, glass, resin, oil, milk, lacquer, blood, gold, frosted, ice");
+    for (const char* wrong : {"", "Water", "beer", "water "}) {
         try {
             materialNamed(wrong);
             ADD_FAILURE() << wrong;
         } catch (const Error& error) {
             EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
-            EXPECT_EQ(error.what(),
-                      "material is '" + std::string(wrong) + "', must be one of water, ink, mercury, honey, plain");
+            EXPECT_EQ(error.what(), "material is '" + std::string(wrong) + "', must be one of " + names);
         }
     }
 }

@@ -78,10 +78,10 @@ TEST(GltfValidator, EveryKindOfFileHasNoErrorOrWarning)
             files.push_back(stored(name + (binary ? ".glb" : ".gltf"), written(surface, {binary, material, closed})));
         }
     };
-    for (const char* name : {"water", "ink", "mercury", "honey", "plain"}) {
+    for (const Material material : materials()) {
         for (const bool closed : {true, false}) {
-            add(std::string(name) + (closed ? "_closed" : "_open"),
-                testing::withContactAngles(testing::roundDroplet({.open = !closed})), materialNamed(name), closed);
+            add(lookOf(material).name + (closed ? "_closed" : "_open"),
+                testing::withContactAngles(testing::roundDroplet({.open = !closed})), material, closed);
         }
     }
     add("ring", testing::roundDroplet({.inner = 1e-3}), Material::Water, true);

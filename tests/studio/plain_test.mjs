@@ -127,10 +127,11 @@ test('values that are not allowed become the first ones', () => {
 test('looks are those of the library', () => {
     const source = readFileSync(resolve(SOURCES, 'surface/material.cpp'), 'utf8');
     const number = '([\\d.]+)';
-    const entry = new RegExp(`\\{"(\\w+)", \\{${number}, ${number}, ${number}\\}, ${number}, ${number}, ${number}, ${number}, (true|false)\\}`, 'g');
+    const entry = new RegExp(`\\{"(\\w+)", \\{${number}, ${number}, ${number}\\}, ${number}, ${number}, ${number}, ${number}, (true|false)(?:, ThinFilm\\{${number}, ([\\de.-]+)\\})?\\}`, 'g');
     const known = Object.fromEntries([...source.matchAll(entry)].map(([, name, ...values]) => {
         const [red, green, blue, metalness, roughness, transmission, ior] = values.map(Number);
-        return [name, { colour: [red, green, blue], metalness, roughness, transmission, ior, tinted: values[7] === 'true' }];
+        const look = { colour: [red, green, blue], metalness, roughness, transmission, ior, tinted: values[7] === 'true' };
+        return [name, values[8] ? { ...look, film: { ior: Number(values[8]), thickness: Number(values[9]) } } : look];
     }));
     assert.deepEqual(Object.fromEntries(Object.entries(kLooks).map(([name, { ink, ...look }]) => [name, look])), known);
 });

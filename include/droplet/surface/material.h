@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "droplet/liquid.h"
 #include "droplet/vector.h"
@@ -10,14 +12,43 @@
 namespace droplet {
 
 /// Named looks of a droplet in a viewer.
-enum class Material { Water, Ink, Mercury, Honey, Plain };
+enum class Material {
+    Water,
+    Ink,
+    Mercury,
+    Honey,
+    Plain,
+    Gel,
+    Enamel,
+    Glass,
+    Resin,
+    Oil,
+    Milk,
+    Lacquer,
+    Blood,
+    Gold,
+    Frosted,
+    Ice
+};
 
-/// Finds a material by its name: water, ink, mercury, honey or plain.
+/// All materials.
+std::vector<Material> materials();
+
+/// Finds a material by its name: that of its look.
 /// @throws Error InvalidArgument
 Material materialNamed(std::string_view name);
 
 /// Material for a liquid: mercury and honey by their names, otherwise water.
 Material materialOf(const Liquid& liquid);
+
+/// Clear layer on a surface, thin enough that its two sides' reflections interfere: its colour changes with the angle.
+struct ThinFilm {
+    double ior = 1.5;        ///< index of refraction, from 1 to 4
+    double thickness = 0.0;  ///< [m], up to 10 um
+
+    /// Whether all properties are equal.
+    friend bool operator==(const ThinFilm&, const ThinFilm&) = default;
+};
 
 /// Optical properties of a material.
 struct Look {
@@ -29,6 +60,7 @@ struct Look {
     double transmission = 1.0;  ///< share of the light that passes, 0 … 1
     double ior = 1.333;         ///< index of refraction
     bool tinted = false;        ///< whether the colour deepens with the path through the liquid
+    std::optional<ThinFilm> film = {};  ///< on its surface
 
     /// Whether all properties are equal.
     friend bool operator==(const Look&, const Look&) = default;
