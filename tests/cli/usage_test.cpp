@@ -273,7 +273,7 @@ TEST_F(UsageTest, RefusesUnknownNamesAndListsTheKnownOnes)
     expectRefused({"--channel", "red"}, {"--channel", "'red'", "auto, alpha, luma"});
     expectRefused({"--fill", "some"}, {"--fill", "'some'", "each, total"});
     expectRefused({"--liquid", "milk"}, {"--liquid", "'milk'", "water", "mercury"});
-    expectRefused({"--material", "gold"}, {"--material", "gold", "water", "plain"});
+    expectRefused({"--material", "silver"}, {"--material", "silver", "water", "plain", "gold"});
     expectRefused({"--format", "fbx"}, {"--format", "'fbx'", "glb, gltf, obj, ply, stl"});
     expectRefused({"--progress", "loud"}, {"--progress", "'loud'", "auto, none, json"});
 }
