@@ -6,9 +6,11 @@
 #include <utility>
 
 #include "common_options.h"
+#include "droplet/error.h"
 #include "files.h"
 #include "preview.h"
 #include "shape_options.h"
+#include "value_list.h"
 #include "video_writer.h"
 
 namespace cli {
@@ -24,6 +26,7 @@ const CommandText& commandText()
             "  droplet-shape animate frames/%04d.png closing.glb --volume 30uL\n"
             "  droplet-shape animate rain.mp4 rain.glb --volume-mode track\n"
             "  droplet-shape animate frames/ 'rain-%04d.obj'\n"
+            "  droplet-shape animate logo.svg logo.glb --reveal left --frames 72\n"
             "  ffmpeg -i rain.mp4 -f image2pipe -c:v png - | droplet-shape animate - rain.glb\n"
             "\n"
             "Exit codes:\n"
@@ -81,6 +84,44 @@ void readSequencePreview(const CommandLine& line, AnimateOptions& options)
         requireEvenSides("--preview-size", preview.width, preview.height);
     }
     options.preview = preview;
+}
+
+droplet::RevealSource revealSource(const Given& given)
+{
+    const char* const allowed =
+        "left, right, top, bottom, middle, or a place in the picture such as 0.1,0.5: shares of its width and height, "
+        "from 0 to 1, from the top left";
+    if (given.text.find(',') == std::string::npos) {
+        try {
+            return droplet::revealFromNamed(given.text);
+        } catch (const droplet::Error&) {
+            refuse(given, allowed);
+        }
+    }
+    const std::vector<double> place = numbers(given, {0.0, 1.0, allowed});
+    if (place.size() != 2) {
+        refuse(given, allowed);
+    }
+    return droplet::Vec2{place[0], place[1]};
+}
+
+/// Reads --reveal.
+void readReveal(const CommandLine& line, AnimateOptions& options)
+{
+    const auto source = line.value("--reveal");
+    if (!source) {
+        if (line.value("--frames")) {
+            refuse("--frames needs --reveal; without it, the frames are those of INPUT");
+        }
+        return;
+    }
+    options.reveal = revealSource(*source);
+    if (options.inputs.size() > 1 || isStream(options.inputs.front()) || !isPicture(options.inputs.front())) {
+        refuse("--reveal takes one picture as INPUT, into whose footprint liquid flows");
+    }
+    if (!line.value("--volume-mode")) {
+        options.volume_mode = droplet::VolumeMode::Fill;
+    }
 }
 
 void readSequence(const CommandLine& line, AnimateOptions& options)
@@ -165,6 +206,13 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
                       "such as out/%04d.glb, .gltf, .obj, .ply, .stl, .usda, .usdz or .3mf");
     AnimateOptions options;
     declareAnimation(line, options);
+    line.add(
+        "Sequence", "--reveal", "left|right|top|bottom|middle|X,Y",
+        "Let liquid flow into the footprint of one picture, from a side, from its middle or from a place (shares of "
+        "width and height, from the top left), along its strokes, at the same contact angle; --volume-mode is fill "
+        "then");
+    line.add("Sequence", "--frames", "N", "Number of frames of --reveal, up to 100k",
+             into(options.frames, {1, 100'000, "100k"}));
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
         return *text;
@@ -182,6 +230,7 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
         refuse("INPUT: - must stand alone: all frames are on standard input");
     }
     options.output = files.back().text;
+    readReveal(line, options);
     readAnimation(line, options);
     if (options.resume && (!options.files || isStream(options.inputs.front()))) {
         refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.glb, and INPUT in files");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <variant>
@@ -8,6 +9,7 @@
 
 #include "command_line.h"
 #include "droplet/io/output.h"
+#include "droplet/mask/reveal.h"
 #include "droplet/sequence/sequence.h"
 #include "droplet_options.h"
 #include "numbered_path.h"
@@ -22,6 +24,8 @@ struct AnimateOptions {
     std::optional<NumberedPath> files;  ///< set if every frame gets a file
     droplet::Format format = droplet::Format::Glb;
     droplet::Compression compression = droplet::Compression::None;
+    std::optional<droplet::RevealSource> reveal;  ///< liquid flows from there into the footprint of the one input
+    std::size_t frames = 48;                      ///< with `reveal`
     droplet::VolumeMode volume_mode = droplet::VolumeMode::Total;
     std::optional<double> frames_per_second;
     std::optional<std::string> json;            ///< path or kStandardStream

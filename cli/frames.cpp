@@ -134,6 +134,32 @@ Frames::Frames(std::istream& pictures, std::string name)
 {
 }
 
+Frames::Frames(std::string picture, droplet::RevealSource source, std::size_t count) : source_(source)
+{
+    for (std::size_t k = 1; k <= count; ++k) {
+        pictures_.emplace_back(k, picture);
+    }
+}
+
+FramePicture Frames::revealed(const droplet::MaskOptions& options)
+{
+    FramePicture frame;
+    std::tie(frame.number, frame.name) = pictures_[done_];
+    if (!reveal_) {
+        droplet::MaskOptions wet = options;
+        wet.allow_dry = false;
+        droplet::Mask mask = droplet::readMask(frame.name, wet);
+        try {
+            reveal_.emplace(std::move(mask), *source_);
+        } catch (const Error& error) {
+            throw Error(error.code(), frame.name + ": " + error.what());
+        }
+    }
+    frame.mask = reveal_->at(static_cast<double>(frame.number) / static_cast<double>(pictures_.size()));
+    frame.name += ", frame " + std::to_string(frame.number);
+    return frame;
+}
+
 Video& Frames::video()
 {
     if (!video_) {
@@ -170,7 +196,7 @@ std::optional<FramePicture> Frames::next(const droplet::MaskOptions& options)
 {
     const bool by_levels =
         options.segment == droplet::Segmentation::Auto || options.segment == droplet::Segmentation::Threshold;
-    if (options.channel != droplet::Channel::Auto || !by_levels || options.colour) {
+    if (options.channel != droplet::Channel::Auto || !by_levels || options.colour || source_) {
         return read(options);
     }
     if (!decision_) {
@@ -243,8 +269,12 @@ std::optional<FramePicture> Frames::read(const droplet::MaskOptions& options)
         if (done_ == pictures_.size()) {
             return std::nullopt;
         }
-        std::tie(frame.number, frame.name) = pictures_[done_];
-        frame.mask = droplet::readMask(frame.name, options);
+        if (source_) {
+            frame = revealed(options);
+        } else {
+            std::tie(frame.number, frame.name) = pictures_[done_];
+            frame.mask = droplet::readMask(frame.name, options);
+        }
     }
     if (done_ == 0) {
         width_ = frame.mask.width;
@@ -282,7 +312,9 @@ std::vector<std::string> Frames::files() const
 {
     std::vector<std::string> files;
     for (const auto& [number, name] : pictures_) {
-        files.push_back(name);
+        if (files.empty() || !source_) {
+            files.push_back(name);
+        }
     }
     if (!video_path_.empty()) {
         files.push_back(video_path_);

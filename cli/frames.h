@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "droplet/mask/mask.h"
+#include "droplet/mask/reveal.h"
 #include "picture_stream.h"
 #include "video.h"
 
@@ -35,6 +36,10 @@ public:
     /// @param pictures  as PictureStream reads them; used until the last frame
     /// @param name      of the stream, for messages
     Frames(std::istream& pictures, std::string name);
+    /// Frames in which liquid flows into the footprint of one picture.
+    /// @param picture  path
+    /// @param count    of frames, at least 1
+    Frames(std::string picture, droplet::RevealSource source, std::size_t count);
 
     /// Reads the next frame; returns nothing after the last one.
     /// @throws droplet::Error InvalidInput, naming the frame: unreadable, or not of the first frame's size
@@ -70,8 +75,13 @@ private:
 
     std::optional<Decision> decision_;
     std::optional<FramePicture> first_picture_;  ///< first frame, if it decided
+    /// Frame of a footprint that liquid flows into.
+    [[nodiscard]] FramePicture revealed(const droplet::MaskOptions& options);
+
     std::vector<std::pair<std::size_t, std::string>> pictures_;
-    std::string video_path_;  ///< empty without a video
+    std::optional<droplet::RevealSource> source_;  ///< of liquid that flows into the one picture, which all frames name
+    std::optional<droplet::Reveal> reveal_;        ///< from the first frame on
+    std::string video_path_;                       ///< empty without a video
     std::unique_ptr<Video> video_;
     std::unique_ptr<PictureStream> stream_;
     std::string stream_name_;

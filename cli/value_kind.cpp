@@ -47,6 +47,7 @@ constexpr std::array kKinds{
     Named{"PATH", {"path"}},
     Named{"PICTURE", {"path"}},
     Named{"splash|wave|dam|pour|FILE.toml", {"path"}},
+    Named{"left|right|top|bottom|middle|X,Y", {"text"}},
     Named{"GROUND", {"ground"}},
     Named{"COLOUR", {"text"}},
     Named{"NAME", {"text"}},

@@ -94,6 +94,8 @@ complete -c droplet-shape -n 'not __fish_seen_subcommand_from studio' -l version
 complete -c droplet-shape -n '__fish_seen_subcommand_from animate morph' -l volume-mode -x -a 'total track fill' -d 'Volume that stays the same: total, of all droplets together at one pressure; track, of every droplet, through merging and splitting; fill, none, every frame has the --contact-angle, --volume or --height'
 complete -c droplet-shape -n '__fish_seen_subcommand_from animate liquid2d morph windshield' -l fps -x -d 'Frames per second'
 complete -c droplet-shape -n '__fish_seen_subcommand_from animate morph' -l contact-sheet -r -F -d 'Write a PNG of up to 60 frames side by side, seen by one camera; - is standard output'
+complete -c droplet-shape -n '__fish_seen_subcommand_from animate' -l reveal -x -a 'left right top bottom middle' -d 'Let liquid flow into the footprint of one picture, from a side, from its middle or from a place (shares of width and height, from the top left), along its strokes, at the same contact angle; --volume-mode is fill then'
+complete -c droplet-shape -n '__fish_seen_subcommand_from animate' -l frames -x -d 'Number of frames of --reveal, up to 100k'
 complete -c droplet-shape -n '__fish_seen_subcommand_from animate morph' -l preview -r -F -d 'Write rendered pictures: out/%04d.png, one for every frame, or a .mp4, .mkv, .mov or .webm video, which needs ffmpeg'
 complete -c droplet-shape -n '__fish_seen_subcommand_from animate flow liquid2d morph windshield' -l resume -d 'Continue an interrupted run of the same options'
 complete -c droplet-shape -n '__fish_seen_subcommand_from batch' -l output -s o -r -F -d 'Pattern of the output files, such as \'out/{stem}.glb\''

@@ -619,5 +619,45 @@ TEST_F(AnimateTest, RefusesWrongOptions)
     expectFailure({"frames/f0008.pgm", "-", "old.glb"}, 2, {"INPUT: - must stand alone"});
 }
 
+// The last frame is the droplet of the picture itself; before it there is ever more liquid, at the same angle.
+TEST_F(AnimateTest, RevealFillsTheFootprintOfOnePicture)
+{
+    for (const std::string source : {"left", "middle", "0.1,0.5"}) {
+        const json told = report({"frames/" + name(4), "reveal.glb", "--reveal", source, "--frames", "6",
+                                  "--contact-angle", "30deg", "--model", "linear"});
+        ASSERT_EQ(told["frames"].size(), 6U);
+        EXPECT_EQ(told["volume_mode"], "fill");
+        double before = 0.0;
+        for (const json& frame : told["frames"]) {
+            const double volume = frame["volume_m3"];
+            EXPECT_GT(volume, before);
+            before = volume;
+        }
+        CommandOptions here;
+        here.directory = directory();
+        const CommandResult alone = runDroplet({"frames/" + name(4), "alone.glb", "--contact-angle", "30deg", "--model",
+                                                "linear", "--triangles", "800", "-q", "--json", "alone.json"},
+                                               here);
+        ASSERT_EQ(alone.exit_code, 0) << alone.error;
+        const double whole = json::parse(bytesOf("alone.json"))["shape"]["volume_m3"];
+        EXPECT_NEAR(before / whole, 1.0, 0.01) << "other triangles, of 800";
+    }
+}
+
+TEST_F(AnimateTest, RevealRefusesWhatItCannotFill)
+{
+    const std::string picture = "frames/" + name(4);
+    expectFailure({picture, "old.glb", "--reveal", "up"}, 2, {"--reveal", "'up'", "left, right, top, bottom, middle"});
+    expectFailure({picture, "old.glb", "--reveal", "0.5"}, 2, {"--reveal", "left"});
+    expectFailure({picture, "old.glb", "--reveal", "0.5,1.5"}, 2, {"--reveal", "from 0 to 1"});
+    expectFailure({picture, "old.glb", "--reveal", "0.5,0.5,0.5"}, 2, {"--reveal", "from 0 to 1"});
+    expectFailure({picture, "frames/" + name(3), "old.glb", "--reveal", "left"}, 2, {"--reveal", "one picture"});
+    expectFailure({"frames", "old.glb", "--reveal", "left"}, 2, {"--reveal", "one picture"});
+    expectFailure({picture, "old.glb", "--frames", "6"}, 2, {"--frames", "--reveal"});
+    expectFailure({picture, "old.glb", "--reveal", "left", "--frames", "0"}, 2, {"--frames", "0"});
+    writeFile(directory() / "dry.pgm", greymap(8, 8, [](int, int) { return 0; }));
+    expectFailure({"dry.pgm", "old.glb", "--reveal", "left"}, 3, {"dry.pgm"});
+}
+
 }  // namespace
 }  // namespace droplet
