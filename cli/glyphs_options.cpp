@@ -13,6 +13,7 @@ namespace {
 
 constexpr const char* kUsage = "usage: droplet-shape glyphs --font FILE --text TEXT -o OUTPUT, more with --help";
 
+constexpr Range kArc{droplet::Dimension::Length, -1e3, 1e3, "from -1000m to 1000m"};
 const CountRange kIndex{0, 65535, "65535"};  // limit of FreeType
 
 const CommandText& commandText()
@@ -29,6 +30,7 @@ const CommandText& commandText()
             "Examples:\n"
             "  droplet-shape glyphs --font Serif.ttf --text Water -o water.glb\n"
             "  droplet-shape glyphs --font Serif.ttf --charset A-Za-z -o 'out/{name}.glb'\n"
+            "  droplet-shape glyphs --font Serif.ttf --text WATER --arc 60mm -o seal.glb\n"
             "  droplet-shape glyphs --font Colour.ttf --text Sun -o sun.glb --by-colour\n"
             "  droplet-shape glyphs --font Variable.ttf --axis wght=700 --all \\\n"
             "    -o 'out/{name}.glb' --equal-height\n"
@@ -63,6 +65,13 @@ void declare(CommandLine& line, GlyphsOptions& options, ShapeMapOptions& maps)
                                        {"end", droplet::TextAlign::End}}));
     line.add(kGroup, "--line-spacing", "F", "Distance of lines, as a multiple of the font's own",
              into(options.type.line_spacing, {0.01, 100.0, "a number from 0.01 to 100"}));
+    line.add(kGroup, "--tracking", "F", "Extra width between the letters of a text, as a share of the em, such as 0.05",
+             into(options.type.tracking, {-1.0, 10.0, "a number from -1 to 10"}));
+    line.add(kGroup, "--line-width", "LENGTH", "Width at which the lines of a text break at spaces [only at \\n]",
+             into(options.type.measure, kLength));
+    line.add(kGroup, "--arc", "LENGTH",
+             "Set a text around a circle of this radius; below 0, such as -30mm, inside along its lower half [none]",
+             into(options.type.arc, kArc));
     line.addFlag(
         kGroup, "--equal-height",
         "Make all letters, and the dots on them, as high as the letter o at the contact angle, or as --height");
@@ -175,6 +184,9 @@ void refuseInapplicable(const CommandLine& line, bool is_text)
     }
     for (const char* option : {"--align",
                                "--line-spacing",
+                               "--tracking",
+                               "--line-width",
+                               "--arc",
                                "--onto",
                                "--preview",
                                "--view",
@@ -216,6 +228,9 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
         refuse(std::string("--font must name a file; ") + kUsage);
     }
     line.read();
+    if (options.type.arc == 0.0) {
+        refuse(*line.value("--arc"), "a radius from -1000m to 1000m that is not 0");
+    }
     options.font = font->text;
     readFace(line, options.face);
     if (const auto colour = line.value("--text-colour")) {

@@ -7,7 +7,7 @@ namespace cli {
 
 std::span<const NamedOption> namedOptions()
 {
-    static constexpr std::array<NamedOption, 14> kAll{
+    static constexpr std::array<NamedOption, 15> kAll{
         {{"number of triangles", "--triangles"},
          {"shorten the edges", "--edge"},
          {"a smaller contact angle", "--contact-angle"},
@@ -21,7 +21,8 @@ std::span<const NamedOption> namedOptions()
          {"the speck size", "--speck-size"},
          {"use the exact model", "--model exact"},
          {"use the linear model", "--model linear"},
-         {"prevent penetration", "--no-penetration"}}};
+         {"prevent penetration", "--no-penetration"},
+         {"the arc", "--arc"}}};
     return kAll;
 }
 

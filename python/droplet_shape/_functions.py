@@ -256,6 +256,9 @@ _GLYPHS = {
     "tolerance": "m",
     "align": "text",
     "line_spacing": "number",
+    "tracking": "number",
+    "line_width": "m",
+    "arc": "m",
     "contact_angle": "rad",
     "on": "text",
     "volume": "m3",
@@ -295,6 +298,9 @@ def glyphs(
     tolerance: str | float | None = None,
     align: Literal["start", "centre", "end"] | None = None,
     line_spacing: float | None = None,
+    tracking: float | None = None,
+    line_width: str | float | None = None,
+    arc: str | float | None = None,
     contact_angle: str | float | None = None,
     on: Literal["glass", "ptfe", "wax", "lotus"] | None = None,
     volume: str | float | None = None,
@@ -340,6 +346,10 @@ def glyphs(
       align: start, centre, end: Alignment of the lines of a text; Hebrew and Arabic start on the right (default:
         start)
       line_spacing: Distance of lines, as a multiple of the font's own (default: 1)
+      tracking: Extra width between the letters of a text, as a share of the em, such as 0.05 (default: 0)
+      line_width [m]: Width at which the lines of a text break at spaces (default: only at \\n)
+      arc [m]: Set a text around a circle of this radius; below 0, such as -30mm, inside along its lower half
+        (default: none)
 
     Liquid:
       contact_angle [rad]: Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of

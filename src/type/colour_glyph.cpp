@@ -126,7 +126,7 @@ ColourLayout layOut(const FontFace& face, PlacedText placed, const GlyphOptions&
         for (const Patch& patch : glyph.patches) {
             std::vector<Contour> contours;
             for (const Contour& contour : patch.contours) {
-                contours.push_back(moved(contour, at.origin));
+                contours.push_back(moved(contour, at.origin, at.along));
             }
             cover(patches, std::move(contours), {patch.colour, 1.0});
         }

@@ -456,7 +456,10 @@ std::vector<ShapedGlyph> FontFace::shape(const std::u32string& text, const TextR
     hb_buffer_set_language(buffer.get(), hb_language_from_string("und", -1));
     {
         const std::lock_guard lock(mutex_);
-        hb_shape(shaper_.get(), buffer.get(), nullptr, 0);
+        constexpr std::array<hb_feature_t, 2> kApart{
+            {{HB_TAG('l', 'i', 'g', 'a'), 0, HB_FEATURE_GLOBAL_START, HB_FEATURE_GLOBAL_END},
+             {HB_TAG('c', 'l', 'i', 'g'), 0, HB_FEATURE_GLOBAL_START, HB_FEATURE_GLOBAL_END}}};
+        hb_shape(shaper_.get(), buffer.get(), kApart.data(), run.ligatures ? 0U : static_cast<unsigned>(kApart.size()));
     }
     unsigned count = 0;
     const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer.get(), &count);

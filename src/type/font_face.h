@@ -49,6 +49,7 @@ struct TextRun {
     std::size_t end = 0;
     unsigned script = 0;  ///< script tag of HarfBuzz
     bool leftward = false;
+    bool ligatures = true;
 };
 
 /// Font in FreeType and HarfBuzz. Calls from several threads wait for each other.

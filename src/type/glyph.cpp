@@ -10,6 +10,7 @@
 
 #include "droplet/error.h"
 #include "number_text.h"
+#include "require.h"
 #include "type/contour_union.h"
 #include "type/flatten.h"
 #include "type/font_face.h"
@@ -98,6 +99,13 @@ void TextOptions::validate() const
 {
     glyph.validate();
     requirePositive(line_spacing, "line_spacing");
+    require(tracking >= -1.0 && tracking <= 10.0, "tracking", tracking, "from -1 to 10");
+    if (measure) {
+        requirePositive(*measure, "measure");
+    }
+    if (arc) {
+        require(*arc != 0.0 && std::isfinite(*arc), "arc", *arc, "finite and not 0");
+    }
 }
 
 Outline glyphOutline(const Font& font, GlyphId glyph, const GlyphOptions& options)
@@ -138,7 +146,7 @@ TextLayout layOutText(const Font& font, std::string_view text, const TextOptions
     std::vector<Contour> contours;
     for (const PlacedGlyph& glyph : placed.glyphs) {
         for (const Contour& contour : drawer(glyph.glyph)) {
-            contours.push_back(moved(contour, glyph.origin));
+            contours.push_back(moved(contour, glyph.origin, glyph.along));
         }
     }
     return {outlineOf(unite(contours, options.glyph.speck_size), placed.box, options.glyph.em),

@@ -9,10 +9,13 @@
 #include <hb.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <utility>
 
 #include "droplet/error.h"
+#include "number_text.h"
 #include "utf8.h"
 
 namespace droplet {
@@ -127,9 +130,90 @@ double startOf(const TextLine& line, double width, TextAlign align)
     return line.leftward ? 0.0 : room;
 }
 
+/// Whether a run has letters that join with their neighbours, as in Arabic.
+bool joins(const std::u32string& text, const TextRun& run)
+{
+    return std::any_of(text.begin() + static_cast<std::ptrdiff_t>(run.begin),
+                       text.begin() + static_cast<std::ptrdiff_t>(run.end), [](char32_t c) {
+                           const FriBidiJoiningType type = fribidi_get_joining_type(c);
+                           return type == FRIBIDI_JOINING_TYPE_D || type == FRIBIDI_JOINING_TYPE_R ||
+                                  type == FRIBIDI_JOINING_TYPE_L;
+                       });
+}
+
+/// Lines, broken at spaces where they would be wider; a space at the break is left out.
+/// @param measure  width [em]
+std::vector<std::u32string> broken(const FontFace& face, const std::vector<std::u32string>& lines, double measure,
+                                   double tracking)
+{
+    std::vector<std::u32string> result;
+    for (const std::u32string& line : lines) {
+        std::u32string now;
+        for (std::size_t begin = 0; begin <= line.size();) {
+            const std::size_t space = std::min(line.find(U' ', begin), line.size());
+            const std::u32string word = line.substr(begin, space - begin);
+            const std::u32string longer = begin == 0 ? word : now + U' ' + word;
+            if (!now.empty() && layOutLine(face, longer, tracking).advance > measure) {
+                result.push_back(std::move(now));
+                now = word;
+            } else {
+                now = longer;
+            }
+            begin = space + 1;
+        }
+        result.push_back(std::move(now));
+    }
+    return result;
+}
+
+/// Circle that a base line lies on. A straight line's middle lies at its top, or at its bottom if the radius is below
+/// 0.
+struct Circle {
+    Vec2 centre;
+    double radius = 0.0;  ///< [em]
+    double middle = 0.0;  ///< of the straight line
+};
+
+/// @param radius  of the first base line [em]
+/// @param height  of the line's base line, at most 0
+/// @param width   of the text
+Circle circleOf(double radius, double height, double width)
+{
+    const Circle circle{{0.5 * width, -radius}, radius + height, 0.5 * width};
+    if (!(circle.radius * radius > 0.0 && width <= 2.0 * std::numbers::pi * std::abs(circle.radius))) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "the arc is too small for a line of " + numberText(width) + " em; make it larger, or the type smaller");
+    }
+    return circle;
+}
+
+/// Places a glyph on a circle, and widens the box to hold its part of the line.
+void placeOn(const Circle& circle, const ShapedGlyph& glyph, double pen, const LineMetrics& lines, PlacedText& result)
+{
+    // The middle of a letter touches the circle; a mark turns with where it stands.
+    const double middle = 0.5 * glyph.advance;
+    const double angle = (pen + middle - circle.middle) / circle.radius;
+    const Vec2 along{std::cos(angle), -std::sin(angle)};
+    const auto at = [&](Vec2 p) {
+        const Vec2 off{p.x - middle, p.y + circle.radius};
+        return circle.centre + Vec2{off.x * along.x - off.y * along.y, off.x * along.y + off.y * along.x};
+    };
+    if (result.glyphs.empty()) {
+        result.box = {at({middle, 0.0}), at({middle, 0.0})};
+    }
+    for (const double x : {0.0, glyph.advance}) {
+        for (const double y : {lines.descender, lines.ascender}) {
+            const Vec2 p = at({x, y});
+            result.box.low = {std::min(result.box.low.x, p.x), std::min(result.box.low.y, p.y)};
+            result.box.high = {std::max(result.box.high.x, p.x), std::max(result.box.high.y, p.y)};
+        }
+    }
+    result.glyphs.push_back({glyph.glyph, at(glyph.offset), along});
+}
+
 }  // namespace
 
-TextLine layOutLine(const FontFace& face, const std::u32string& text)
+TextLine layOutLine(const FontFace& face, const std::u32string& text, double tracking)
 {
     TextLine line;
     if (text.empty()) {
@@ -139,9 +223,23 @@ TextLine layOutLine(const FontFace& face, const std::u32string& text)
     line.leftward = levels.leftward;
     std::vector<LeveledRun> runs = runsOf(text, levels.of);
     reorder(runs);
-    for (const LeveledRun& run : runs) {
-        const std::vector<ShapedGlyph> shaped = face.shape(text, run.run);
+    double after_last = 0.0;  // tracking is between letters
+    for (LeveledRun& run : runs) {
+        run.run.ligatures = tracking == 0.0;
+        std::vector<ShapedGlyph> shaped = face.shape(text, run.run);
+        const double between = joins(text, run.run) ? 0.0 : tracking;
+        for (ShapedGlyph& glyph : shaped) {
+            if (glyph.advance > 0.0) {  // not after marks
+                glyph.advance += between;
+                after_last = between;
+            }
+        }
         line.glyphs.insert(line.glyphs.end(), shaped.begin(), shaped.end());
+    }
+    const auto last = std::find_if(line.glyphs.rbegin(), line.glyphs.rend(),
+                                   [](const ShapedGlyph& glyph) { return glyph.advance != 0.0; });
+    if (last != line.glyphs.rend()) {
+        last->advance -= after_last;
     }
     for (const ShapedGlyph& glyph : line.glyphs) {
         line.advance += glyph.advance;
@@ -151,13 +249,16 @@ TextLine layOutLine(const FontFace& face, const std::u32string& text)
 
 PlacedText placeText(const FontFace& face, std::string_view text, const TextOptions& options)
 {
-    const std::vector<std::u32string> texts = linesOf(text);
+    std::vector<std::u32string> texts = linesOf(text);
+    if (options.measure) {
+        texts = broken(face, texts, *options.measure / options.glyph.em, options.tracking);
+    }
     PlacedText result;
     result.lines = texts.size();
     std::vector<TextLine> lines;
     double width = 0.0;
     for (const std::u32string& line : texts) {
-        TextLine laid_out = layOutLine(face, line);
+        TextLine laid_out = layOutLine(face, line, options.tracking);
         // Glyph 0 replaces characters that the font lacks.
         for (const ShapedGlyph& glyph : laid_out.glyphs) {
             const char32_t character = line[glyph.character];
@@ -176,21 +277,28 @@ PlacedText placeText(const FontFace& face, std::string_view text, const TextOpti
     Vec2 pen;
     for (const TextLine& line : lines) {
         pen.x = startOf(line, width, options.align);
+        const Circle circle = options.arc ? circleOf(*options.arc / options.glyph.em, pen.y, width) : Circle{};
         for (const ShapedGlyph& glyph : line.glyphs) {
-            result.glyphs.push_back({glyph.glyph, pen + glyph.offset});
+            if (options.arc) {
+                placeOn(circle, glyph, pen.x, face.lines(), result);
+            } else {
+                result.glyphs.push_back({glyph.glyph, pen + glyph.offset});
+            }
             pen.x += glyph.advance;
         }
         pen.y -= pitch;
     }
-    const double last = -pitch * static_cast<double>(lines.size() - 1);
-    result.box = {{0.0, last + face.lines().descender}, {width, face.lines().ascender}};
+    if (!options.arc || result.glyphs.empty()) {
+        const double last = -pitch * static_cast<double>(lines.size() - 1);
+        result.box = {{0.0, last + face.lines().descender}, {width, face.lines().ascender}};
+    }
     return result;
 }
 
-Contour moved(Contour contour, Vec2 by)
+Contour moved(Contour contour, Vec2 by, Vec2 along)
 {
     for (Vec2& p : contour) {
-        p = p + by;
+        p = by + Vec2{p.x * along.x - p.y * along.y, p.x * along.y + p.y * along.x};
     }
     return contour;
 }

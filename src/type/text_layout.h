@@ -20,13 +20,15 @@ struct TextLine {
 };
 
 /// Sets one line of text.
-/// @param text  without line feeds
-TextLine layOutLine(const FontFace& face, const std::u32string& text);
+/// @param text      without line feeds
+/// @param tracking  as in TextOptions
+TextLine layOutLine(const FontFace& face, const std::u32string& text, double tracking = 0.0);
 
 /// Glyph in its place.
 struct PlacedGlyph {
     GlyphId glyph = 0;
     Vec2 origin;
+    Vec2 along = {1.0, 0.0};  ///< direction of its base line, unit
 };
 
 /// Glyphs of a text; lengths in ems.
@@ -41,7 +43,7 @@ struct PlacedText {
 /// @throws Error  InvalidArgument: text that is not UTF-8
 PlacedText placeText(const FontFace& face, std::string_view text, const TextOptions& options);
 
-/// A contour, moved.
-Contour moved(Contour contour, Vec2 by);
+/// A contour, turned so that its x points along a unit vector, then moved.
+Contour moved(Contour contour, Vec2 by, Vec2 along = {1.0, 0.0});
 
 }  // namespace droplet

@@ -327,6 +327,9 @@ TEST_F(Glyphs, RefusesWrongOptions)
     refuses({"--text", "a", "-o", "x.png"}, 2, {"--output 'x.png'", "glb"});
     refuses({"--text", "a\\t", "-o", "x.glb"}, 2, {"--text", "\\n is a new line"});
     refuses({"--text", "a\xff", "-o", "x.glb"}, 2, {"UTF-8"});
+    refuses({"--text", "a", "-o", "x.glb", "--arc", "0mm"}, 2, {"--arc", "not 0"});
+    refuses({"--text", "aaaa", "-o", "x.glb", "--arc", "1mm"}, 2, {"--arc", "too small"});
+    refuses({"--charset", "a", "-o", "{name}.glb", "--tracking", "0.1"}, 2, {"--tracking", "--text"});
     refuses({"--text", " ", "-o", "x.glb"}, 3, {"the text has no ink"});
     refuses({"--text", "水", "-o", "x.glb"}, 3, {"no glyph for U+6C34 '水'", "nothing is left"});
     refuses({"--charset", "水", "-o", "{name}.glb"}, 3, {"no glyph for U+6C34 '水'", "nothing is left"});

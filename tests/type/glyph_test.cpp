@@ -471,6 +471,87 @@ TEST(Text, MayHaveSeveralLines)
     EXPECT_EQ(set("\n\nH\n").lines, 4U);
 }
 
+TEST(Text, TrackingIsBetweenLetters)
+{
+    const Font font = readFont(kSans);
+    TextOptions options;
+    options.glyph = inEms();
+    const auto width = [&](const char* text) { return layOutText(font, text, options).outline.extent.x; };
+    const double tight = width("HHHH");
+    const double alone = width("H");
+    const double arabic = width("ببب");
+    options.tracking = 0.25;
+    EXPECT_NEAR(width("HHHH"), tight + 3 * 0.25, 1e-12);
+    EXPECT_NEAR(width("H"), alone, 1e-12);
+    EXPECT_NEAR(width("ببب"), arabic, 1e-12) << "letters that join stay joined";
+    EXPECT_EQ(layOutText(font, "fi", options).outline.loops.size(), 3U) << "no ligature: f, i and its dot";
+    options.tracking = 11.0;
+    EXPECT_THROW(width("H"), Error);
+}
+
+TEST(Text, BreaksAtSpaces)
+{
+    const Font font = readFont(kSans);
+    TextOptions options;
+    options.glyph = inEms();
+    const auto set = [&](const char* text) { return layOutText(font, text, options); };
+    const TextLayout by_hand = set("one two\nthree\nfour");
+    options.measure = 1.01 * by_hand.outline.extent.x;
+    const TextLayout wrapped = set("one two three four");
+    EXPECT_EQ(wrapped.lines, 3U);
+    expectMoved(wrapped.outline, by_hand.outline);
+    EXPECT_EQ(set("one two\n\nthree").lines, 3U) << "empty lines stay";
+    options.measure = 0.1;
+    EXPECT_EQ(set("one two three").lines, 3U) << "a word stays whole";
+    options.measure = 1e3;
+    EXPECT_EQ(set("one two three four").lines, 1U);
+    options.measure = 0.0;
+    EXPECT_THROW(set("one"), Error);
+}
+
+// Letters turn about the circle's centre; the middle one is upright, at the top or at the bottom.
+TEST(Text, StandsAroundACircle)
+{
+    const Font font = readFont(kSans);
+    TextOptions options;
+    options.glyph = inEms();
+    const double letter = signedArea(glyphOf(font, 'H').loops[0]);
+    for (const double radius : {5.0, -5.0}) {
+        options.arc = radius;
+        const TextLayout text = layOutText(font, "HHHHH", options);
+        ASSERT_EQ(text.outline.loops.size(), 5U);
+        std::vector<Vec2> middles;
+        for (const Loop& loop : text.outline.loops) {
+            EXPECT_NEAR(signedArea(loop), letter, 1e-6);
+            const auto box = boxOf(loop);
+            middles.push_back(0.5 * (box.low + box.high));
+        }
+        std::sort(middles.begin(), middles.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
+        EXPECT_NEAR(middles[0].y, middles[4].y, 1e-6);
+        EXPECT_NEAR(middles[1].y, middles[3].y, 1e-6);
+        EXPECT_GT((middles[2].y - middles[1].y) * radius, 0.0);
+        const double height = 0.5 * 1493.0 / 2048.0;  // of half an H above the base line
+        const Vec2 centre{middles[2].x, middles[2].y - height - radius};
+        for (const Vec2 p : middles) {
+            EXPECT_NEAR(length(p - centre), std::abs(radius + height), 2e-3) << "of boxes of turned letters";
+        }
+    }
+    // A huge circle is a line.
+    options.arc = 1e6;
+    const TextLayout almost = layOutText(font, "Hug\nto", options);
+    options.arc.reset();
+    const TextLayout straight = layOutText(font, "Hug\nto", options);
+    EXPECT_NEAR(almost.outline.extent.x, straight.outline.extent.x, 1e-4);
+    EXPECT_NEAR(almost.outline.extent.y, straight.outline.extent.y, 1e-4);
+    EXPECT_EQ(almost.outline.loops.size(), straight.outline.loops.size());
+    for (const double small : {0.3, -0.3, 0.0}) {
+        options.arc = small;
+        EXPECT_THROW(layOutText(font, "HHHHH", options), Error);
+    }
+    options.arc = 1.0;
+    EXPECT_THROW(layOutText(font, "H\nH", options), Error) << "the second line is beyond the centre";
+}
+
 TEST(Text, LinesFromRightToLeftStartOnTheRight)
 {
     const Font font = readFont(kSans);

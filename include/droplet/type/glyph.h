@@ -56,6 +56,11 @@ struct TextOptions {
     GlyphOptions glyph;                  ///< options of every glyph
     TextAlign align = TextAlign::Start;  ///< alignment of the lines
     double line_spacing = 1.0;           ///< distance of base lines, as a multiple of the font's, > 0
+    double tracking = 0.0;  ///< extra width between letters [em], −1 … 10; none in scripts that join their
+                            ///< letters. Unless it is 0, there are no ligatures
+    std::optional<double> measure = {};  ///< width at which lines break at spaces [m], > 0; longer words stand over
+    std::optional<double> arc = {};      ///< radius of the circle that the first base line lies on [m], not 0: letters
+                                         ///< stand on it outside if it is above 0, inside below
 
     /// Checks all options.
     /// @throws Error InvalidArgument
@@ -73,12 +78,14 @@ struct TextLayout {
 /// from left to right or from right to left as in their script; the Unicode bidirectional algorithm orders mixed lines.
 ///
 /// Letters that overlap become one region of liquid. The extent is the box of the lines, from the ascender of the first
-/// line to the descender of the last one. It grows equally on opposite sides if letters do not fit. All else is as in
-/// glyphOutline().
+/// line to the descender of the last one; on an arc, around the letters' parts of the lines. It grows equally on
+/// opposite sides if letters do not fit. All else is as in glyphOutline().
 /// @param font     any
 /// @param text     UTF-8; line feeds separate lines, and a tab counts as a space
-/// @param options  size, alignment and line spacing
-/// @throws Error   InvalidArgument: options, or text that is not UTF-8; InvalidInput: the font is damaged
+/// @param options  size, alignment and spacing
+/// @throws Error   InvalidArgument: options, text that is not UTF-8, or a line longer than its circle; InvalidInput:
+/// the
+///                 font is damaged
 TextLayout layOutText(const Font& font, std::string_view text, const TextOptions& options = {});
 
 }  // namespace droplet
