@@ -99,7 +99,8 @@ void writeMask(std::ostream& out, const droplet::Mask& mask, const droplet::Trac
 bool hasSliderInPageOnly(const ShapeOptions& options)
 {
     const droplet::SolveOptions& solve = options.settings.droplet.solve;
-    return options.html && !options.settings.droplet.fill_range && !solve.no_penetration && !options.settings.onto;
+    return options.html && !options.settings.droplet.fill_range && !solve.no_penetration && !options.settings.onto &&
+           !options.settings.base;
 }
 
 void addPageSlider(droplet::DropletOptions& droplet, const ShapeOptions& options)
@@ -117,6 +118,8 @@ struct Extras {
     std::vector<OutputFile> maps;
     std::string texture;                      ///< bytes of a PNG, or empty
     std::optional<droplet::Surface> in_file;  ///< what OUTPUT holds, if it is not the droplets alone
+    /// What pictures and the page show, if it is not the droplets alone: on the ground, not below it.
+    std::optional<droplet::Surface> shown = {};
 };
 
 /// Writes the page with the droplet as a GLB.
@@ -139,17 +142,22 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
 }
 
 /// Subject of the preview.
-PreviewSubject subjectOf(const Droplet& droplet, const DropletSettings& settings, std::vector<droplet::Look> looks,
-                         const std::optional<droplet::Picture>& colour_map, const Surroundings& around)
+PreviewSubject subjectOf(const MadeShape& made, const Extras& extras, const Surroundings& around)
 {
-    PreviewSubject subject{droplet.surface,       droplet::lookOf(settings.material),
-                           std::move(looks),      colour_map,
-                           droplet.domain.extent, around.below,
-                           around.light,          around.object};
-    const droplet::BaseSurface& below = settings.droplet.solve.ground;
+    // A plate makes one solid of all droplets.
+    PreviewSubject subject{extras.shown ? *extras.shown : made.droplet.surface,
+                           droplet::lookOf(made.settings.material),
+                           extras.shown ? std::vector<droplet::Look>{} : droplet::looksOf(extras.droplets),
+                           made.colour_map,
+                           made.droplet.domain.extent,
+                           around.below,
+                           around.light,
+                           around.object};
+    const droplet::BaseSurface& below = made.settings.droplet.solve.ground;
     if (!around.object && !below.flat()) {
-        subject.curved = droplet::groundMesh(below, droplet.domain.extent);
+        subject.curved = droplet::groundMesh(below, made.droplet.domain.extent);
     }
+    subject.by_colour = !made.colours.empty();
     return subject;
 }
 
@@ -219,7 +227,7 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
                              if (refill) {
                                  droplet.surface.refill.swap(refill);
                              }
-                             writeHtml(out, droplet.surface, options, extras, report);
+                             writeHtml(out, extras.shown ? *extras.shown : droplet.surface, options, extras, report);
                          }});
     }
     if (extras.subject) {
@@ -267,6 +275,9 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
         if (made.settings.droplet.mesh.quads) {
             droplet::joinTriangles(*extras.in_file);
         }
+        extras.shown = lowered(*extras.in_file, -*base);
+        // Pictures take what copies of the rim lead to for ground; here that is the underside alone.
+        std::iota(extras.shown->weld.begin(), extras.shown->weld.end(), 0U);
         if (auto thin = droplet::thinWarning(made.droplet.figures, *base)) {
             report.warnings.push_back(*std::move(thin));
         }
@@ -298,9 +309,7 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
         extras.maps = mapFiles(maps, *options.maps, report.output.map_thickness);
     }
     if (options.preview) {
-        extras.subject.emplace(
-            subjectOf(made.droplet, made.settings, droplet::looksOf(extras.droplets), made.colour_map, around));
-        extras.subject->by_colour = !made.colours.empty();
+        extras.subject.emplace(subjectOf(made, extras, around));
     }
     save(made.droplet, options, extras, stages.clock, report);
     return report;

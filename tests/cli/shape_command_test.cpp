@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/drawing/picture.h"
 #include "droplet/image/height_map.h"
 #include "support/command.h"
 
@@ -745,6 +746,20 @@ TEST_F(ShapeCommandTest, BaseMakesOneSolidOfAllDroplets)
     EXPECT_THAT(report({"two.pgm", "thin.stl", "--base", "0.1mm"})["warnings"].dump(), HasSubstr("two layers"));
     EXPECT_THAT(report({"two.pgm", "small.stl", "--base", "1mm", "--width", "2mm"})["warnings"].dump(),
                 HasSubstr("so a print may lose them"));
+    // Pictures show the plate: seen from above it covers what lies between the droplets.
+    const auto golden = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> options{"two.pgm", "a.stl",      "--preview", "a.png",  "--preview-size",
+                                         "64x48",   "--material", "gold",      "--view", "top"};
+        options.insert(options.end(), more.begin(), more.end());
+        make(options);
+        const Picture picture = readPicture(directory() / "a.png");
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+            count += picture.rgb[i] > picture.rgb[i + 2] ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_GT(golden({"--base", "1mm"}), 2 * golden({}));
     make({"two.pgm", "one.stl", "--base", "1mm", "-j", "1"});
     make({"two.pgm", "other.stl", "--base", "1mm", "-j", "2"});
     EXPECT_EQ(bytesOf("one.stl"), bytesOf("other.stl"));
