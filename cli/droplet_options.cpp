@@ -320,6 +320,18 @@ void declareByColour(CommandLine& line)
     }
 }
 
+void declareSeeds(CommandLine& line, FootprintOptions& options)
+{
+    line.add(
+        "Footprint", "--seeds", "FILE",
+        "Strokes on the picture, in a picture of its size: light ones on liquid, dark ones on dry ground, the rest "
+        "transparent or grey; for clear droplets, whose rims are then found between them",
+        into(options.seeds));
+    for (const char* other : {"--segment", "--colour", "--channel", "--by-colour"}) {
+        line.exclude({"--seeds", other});
+    }
+}
+
 void declareMaskOut(CommandLine& line)
 {
     if (line.knows("--by-colour")) {

@@ -41,6 +41,7 @@ struct FootprintOptions {
     droplet::MaskOptions mask;
     droplet::TraceOptions trace;
     bool sized = false;                   ///< whether --width or --pixel-size is given
+    std::optional<std::string> seeds;     ///< path of strokes on the picture
     std::optional<std::string> mask_out;  ///< path for the used mask, or kStandardStream
 };
 
@@ -70,6 +71,8 @@ void declareFootprint(CommandLine& line, FootprintOptions& options);
 void declareByColour(CommandLine& line);
 /// Declares --gap.
 void declareGap(CommandLine& line, const char* group);
+/// Declares --seeds, for commands that make a single file.
+void declareSeeds(CommandLine& line, FootprintOptions& options);
 /// Declares --mask-out, for commands that make a single file.
 void declareMaskOut(CommandLine& line);
 void declareLiquid(CommandLine& line, DropletSettings& settings);

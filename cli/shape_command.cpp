@@ -319,6 +319,9 @@ MadeShape makeFromMask(const ShapeOptions& options, const Surroundings& around, 
                        Stages& stages)
 {
     droplet::MaskOptions mask_options = options.footprint.mask;
+    if (options.footprint.seeds) {
+        mask_options.seeds = droplet::readSeeds(*options.footprint.seeds);
+    }
     const auto decode = [&] { return droplet::decodeMask(picture, mask_options); };
     droplet::Mask mask = forInput(options, decode);
     DropletSettings settings = forInput(options, [&] { return completeSettings(mask, around, options); });
@@ -527,6 +530,7 @@ RunFiles filesOf(const ShapeOptions& options, const std::string& input_name)
 {
     RunFiles files;
     files.reads(input_name, options.input);
+    files.reads("--seeds", options.footprint.seeds);
     addSettings(files, options.settings, options.run);
     if (options.preview) {
         files.reads("--ground", options.preview->ground);

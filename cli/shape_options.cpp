@@ -68,6 +68,7 @@ void declareShape(CommandLine& line, ShapeOptions& options, ShapeMapOptions& map
         "OUTPUT",
         "The droplet: .glb, .gltf, .obj, .ply, .stl, .usda, .usdz or .3mf; - is standard output and needs --format");
     declareShapes(line, options);
+    declareSeeds(line, options.footprint);
     declareMaskOut(line);
     declarePreview(line);
     declareShapeMaps(line, maps);

@@ -69,6 +69,7 @@ std::string picture(const droplet::InputReport& input)
     const bool alpha = input.channel == droplet::Channel::Alpha;
     const std::string liquid = !input.palette.empty() ? counted(input.palette.size(), "colour")
                                : input.segment == droplet::Segmentation::Colour ? "one colour"
+                               : input.segment == droplet::Segmentation::Seeds  ? "what light strokes mark"
                                : alpha ? (input.inverted ? "transparent" : "opaque")
                                        : (input.inverted ? "dark" : "bright");
     const std::string page = "SVG page " + millimetres(input.pixel_size * input.width_px) + " wide" +
@@ -78,6 +79,7 @@ std::string picture(const droplet::InputReport& input)
                     input.height_px, millimetres(input.pixel_size), liquid, input.palette.size() > 1 ? "are" : "is",
                     !input.palette.empty()                           ? "--by-colour"
                     : input.segment == droplet::Segmentation::Colour ? "--colour"
+                    : input.segment == droplet::Segmentation::Seeds  ? "--seeds"
                     : alpha                                          ? "alpha"
                                                                      : "luma",
                     input.anti_aliased ? "anti-aliased" : "hard");

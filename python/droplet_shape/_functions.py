@@ -91,6 +91,7 @@ _MAKE_DROPLET = {
     "by_colour": "flag",
     "colours": "number",
     "gap": "m",
+    "seeds": "path",
     "contact_angle": "rad",
     "on": "text",
     "volume": "m3",
@@ -135,6 +136,7 @@ def make_droplet(
     by_colour: bool = False,
     colours: str | int | None = None,
     gap: str | float | None = None,
+    seeds: Path | None = None,
     contact_angle: str | float | None = None,
     on: Literal["glass", "ptfe", "wax", "lotus"] | None = None,
     volume: str | float | None = None,
@@ -197,6 +199,8 @@ def make_droplet(
         transparent; channel luma: the border's most common colour
       colours: Number of colours for by_colour, 1 to 64 (default: auto)
       gap [m]: Dry width between neighbours for by_colour (default: none)
+      seeds: Strokes on the picture, in a picture of its size: light ones on liquid, dark ones on dry ground, the rest
+        transparent or grey; for clear droplets, whose rims are then found between them
 
     Liquid:
       contact_angle [rad]: Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of

@@ -359,11 +359,13 @@ LevelMask maskFromImage(Image image, const MaskOptions& options)
 
 /// Mask by a segmentation method other than Threshold; none if it finds nothing.
 /// @param image    with colour
-/// @param segment  Adaptive, GrabCut or Colour
+/// @param segment  Adaptive, GrabCut, Colour or Seeds
 std::optional<Mask> segmented(const Image& image, const MaskOptions& options, Segmentation segment)
 {
     std::optional<Segmented> found;
-    if (segment == Segmentation::Colour) {
+    if (segment == Segmentation::Seeds) {
+        found = segmentSeeds(image, *options.seeds);
+    } else if (segment == Segmentation::Colour) {
         found = segmentColour(image, *options.colour);
     } else if (segment == Segmentation::GrabCut) {
         found = segmentGrabCut(image);
@@ -377,7 +379,7 @@ std::optional<Mask> segmented(const Image& image, const MaskOptions& options, Se
     mask.coverage = std::move(found->coverage.levels);
     mask.segment = segment;
     mask.segment_confidence = found->confidence;
-    if (segment != Segmentation::Colour) {
+    if (segment != Segmentation::Colour && segment != Segmentation::Seeds) {
         mask.segment_confidence *= hueUniformity(image, mask.coverage);
     }
     mask.level_dry = found->level_dry;
@@ -461,6 +463,9 @@ Mask autoMask(std::span<const std::byte> encoded, const MaskOptions& options, Le
 Mask decodeMask(std::span<const std::byte> encoded, const MaskOptions& options)
 {
     try {
+        if (options.seeds) {
+            return *segmented(inFrontOfBlack(decode(encoded, options, true)), options, Segmentation::Seeds);
+        }
         if (options.colour) {
             const Image image = decode(encoded, options, true);
             if (auto found = segmented(image, options, Segmentation::Colour)) {

@@ -455,6 +455,8 @@ const char* name(Segmentation segment)
             return "grabcut";
         case Segmentation::Colour:
             return "colour";
+        case Segmentation::Seeds:
+            return "seeds";
     }
     throw Error(ErrorCode::InvalidArgument, "segment must be a value of Segmentation");
 }

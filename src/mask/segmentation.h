@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "droplet/image/css_colour.h"
+#include "droplet/mask/seeds.h"
 #include "image/image.h"
 
 namespace droplet {
@@ -70,6 +71,11 @@ std::optional<Segmented> segmentGrabCut(const Image& image);
 /// Regions of a colour; none if no pixel has it.
 /// @param image  with colour
 std::optional<Segmented> segmentColour(const Image& image, const CssColour& colour);
+
+/// Liquid and dry ground around strokes.
+/// @param image  with colour
+/// @throws Error InvalidInput: seeds of another size, or without strokes of both kinds
+Segmented segmentSeeds(const Image& image, const Seeds& seeds);
 
 /// Most common colours of a picture, for an error message.
 /// @param image  with colour

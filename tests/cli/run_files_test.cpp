@@ -93,6 +93,7 @@ const std::vector<CommandFiles>& all()
          {{"INPUT", "in.png"},
           kConfig,
           kMaterials,
+          {"--seeds", "seeds.png"},
           {"--surface", "ground.exr"},
           {"--onto", "can.glb"},
           needing({"--ground", "ground.png"}, {"--preview", "new.png"}),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "droplet/image/css_colour.h"
+#include "droplet/mask/seeds.h"
 #include "droplet/mask/segment.h"
 
 namespace droplet {
@@ -40,6 +41,8 @@ struct MaskOptions {
     bool allow_dry = false;  ///< a picture without an edge, or without the colour, is not an error but gives a mask
                              ///< without liquid
     std::optional<CssColour> colour = {};  ///< everything of this colour is liquid; overrides segment and channel
+    std::optional<Seeds> seeds = {};       ///< strokes of the picture's size, on liquid and on dry ground, for clear
+                                           ///< droplets; override all of these
     double vector_seconds = 10.0;          ///< limit for drawing an SVG [s], of wall-clock time and of processor time
     std::size_t vector_memory = std::size_t{1} << 30;  ///< limit for drawing an SVG, without its pixels [B], ≥ 64 MiB
     /// With Channel::Auto: used instead of the image's own levels, so that all frames of a sequence are read alike. An

@@ -10,9 +10,10 @@ enum class Segmentation {
     Adaptive,   ///< levels of dry and liquid that follow the light across the picture; for photographs
     GrabCut,    ///< colours of dry and liquid, learned from the result of Adaptive, with a short rim between them
     Colour,     ///< everything of a given colour
+    Seeds,      ///< what strokes say, out to the strongest edges between them
 };
 
-/// Name of a method: `auto`, `threshold`, `adaptive`, `grabcut` or `colour`.
+/// Name of a method: `auto`, `threshold`, `adaptive`, `grabcut`, `colour` or `seeds`.
 const char* name(Segmentation segment);
 
 }  // namespace droplet
