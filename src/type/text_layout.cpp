@@ -181,8 +181,8 @@ Circle circleOf(double radius, double height, double width)
 {
     const Circle circle{{0.5 * width, -radius}, radius + height, 0.5 * width};
     if (!(circle.radius * radius > 0.0 && width <= 2.0 * std::numbers::pi * std::abs(circle.radius))) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "the arc is too small for a line of " + numberText(width) + " em; make it larger, or the type smaller");
+        throw Error(ErrorCode::InvalidArgument, "the arc is too small for a line of " + numberText(width) +
+                                                    " em; make it larger, or the type smaller");
     }
     return circle;
 }
