@@ -2,7 +2,7 @@
 // Light on the ground, through the liquid, after E. Wallace, "Rendering realtime caustics in WebGL" (2016): the mesh is
 // drawn where its rays land, brighter by the ratio in which a bundle of rays shrinks. The same light is subtracted
 // where the rays would land without the liquid. Several points of the window make the shadow soft.
-import { AddEquation, BufferGeometry, ClampToEdgeWrapping, Color, CustomBlending, DoubleSide, HalfFloatType, LinearFilter, OneFactor,
+import { AddEquation, BufferGeometry, ClampToEdgeWrapping, Color, CustomBlending, DoubleSide, HalfFloatType, LinearFilter, MathUtils, OneFactor,
     OrthographicCamera, Scene, ShaderMaterial, Vector2, Vector3, WebGLRenderTarget } from 'three';
 import { liquidTriangles } from './liquid_triangles.js';
 import { kAcross, kSun, kUpward } from './room.js';
@@ -17,6 +17,7 @@ uniform float ground;
 uniform float ior;
 uniform bool refracted;
 uniform bool opaque;
+uniform float rough;
 uniform vec2 shift;
 varying vec2 at;
 varying vec2 straight;
@@ -33,7 +34,8 @@ void main() {
     float lift = max(place.y - ground, 0.0);
     straight = place.xz - sun.xz * (lift / sun.y);
     vec3 ray = refract(-sun, normal, 1.0 / ior);
-    bent = place.xz + ray.xz * (lift / max(-ray.y, 0.05));
+    // Rough liquid spreads light so widely that it is not focused.
+    bent = mix(place.xz + ray.xz * (lift / max(-ray.y, 0.05)), straight, rough);
     depth = lift / max(-ray.y, 0.05);
     facing = dot(normal, sun);
     at = uv;
@@ -48,6 +50,7 @@ uniform float ior;
 uniform float share;
 uniform vec3 tint;
 uniform float tint_depth;
+uniform float transmission;
 uniform bool pictured;
 uniform sampler2D picture;
 varying vec2 at;
@@ -75,7 +78,7 @@ void main() {
     if (pictured) {
         through *= texture2D(picture, at).rgb;
     }
-    gl_FragColor = vec4(share * bundle * (1.0 - mirrored) * through, 1.0);
+    gl_FragColor = vec4(share * transmission * bundle * (1.0 - mirrored) * through, 1.0);
 }`;
 
 /** Light on the ground, minus its value without the droplet, as a texture over a square around the droplet. */
@@ -133,7 +136,7 @@ export class GroundLight {
                 fragmentShader: kFragment,
                 uniforms: {
                     ...this.uniforms,
-                    opaque: { value: false }, ior: { value: 1 }, tint: { value: new Color() }, tint_depth: { value: 0 },
+                    opaque: { value: false }, rough: { value: 0 }, transmission: { value: 1 }, ior: { value: 1 }, tint: { value: new Color() }, tint_depth: { value: 0 },
                     pictured: { value: false }, picture: { value: null },
                 },
                 side: DoubleSide,
@@ -147,9 +150,11 @@ export class GroundLight {
             }));
         }
         const shader = this.shaders.get(material);
-        const { opaque, ior, tint, tint_depth, pictured, picture } = shader.uniforms;
+        const { opaque, rough, transmission, ior, tint, tint_depth, pictured, picture } = shader.uniforms;
         const tinted = Number.isFinite(material.attenuationDistance);
         opaque.value = !(material.transmission > 0);
+        rough.value = MathUtils.smoothstep(material.roughness, 0.03, 0.3);
+        transmission.value = material.transmission;
         ior.value = material.ior ?? 1.333;
         tint.value.copy(tinted ? material.attenuationColor : material.color);
         tint_depth.value = tinted ? material.attenuationDistance : 0;  // 0: the same tint everywhere
