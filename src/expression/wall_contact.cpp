@@ -54,6 +54,7 @@ void meetWalls(std::vector<Loop>& loops, const ParticleFrame& frame)
         scene.walls.push_back({.region = wall, .motion = {}});
     }
     const GridShape grid = gridAround(loops, frame.spacing);
+    const GridPlaces places(grid);
     const WallField field = WallDistance(scene, frame.spacing).at(0.0, grid);
     std::vector<Vec2> next;
     for (Loop& loop : loops) {
@@ -61,7 +62,7 @@ void meetWalls(std::vector<Loop>& loops, const ParticleFrame& frame)
             next = loop.points;
             const std::size_t count = next.size();
             for (std::size_t i = 0; i < count; ++i) {
-                const Bilinear place = GridPlace(grid, loop.points[i]).amongCorners();
+                const Bilinear place = places.at(loop.points[i]).amongCorners();
                 const double distance = place.in(field.distance) / frame.spacing;
                 if (!(distance < kFar)) {
                     continue;

@@ -122,7 +122,7 @@ public:
 
     [[nodiscard]] bool isFull(Vec2 place) const override
     {
-        const std::size_t start = GridPlace(grid_, place).cell();
+        const std::size_t start = places_.at(place).cell();
         if (kind_[start] != Cell::Liquid) {
             return false;
         }
@@ -223,6 +223,7 @@ private:
         }
         grid_ = {h, new_left, new_bottom, static_cast<std::size_t>(new_right - new_left),
                  static_cast<std::size_t>(new_top - new_bottom)};
+        places_ = GridPlaces(grid_);
         u_ = Sides({0.0, 0.5}, grid_.columns + 1, grid_.rows);
         v_ = Sides({0.5, 0.0}, grid_.columns, grid_.rows + 1);
         spans_.clear();
@@ -248,7 +249,7 @@ private:
         cell_.resize(count);
         begin_.assign(grid_.cells() + 1, 0);
         for (std::size_t i = 0; i < count; ++i) {
-            cell_[i] = static_cast<std::uint32_t>(GridPlace(grid_, state.position[i]).cell());
+            cell_[i] = static_cast<std::uint32_t>(places_.at(state.position[i]).cell());
             ++begin_[cell_[i] + 1];
         }
         for (std::size_t k = 0; k < grid_.cells(); ++k) {
@@ -259,13 +260,13 @@ private:
         for (std::uint32_t i = 0; i < count; ++i) {
             order_[next_[cell_[i]]++] = i;
         }
-        reorder(state.position, order_);
-        reorder(state.velocity, order_);
-        reorder(state.affine, order_);
-        reorder(state.id, order_);
-        reorder(state.pressure, order_);
-        reorder(acceleration_, order_);
-        reorder(cell_, order_);
+        reorder(state.position, order_, sorted_vectors_);
+        reorder(state.velocity, order_, sorted_vectors_);
+        reorder(acceleration_, order_, sorted_vectors_);
+        reorder(state.affine, order_, sorted_gradients_);
+        reorder(state.id, order_, sorted_numbers_);
+        reorder(cell_, order_, sorted_numbers_);
+        reorder(state.pressure, order_, squares_);
         flies_.resize(count);
         clearSpans();
         std::vector<Span> columns(grid_.rows);  // of the particles that do not fly
@@ -410,7 +411,7 @@ private:
 
     void collectOne(const FluidState& state, std::size_t i)
     {
-        const GridPlace place(grid_, state.position[i]);
+        const GridPlace place = places_.at(state.position[i]);
         constexpr double kShare = 1.0 / (kCell * kCell);
         const double h = grid_.cell;
         forPoints(place.amongMiddles(), [&](std::size_t k, double w, double, double) { density_[k] += kShare * w; });
@@ -773,7 +774,7 @@ private:
                     return;
                 }
                 const Vec2 place = sides.placeOf(k, grid_);
-                const GridPlace in_grid(grid_, place);
+                const GridPlace in_grid = places_.at(place);
                 const Bilinear at = in_grid.amongCorners();
                 const Vec2 slope = at.slopeIn(field_.distance);
                 const double size = length(slope);
@@ -828,6 +829,7 @@ private:
             [&](std::size_t begin, std::size_t end) {
                 std::size_t cell = grid_.cells();
                 bool is_inner = false;  // of most cells: particles are sorted by them
+                std::array<float, 2> corner{};
                 for (std::size_t i = begin; i < end; ++i) {
                     if (flies_[i] != 0) {
                         continue;
@@ -835,8 +837,11 @@ private:
                     if (cell_[i] != cell) {
                         cell = cell_[i];
                         is_inner = isInner(cell, reach);
+                        const Vec2 place = grid_.placeOf(static_cast<double>(cell % grid_.columns),
+                                                         static_cast<double>(cell / grid_.columns));
+                        corner = {static_cast<float>(place.x / reach), static_cast<float>(place.y / reach)};
                     }
-                    const Vec2 apart = reach * overlap(i);
+                    const Vec2 apart = reach * overlap(i, reach, corner);
                     const Vec2 sum = is_inner ? apart : beside(state.position[i], apart, reach);
                     const double square = dot(sum, sum);
                     const double most = kMostShift / kShift * scene_.spacing;
@@ -863,7 +868,8 @@ private:
     }
 
     /// Sum over the neighbours within a reach of what lacks to it, away from them, in reaches.
-    [[nodiscard]] Vec2 overlap(std::size_t i) const
+    /// @param corner  the lower left one of the particle's cell, in reaches
+    [[nodiscard]] Vec2 overlap(std::size_t i, double reach, const std::array<float, 2>& corner) const
     {
         using Lanes = Eigen::Array<float, kLanes, 1>;
         // At a distance q, (1 - q)/q of the way between the two is wanted: within 0.02 q that is, from q = 1/2 on, the
@@ -872,10 +878,19 @@ private:
         constexpr float kThird = 1.4F;
         Lanes right = Lanes::Zero();
         Lanes up = Lanes::Zero();
-        const std::size_t cell = cell_[i];
-        for (const std::size_t row : {cell - grid_.columns, cell, cell + grid_.columns}) {
+        // Of the nine cells around, four are within reach mostly.
+        constexpr float kRounding = 1e-3F;
+        const auto side = static_cast<float>(grid_.cell / reach);
+        const auto is_near = [&](float from_border) { return from_border < 1.0F + kRounding; };
+        const float x_in_cell = lanes_x_[i] - corner[0];
+        const float y_in_cell = lanes_y_[i] - corner[1];
+        const std::size_t left = is_near(x_in_cell) ? 1 : 0;
+        const std::size_t right_end = is_near(side - x_in_cell) ? 2 : 1;
+        const std::size_t lowest = cell_[i] - (is_near(y_in_cell) ? grid_.columns : 0);
+        const std::size_t highest = cell_[i] + (is_near(side - y_in_cell) ? grid_.columns : 0);
+        for (std::size_t row = lowest; row <= highest; row += grid_.columns) {
             // The last lanes are those of cells farther right, out of reach.
-            for (std::size_t j = begin_[row - 1]; j < begin_[row + 2]; j += kLanes) {
+            for (std::size_t j = begin_[row - left]; j < begin_[row + right_end]; j += kLanes) {
                 const Lanes x = lanes_x_[i] - Eigen::Map<const Lanes>(&lanes_x_[j]);
                 const Lanes y = lanes_y_[i] - Eigen::Map<const Lanes>(&lanes_y_[j]);
                 const Lanes near = (1.0F - x * x - y * y).max(0.0F);
@@ -905,7 +920,7 @@ private:
     /// Changes a displacement near walls, which count as mirrors, and at the surface, along which it must go.
     [[nodiscard]] Vec2 beside(Vec2 place, Vec2 displacement, double reach) const
     {
-        const GridPlace in_grid(grid_, place);
+        const GridPlace in_grid = places_.at(place);
         const Bilinear corner = in_grid.amongCorners();
         const double distance = corner.in(field_.distance);
         if (2.0 * distance < reach) {
@@ -924,7 +939,7 @@ private:
 
     [[nodiscard]] Vec2 velocityAt(Vec2 place) const
     {
-        const GridPlace in_grid(grid_, place);
+        const GridPlace in_grid = places_.at(place);
         return {in_grid.amongLeftSides().in(u_.value), in_grid.amongLowerSides().in(v_.value)};
     }
 
@@ -940,8 +955,14 @@ private:
                  count,
                  [&](std::size_t begin, std::size_t end) {
                      std::uint64_t result = 0;
+                     std::size_t cell = grid_.cells();
+                     double room = 0.0;  // of the cell
                      for (std::size_t i = begin; i < end; ++i) {
-                         const bool is_rescued = flies_[i] != 0 ? fly(state, i) : flow(state, i);
+                         if (cell_[i] != cell) {
+                             cell = cell_[i];
+                             room = roomIn(cell);
+                         }
+                         const bool is_rescued = flies_[i] != 0 ? fly(state, i) : flow(state, i, room);
                          result += is_rescued ? 1 : 0;
                          if (flies_[i] == 0) {
                              squares_[i] = dot(state.velocity[i], state.velocity[i]);
@@ -984,17 +1005,31 @@ private:
         return is_rescued;
     }
 
+    /// Way of a particle in a cell on which it meets no wall.
+    [[nodiscard]] double roomIn(std::size_t cell) const
+    {
+        const std::size_t corner = left_side_[cell];  // as many in a row as sides
+        const std::size_t above = corner + grid_.cornerColumns();
+        return std::max(std::min({field_.distance[corner], field_.distance[corner + 1], field_.distance[above],
+                                  field_.distance[above + 1]}) -
+                            grid_.cell,
+                        0.0);
+    }
+
     /// Moves a particle with the liquid; returns whether it came into a wall.
-    [[nodiscard]] bool flow(FluidState& state, std::size_t i) const
+    /// @param room  way on which it meets none
+    [[nodiscard]] bool flow(FluidState& state, std::size_t i, double room) const
     {
         const Vec2 x = state.position[i];
-        const GridPlace place(grid_, x);
+        const GridPlace place = places_.at(x);
         const Bilinear across = place.amongLeftSides();
         const Bilinear up = place.amongLowerSides();
-        const Vec2 v{across.in(u_.value), up.in(v_.value)};
+        const Bilinear::Ascent rightwards = across.ascentIn(u_.value);
+        const Bilinear::Ascent upwards = up.ascentIn(v_.value);
+        const Vec2 v{rightwards.value, upwards.value};
         const double inverse = 1.0 / grid_.cell;
         state.velocity[i] = v;
-        state.affine[i] = {inverse * across.slopeIn(u_.value), inverse * up.slopeIn(v_.value)};
+        state.affine[i] = {inverse * rightwards.slope, inverse * upwards.slope};
         const Bilinear middle = place.amongMiddles();
         state.pressure[i] = middle.in(pressure_);
         state.density[i] = middle.in(total_);
@@ -1005,8 +1040,7 @@ private:
         state.position[i] = x + (dt_ / 9.0) * (2.0 * v + 3.0 * second + 4.0 * third) + apart + shift_[i];
         // Most particles are too far from walls to meet one.
         const Vec2 way = state.position[i] - x;
-        const double room = place.amongCorners().in(field_.distance) - grid_.cell;
-        return !(room > 0.0 && dot(way, way) < room * room) && keepOutOfWalls(state, i);
+        return !(dot(way, way) < room * room) && keepOutOfWalls(state, i);
     }
 
     /// Puts a particle back that came into a wall.
@@ -1018,7 +1052,7 @@ private:
         constexpr int kRounds = 8;
         for (int round = 0; round < kRounds; ++round) {
             const Vec2 x = state.position[i];
-            const Bilinear at = GridPlace(grid_, x).amongCorners();
+            const Bilinear at = places_.at(x).amongCorners();
             const double distance = at.in(field_.distance);
             if (!(distance < clearance)) {
                 break;
@@ -1045,6 +1079,7 @@ private:
     WallDistance walls_;
     double dt_ = 0.0;
     GridShape grid_;
+    GridPlaces places_;
     Sides u_;                  ///< across
     Sides v_;                  ///< up
     std::vector<Span> spans_;  ///< of cells near particles: what all others have is of no account
@@ -1073,6 +1108,9 @@ private:
     std::vector<std::uint32_t> cell_;
     std::vector<std::uint32_t> order_;
     std::vector<std::uint8_t> flies_;
+    std::vector<Vec2> sorted_vectors_;  ///< memory for sorting, as are the following
+    std::vector<std::array<Vec2, 2>> sorted_gradients_;
+    std::vector<std::uint32_t> sorted_numbers_;
     std::vector<float> lanes_x_;  ///< places from the grid's corner, in distances on the lattice
     std::vector<float> lanes_y_;
     std::vector<Vec2> shift_;      ///< displacements that part particles [m]

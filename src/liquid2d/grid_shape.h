@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "droplet/vector.h"
 
@@ -38,92 +41,118 @@ struct GridShape {
 
 /// Four points of a square lattice around a place, and its parts of a step: values between them are bilinear.
 struct Bilinear {
+    using Pair = Eigen::Array2d;
+    using Row = Eigen::Map<const Pair>;
+
     std::size_t first = 0;    ///< index of the lower left point
     std::size_t columns = 0;  ///< points in a row
     double u = 0.0;           ///< part of a step right of it
     double v = 0.0;           ///< part of a step above it
 
     /// Value at the place.
-    template <typename Values>
-    [[nodiscard]] double in(const Values& values) const
+    [[nodiscard, gnu::always_inline]] double in(const std::vector<double>& values) const
     {
-        const double low = values[first] + u * (values[first + 1] - values[first]);
-        const double high = values[first + columns] + u * (values[first + columns + 1] - values[first + columns]);
-        return low + v * (high - low);
+        const Row low(values.data() + first);
+        const Row high(values.data() + first + columns);
+        const Pair beside = low + v * (high - low);
+        return beside[0] + u * (beside[1] - beside[0]);
     }
 
-    /// Its derivatives, per step of the lattice.
-    template <typename Values>
-    [[nodiscard]] Vec2 slopeIn(const Values& values) const
+    struct Ascent {
+        double value = 0.0;
+        Vec2 slope{};  ///< its derivatives, per step of the lattice
+    };
+    [[nodiscard]] Ascent ascentIn(const std::vector<double>& values) const
     {
-        const double right = values[first + 1] - values[first];
-        const double right_above = values[first + columns + 1] - values[first + columns];
-        const double up = values[first + columns] - values[first];
-        const double up_right = values[first + columns + 1] - values[first + 1];
-        return {right + v * (right_above - right), up + u * (up_right - up)};
+        const Row low(values.data() + first);
+        const Row high(values.data() + first + columns);
+        const Pair up = high - low;
+        const Pair beside = low + v * up;
+        const double right = beside[1] - beside[0];
+        return {beside[0] + u * right, {right, up[0] + u * (up[1] - up[0])}};
     }
+    [[nodiscard]] Vec2 slopeIn(const std::vector<double>& values) const { return ascentIn(values).slope; }
 };
 
-/// A place among the points of a grid. Places beyond the middles of the outer cells are those of the nearest point
-/// there.
+/// A place among the points of a grid.
 class GridPlace {
 public:
-    GridPlace(const GridShape& grid, Vec2 place)
-        : columns_(grid.columns),
-          x_(place.x / grid.cell, grid.left, grid.columns),
-          y_(place.y / grid.cell, grid.bottom, grid.rows)
+    /// @param least  lower left point, in cells from the origin, from its cell's lower left corner on
+    /// @param place  in cells from the origin
+    GridPlace(double columns, const Eigen::Array2d& least, const Eigen::Array2d& place)
+        : columns_(columns),
+          // Adding and taking away a large number rounds. At a corner, either cell around it may be taken.
+          part_(place - ((place - 0.5) + kRound - kRound)),
+          whole_(place - part_ - least),
+          near_(place + kRound - kRound),
+          half_part_(place - near_ + 0.5),
+          half_(near_ - 1.0 - least)
     {
     }
 
     /// Cell around the place.
-    [[nodiscard]] std::size_t cell() const { return y_.whole * columns_ + x_.whole; }
+    [[nodiscard]] std::size_t cell() const { return index(whole_[0], whole_[1], columns_); }
 
     /// Among the corners of cells.
-    [[nodiscard]] Bilinear amongCorners() const
-    {
-        return {y_.whole * (columns_ + 1) + x_.whole, columns_ + 1, x_.part, y_.part};
-    }
+    [[nodiscard]] Bilinear amongCorners() const { return among(whole_, whole_, part_, part_, columns_ + 1.0); }
     /// Among the middles of cells.
-    [[nodiscard]] Bilinear amongMiddles() const
-    {
-        return {y_.half * columns_ + x_.half, columns_, x_.half_part, y_.half_part};
-    }
+    [[nodiscard]] Bilinear amongMiddles() const { return among(half_, half_, half_part_, half_part_, columns_); }
     /// Among the middles of sides on the left and right of cells.
-    [[nodiscard]] Bilinear amongLeftSides() const
-    {
-        return {y_.half * (columns_ + 1) + x_.whole, columns_ + 1, x_.part, y_.half_part};
-    }
+    [[nodiscard]] Bilinear amongLeftSides() const { return among(whole_, half_, part_, half_part_, columns_ + 1.0); }
     /// Among the middles of sides below and above cells.
-    [[nodiscard]] Bilinear amongLowerSides() const
+    [[nodiscard]] Bilinear amongLowerSides() const { return among(half_, whole_, half_part_, part_, columns_); }
+
+private:
+    /// Numbers of 53 bits have no bit left after the point beside it.
+    static constexpr double kRound = 0x1.8p52;
+
+    static std::size_t index(double column, double row, double columns)
     {
-        return {y_.whole * columns_ + x_.half, columns_, x_.half_part, y_.part};
+        return static_cast<std::size_t>(static_cast<std::int64_t>(row * columns + column));
+    }
+    static Bilinear among(const Eigen::Array2d& across, const Eigen::Array2d& up, const Eigen::Array2d& across_part,
+                          const Eigen::Array2d& up_part, double columns)
+    {
+        return {index(across[0], up[1], columns), static_cast<std::size_t>(static_cast<std::int64_t>(columns)),
+                across_part[0], up_part[1]};
+    }
+
+    double columns_;
+    Eigen::Array2d part_;
+    Eigen::Array2d whole_;
+    Eigen::Array2d near_;
+    Eigen::Array2d half_part_;
+    Eigen::Array2d half_;
+};
+
+/// Finds places among the points of a grid. Places beyond the middles of the outer cells are those of the nearest point
+/// there. Parts of steps do not depend on where the grid begins.
+class GridPlaces {
+public:
+    GridPlaces() = default;
+    explicit GridPlaces(const GridShape& grid)
+        : columns_(static_cast<double>(grid.columns)),
+          inverse_(1.0 / grid.cell),
+          origin_(static_cast<double>(grid.left), static_cast<double>(grid.bottom)),
+          least_(origin_ + 0.5 + 1e-9),
+          most_(origin_ + Eigen::Array2d(columns_, static_cast<double>(grid.rows)) - 0.5 - 1e-9)
+    {
+    }
+
+    [[nodiscard]] GridPlace at(Vec2 place) const
+    {
+        // NaN is the least, too.
+        const auto inside = [](double x, double least, double most) { return std::min(std::max(least, x), most); };
+        return {columns_, origin_, Eigen::Array2d(inside(inverse_ * place.x, least_[0], most_[0]),
+                                                  inside(inverse_ * place.y, least_[1], most_[1]))};
     }
 
 private:
-    /// A coordinate in cells, among their rims and among their middles.
-    struct Coordinate {
-        Coordinate(double at, std::int64_t first, std::size_t cells)
-        {
-            const double least = static_cast<double>(first) + 0.5;
-            const double most = static_cast<double>(first + static_cast<std::int64_t>(cells)) - 0.5 - 1e-9;
-            const double inside = at > least ? (at < most ? at : most) : least;  // of NaN, too
-            // Parts do not depend on where the grid begins.
-            const auto near_zero = static_cast<std::int64_t>(inside);
-            const std::int64_t floor = near_zero - (static_cast<double>(near_zero) > inside ? 1 : 0);
-            whole = static_cast<std::size_t>(floor - first);
-            part = inside - static_cast<double>(floor);
-            const bool is_beyond = part >= 0.5;
-            half = whole - (is_beyond ? 0 : 1);
-            half_part = part + (is_beyond ? -0.5 : 0.5);
-        }
-        std::size_t whole = 0;
-        double part = 0.0;
-        std::size_t half = 0;
-        double half_part = 0.0;
-    };
-    std::size_t columns_;
-    Coordinate x_;
-    Coordinate y_;
+    double columns_ = 0.0;
+    double inverse_ = 0.0;
+    Eigen::Array2d origin_{0.0, 0.0};
+    Eigen::Array2d least_{0.0, 0.0};
+    Eigen::Array2d most_{0.0, 0.0};
 };
 
 }  // namespace droplet

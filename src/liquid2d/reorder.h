@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "blocks.h"
@@ -10,16 +9,24 @@
 namespace droplet {
 
 /// Takes the values of `order`, in that order.
+/// @param sorted  memory, whose values are lost
 template <typename Value>
-void reorder(std::vector<Value>& values, const std::vector<std::uint32_t>& order)
+void reorder(std::vector<Value>& values, const std::vector<std::uint32_t>& order, std::vector<Value>& sorted)
 {
-    std::vector<Value> sorted(order.size());
+    sorted.resize(order.size());
     forBlocks(order.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             sorted[k] = values[order[k]];
         }
     });
-    values = std::move(sorted);
+    values.swap(sorted);
+}
+
+template <typename Value>
+void reorder(std::vector<Value>& values, const std::vector<std::uint32_t>& order)
+{
+    std::vector<Value> sorted;
+    reorder(values, order, sorted);
 }
 
 }  // namespace droplet
