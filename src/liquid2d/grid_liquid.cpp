@@ -77,6 +77,9 @@ constexpr double kClearance = 0.25;
 /// Particles that are compared with another one at a time.
 constexpr int kLanes = 4;
 
+/// Particles that are moved at a time.
+constexpr std::size_t kAtOnce = 64;
+
 /// Weight of particles below which a side has no velocity of its own.
 constexpr double kLeastWeight = 1e-9;
 
@@ -955,18 +958,8 @@ private:
                  count,
                  [&](std::size_t begin, std::size_t end) {
                      std::uint64_t result = 0;
-                     std::size_t cell = grid_.cells();
-                     double room = 0.0;  // of the cell
-                     for (std::size_t i = begin; i < end; ++i) {
-                         if (cell_[i] != cell) {
-                             cell = cell_[i];
-                             room = roomIn(cell);
-                         }
-                         const bool is_rescued = flies_[i] != 0 ? fly(state, i) : flow(state, i, room);
-                         result += is_rescued ? 1 : 0;
-                         if (flies_[i] == 0) {
-                             squares_[i] = dot(state.velocity[i], state.velocity[i]);
-                         }
+                     for (; begin < end; begin += kAtOnce) {
+                         result += moveSome(state, begin, std::min(begin + kAtOnce, end));
                      }
                      return result;
                  },
@@ -974,6 +967,45 @@ private:
             state.counts.rescued += rescued;
         }
         state.approach_speed = count > 0 ? stepSpeed() : 0.0;
+    }
+
+    /// Moves a few particles; returns how many came into walls. Each stage is done for all of them: a particle's places
+    /// follow from one another, so that a processor would wait for each.
+    [[nodiscard]] std::uint64_t moveSome(FluidState& state, std::size_t begin, std::size_t end)
+    {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (flies_[i] == 0) {
+                take(state, i);
+            }
+        }
+        // Ralston's method of third order.
+        std::array<Vec2, kAtOnce> second;
+        std::array<Vec2, kAtOnce> third;
+        for (std::size_t i = begin; i < end; ++i) {
+            second[i - begin] = velocityAt(state.position[i] + (0.5 * dt_) * state.velocity[i]);
+        }
+        for (std::size_t i = begin; i < end; ++i) {
+            third[i - begin] = velocityAt(state.position[i] + (0.75 * dt_) * second[i - begin]);
+        }
+        std::uint64_t rescued = 0;
+        std::size_t cell = grid_.cells();
+        double room = 0.0;  // of the cell: most particles are too far from walls to meet one
+        for (std::size_t i = begin; i < end; ++i) {
+            if (flies_[i] != 0) {
+                rescued += fly(state, i) ? 1 : 0;
+                continue;
+            }
+            if (cell_[i] != cell) {
+                cell = cell_[i];
+                room = roomIn(cell);
+            }
+            const Vec2 way = (dt_ / 9.0) * (2.0 * state.velocity[i] + 3.0 * second[i - begin] + 4.0 * third[i - begin]) +
+                             shift_[i];
+            state.position[i] = state.position[i] + way;
+            rescued += !(dot(way, way) < room * room) && keepOutOfWalls(state, i) ? 1 : 0;
+            squares_[i] = dot(state.velocity[i], state.velocity[i]);
+        }
+        return rescued;
     }
 
     /// Speed of liquid that bounds steps, from the squares of the particles' speeds, which it puts into another order.
@@ -1016,31 +1048,21 @@ private:
                         0.0);
     }
 
-    /// Moves a particle with the liquid; returns whether it came into a wall.
-    /// @param room  way on which it meets none
-    [[nodiscard]] bool flow(FluidState& state, std::size_t i, double room) const
+    /// Takes what the grid has at a particle.
+    void take(FluidState& state, std::size_t i)
     {
-        const Vec2 x = state.position[i];
-        const GridPlace place = places_.at(x);
+        const GridPlace place = places_.at(state.position[i]);
         const Bilinear across = place.amongLeftSides();
         const Bilinear up = place.amongLowerSides();
         const Bilinear::Ascent rightwards = across.ascentIn(u_.value);
         const Bilinear::Ascent upwards = up.ascentIn(v_.value);
-        const Vec2 v{rightwards.value, upwards.value};
         const double inverse = 1.0 / grid_.cell;
-        state.velocity[i] = v;
+        state.velocity[i] = {rightwards.value, upwards.value};
         state.affine[i] = {inverse * rightwards.slope, inverse * upwards.slope};
         const Bilinear middle = place.amongMiddles();
         state.pressure[i] = middle.in(pressure_);
         state.density[i] = middle.in(total_);
-        // Ralston's method of third order.
-        const Vec2 second = velocityAt(x + (0.5 * dt_) * v);
-        const Vec2 third = velocityAt(x + (0.75 * dt_) * second);
-        const Vec2 apart{across.in(u_.shift), up.in(v_.shift)};
-        state.position[i] = x + (dt_ / 9.0) * (2.0 * v + 3.0 * second + 4.0 * third) + apart + shift_[i];
-        // Most particles are too far from walls to meet one.
-        const Vec2 way = state.position[i] - x;
-        return !(dot(way, way) < room * room) && keepOutOfWalls(state, i);
+        shift_[i] = shift_[i] + Vec2{across.in(u_.shift), up.in(v_.shift)};
     }
 
     /// Puts a particle back that came into a wall.
