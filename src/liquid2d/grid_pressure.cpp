@@ -106,16 +106,20 @@ GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::
         // The product by one solution with each factor (Eisenstat: Efficient implementation of a class of
         // preconditioned conjugate gradient methods. SIAM J. Sci. Stat. Comput. 2, 1981):
         // (1 + L)⁻¹ A t = t + (1 + L)⁻¹ (s + (D - 2) t) with t = (1 + L')⁻¹ s.
+        double beside = 0.0;  // value of the last cell: where that is not the next one, its coefficient is 0
         for (std::size_t n = cells_.size(); n-- > 0;) {
             const std::size_t k = cells_[n];
             s[k] = r[k] + beta * s[k];
-            t[k] = s[k] - up_[k] * t[k + columns_] - right_[k] * t[k + 1];
+            beside = s[k] - up_[k] * t[k + columns_] - right_[k] * beside;
+            t[k] = beside;
         }
         double curvature = 0.0;
+        beside = 0.0;
         for (const std::size_t k : cells_) {
-            lower_[k] = s[k] + (diagonal_[k] - 2.0) * t[k] - up_[k - columns_] * lower_[k - columns_] -
-                        right_[k - 1] * lower_[k - 1];
-            t[k] += lower_[k];
+            beside = s[k] + (diagonal_[k] - 2.0) * t[k] - up_[k - columns_] * lower_[k - columns_] -
+                     right_[k - 1] * beside;
+            lower_[k] = beside;
+            t[k] += beside;
             curvature += s[k] * t[k];
         }
         if (!(curvature > 0.0)) {
