@@ -68,13 +68,14 @@ Measured measure(const FluidScene& scene, PressureSolver solver, const Expressio
     options.solver = solver;
     FluidState state = startFluid(scene);
     ExpressionState surface;
-    state = advanceFluid(std::move(state), scene, settling, options);
+    FluidStepper stepper(scene, options);
+    state = stepper.advance(std::move(state), settling);
     Measured measured;
     const FluidCounts before = state.counts;
     double simulation = 0.0;
     for (int k = 1; k <= frames; ++k) {
         const double begin = now();
-        state = advanceFluid(std::move(state), scene, settling + k / kRate, options);
+        state = stepper.advance(std::move(state), settling + k / kRate);
         const double middle = now();
         const ParticleFrame frame = frameOf(state, scene);
         surface = advanceExpression(std::move(surface), frame, controls);

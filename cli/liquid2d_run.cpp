@@ -137,7 +137,8 @@ class SimulatedParticles : public ParticleSource {
 public:
     explicit SimulatedParticles(const Liquid2dOptions& options) : fps_(options.frames_per_second)
     {
-        fluid_options_.solver = options.solver;
+        droplet::FluidOptions fluid_options;
+        fluid_options.solver = options.solver;
         scene_ = isSceneFile(options) ? droplet::readFluidScene(options.scene) : presetOf(options).scene;
         if (options.gravity) {
             scene_.gravity = {0.0, -*options.gravity};
@@ -159,13 +160,14 @@ public:
         if (options.walls) {
             droplet::checkEmitters(scene_);
         }
+        stepper_.emplace(scene_, std::move(fluid_options));
     }
 
     ParticleFrame next() override
     {
         const double time = static_cast<double>(done_) / fps_;
         if (time > state_.time) {
-            state_ = droplet::advanceFluid(std::move(state_), scene_, time, fluid_options_);
+            state_ = stepper_->advance(std::move(state_), time);
         }
         ++done_;
         return frameOf(state_, scene_);
@@ -176,10 +178,7 @@ public:
                                           [&](const auto& emitter) { return emitter.end > state_.time; });
         return state_.position.empty() && state_.counts.removed > 0 && !may_come;
     }
-    [[nodiscard]] double stepsPerFrame() const override
-    {
-        return 1.0 / (fps_ * droplet::longestStep(state_, scene_, fluid_options_));
-    }
+    [[nodiscard]] double stepsPerFrame() const override { return 1.0 / (fps_ * stepper_->longestStep(state_)); }
     [[nodiscard]] Vec2 size() const override { return scene_.size; }
     [[nodiscard]] std::vector<droplet::Region> walls() const override
     {
@@ -208,7 +207,7 @@ private:
 
     FluidScene scene_;
     droplet::FluidState state_;
-    droplet::FluidOptions fluid_options_;
+    std::optional<droplet::FluidStepper> stepper_;
     double fps_;
     std::size_t done_ = 0;
 };

@@ -31,6 +31,7 @@ using droplet::Vec2;
 
 struct DropletLiquid2d {
     FluidScene scene;
+    std::optional<droplet::FluidStepper> stepper;  ///< of the scene as it is; none after a change
     droplet::FluidState state;
     droplet::ExpressionOptions options;
     droplet::ExpressionState memory;  ///< of the surface
@@ -187,6 +188,7 @@ DropletCode droplet_liquid2d_set(DropletLiquid2d* liquid, const char* name, doub
             droplet::refuseValue(parameter.name, value, fmt::format("from {} to {}", parameter.low, parameter.high));
         }
         parameter.set(liquid->scene, value);
+        liquid->stepper.reset();
     });
 }
 
@@ -213,7 +215,10 @@ DropletCode droplet_liquid2d_advance(DropletLiquid2d* liquid, double seconds)
     return guarded([&] {
         required("liquid", liquid);
         droplet::require(seconds > 0.0 && std::isfinite(seconds), "seconds", seconds, "finite and more than 0");
-        liquid->state = droplet::advanceFluid(liquid->state, liquid->scene, liquid->state.time + seconds);
+        if (!liquid->stepper) {
+            liquid->stepper.emplace(liquid->scene);
+        }
+        liquid->state = liquid->stepper->advance(liquid->state, liquid->state.time + seconds);
     });
 }
 

@@ -22,17 +22,32 @@
 namespace droplet {
 namespace {
 
-/// What a run of steps needs of a scene.
-class Stepper {
+void validate(const FluidOptions& options)
+{
+    if (options.courant) {
+        const bool is_grid = options.solver == PressureSolver::Grid;
+        require(*options.courant > 0.0 && *options.courant <= (is_grid ? 6.0 : 1.0), "courant", *options.courant,
+                is_grid ? "more than 0 and at most 6" : "more than 0 and at most 1");
+    }
+    require(options.density_error > 0.0, "density_error", options.density_error, "more than 0");
+    require(options.divergence_error > 0.0, "divergence_error", options.divergence_error, "more than 0");
+    require(options.max_iterations >= 2, "max_iterations", options.max_iterations, "at least 2");
+}
+
+}  // namespace
+
+class FluidStepper::Steps {
 public:
-    Stepper(const FluidScene& scene, const FluidOptions& options)
-        : scene_(scene),
-          solver_(options.solver == PressureSolver::Grid ? gridLiquid(scene, options) : dfsph(scene, options))
+    Steps(FluidScene scene, FluidOptions options) : scene_(std::move(scene)), options_(std::move(options))
     {
+        scene_.validate();
+        validate(options_);
+        solver_ = options_.solver == PressureSolver::Grid ? gridLiquid(scene_, options_) : dfsph(scene_, options_);
     }
 
     void advance(FluidState& state, double until)
     {
+        solver_->begin();
         while (state.time < until) {
             step(state, until);
         }
@@ -131,23 +146,30 @@ private:
         }
     }
 
-    const FluidScene& scene_;
+    FluidScene scene_;
+    FluidOptions options_;
     std::unique_ptr<FluidSolver> solver_;
 };
 
-void validate(const FluidOptions& options)
+FluidStepper::FluidStepper(FluidScene scene, FluidOptions options)
+    : steps_(std::make_unique<Steps>(std::move(scene), std::move(options)))
 {
-    if (options.courant) {
-        const bool is_grid = options.solver == PressureSolver::Grid;
-        require(*options.courant > 0.0 && *options.courant <= (is_grid ? 6.0 : 1.0), "courant", *options.courant,
-                is_grid ? "more than 0 and at most 6" : "more than 0 and at most 1");
-    }
-    require(options.density_error > 0.0, "density_error", options.density_error, "more than 0");
-    require(options.divergence_error > 0.0, "divergence_error", options.divergence_error, "more than 0");
-    require(options.max_iterations >= 2, "max_iterations", options.max_iterations, "at least 2");
 }
 
-}  // namespace
+FluidStepper::FluidStepper(FluidStepper&&) noexcept = default;
+FluidStepper& FluidStepper::operator=(FluidStepper&&) noexcept = default;
+FluidStepper::~FluidStepper() = default;
+
+FluidState FluidStepper::advance(FluidState state, double until)
+{
+    steps_->advance(state, until);
+    return state;
+}
+
+double FluidStepper::longestStep(const FluidState& state) const
+{
+    return steps_->longestStep(state);
+}
 
 FluidState startFluid(const FluidScene& scene)
 {
@@ -178,17 +200,12 @@ FluidState startFluid(const FluidScene& scene)
 
 FluidState advanceFluid(FluidState state, const FluidScene& scene, double until, const FluidOptions& options)
 {
-    scene.validate();
-    validate(options);
-    Stepper(scene, options).advance(state, until);
-    return state;
+    return FluidStepper(scene, options).advance(std::move(state), until);
 }
 
 double longestStep(const FluidState& state, const FluidScene& scene, const FluidOptions& options)
 {
-    scene.validate();
-    validate(options);
-    return Stepper(scene, options).longestStep(state);
+    return FluidStepper(scene, options).longestStep(state);
 }
 
 ParticleFrame frameOf(const FluidState& state, const FluidScene& scene)

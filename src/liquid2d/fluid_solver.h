@@ -19,6 +19,8 @@ public:
     [[nodiscard]] virtual double emitterCourant() const = 0;
     /// Whether a place lies in liquid without a surface that has no room for more, at the last step. DFSPH never tells.
     [[nodiscard]] virtual bool isFull(Vec2 /*place*/) const { return false; }
+    /// Begins a run of steps: what follows depends on the states alone, not on runs before.
+    virtual void begin() {}
     /// Moves the particles of a state on by dt, and counts iterations and rescues; the state's time stays.
     virtual void step(FluidState& state, double dt) = 0;
 };

@@ -91,6 +91,12 @@ constexpr double kTolerance = 1e-3;
 /// energies after it, in all scenes.
 constexpr double kSpreadTolerance = 1e-2;
 
+/// Quotient, rounded down.
+std::int64_t floorOf(std::int64_t a, std::int64_t b)
+{
+    return a / b - (a % b < 0 ? 1 : 0);
+}
+
 enum class Cell : std::uint8_t {
     Empty,
     Flying,  ///< liquid thinner than a cell
@@ -154,6 +160,8 @@ public:
         return filled > static_cast<double>(cells.size());
     }
 
+    void begin() override { is_first_ = true; }
+
     void step(FluidState& state, double dt) override
     {
         dt_ = dt;
@@ -212,16 +220,18 @@ private:
         const auto number = [h](double x) { return static_cast<std::int64_t>(std::floor(x / h)); };
         const auto right = grid_.left + static_cast<std::int64_t>(grid_.columns);
         const auto top = grid_.bottom + static_cast<std::int64_t>(grid_.rows);
-        const bool is_empty = grid_.columns == 0;
-        const auto grown = [is_empty](std::int64_t bound, std::int64_t needed, std::int64_t outwards) {
-            const bool holds = !is_empty && outwards * bound >= outwards * needed;
-            return holds ? bound : needed + outwards * kGrowth;
+        // The first grid of a run depends on the particles alone, in steps so long that it is often that of the run
+        // before.
+        const bool is_first = std::exchange(is_first_, false);
+        const auto grown = [is_first](std::int64_t bound, std::int64_t needed, std::int64_t outwards) {
+            const bool holds = !is_first && outwards * bound >= outwards * needed;
+            return holds ? bound : outwards * (kGrowth * (1 + floorOf(outwards * needed, kGrowth)));
         };
         const std::int64_t new_left = grown(grid_.left, number(lower.x) - kMargin, -1);
         const std::int64_t new_bottom = grown(grid_.bottom, number(lower.y) - kMargin, -1);
         const std::int64_t new_right = grown(right, number(upper.x) + 1 + kMargin, 1);
         const std::int64_t new_top = grown(top, number(upper.y) + 1 + kMargin, 1);
-        if (!is_empty && new_left == grid_.left && new_bottom == grid_.bottom && new_right == right && new_top == top) {
+        if (new_left == grid_.left && new_bottom == grid_.bottom && new_right == right && new_top == top) {
             return false;
         }
         grid_ = {h, new_left, new_bottom, static_cast<std::size_t>(new_right - new_left),
@@ -999,8 +1009,8 @@ private:
                 cell = cell_[i];
                 room = roomIn(cell);
             }
-            const Vec2 way = (dt_ / 9.0) * (2.0 * state.velocity[i] + 3.0 * second[i - begin] + 4.0 * third[i - begin]) +
-                             shift_[i];
+            const Vec2 way =
+                (dt_ / 9.0) * (2.0 * state.velocity[i] + 3.0 * second[i - begin] + 4.0 * third[i - begin]) + shift_[i];
             state.position[i] = state.position[i] + way;
             rescued += !(dot(way, way) < room * room) && keepOutOfWalls(state, i) ? 1 : 0;
             squares_[i] = dot(state.velocity[i], state.velocity[i]);
@@ -1102,6 +1112,7 @@ private:
     double dt_ = 0.0;
     GridShape grid_;
     GridPlaces places_;
+    bool is_first_ = true;     ///< whether the next step begins a run
     Sides u_;                  ///< across
     Sides v_;                  ///< up
     std::vector<Span> spans_;  ///< of cells near particles: what all others have is of no account

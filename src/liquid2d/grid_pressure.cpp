@@ -116,8 +116,8 @@ GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::
         double curvature = 0.0;
         beside = 0.0;
         for (const std::size_t k : cells_) {
-            beside = s[k] + (diagonal_[k] - 2.0) * t[k] - up_[k - columns_] * lower_[k - columns_] -
-                     right_[k - 1] * beside;
+            beside =
+                s[k] + (diagonal_[k] - 2.0) * t[k] - up_[k - columns_] * lower_[k - columns_] - right_[k - 1] * beside;
             lower_[k] = beside;
             t[k] += beside;
             curvature += s[k] * t[k];

@@ -143,8 +143,9 @@ public:
     {
         // NaN is the least, too.
         const auto inside = [](double x, double least, double most) { return std::min(std::max(least, x), most); };
-        return {columns_, origin_, Eigen::Array2d(inside(inverse_ * place.x, least_[0], most_[0]),
-                                                  inside(inverse_ * place.y, least_[1], most_[1]))};
+        return {columns_, origin_,
+                Eigen::Array2d(inside(inverse_ * place.x, least_[0], most_[0]),
+                               inside(inverse_ * place.y, least_[1], most_[1]))};
     }
 
 private:

@@ -373,6 +373,24 @@ TEST_P(FluidOf, BytesDoNotDependOnThreads)
     EXPECT_TRUE(run(1) == run(2));
 }
 
+TEST_P(FluidOf, StepperKeepsNothingThatChangesWhatFollows)
+{
+    FluidScene scene = tank(1.0, 0.5, 0.02);
+    scene.liquid = {{droplet::rectangle({0.0, 0.0}, {0.3, 0.8}), {}, 0.0}};
+    scene.emitters = {{{0.6, 0.8}, {0.5, -1.0}, 0.1, 0.0, 1.0}};
+    droplet::WallMotion motion;
+    motion.amplitude = {0.05, 0.0};
+    motion.period = 0.3;
+    scene.walls.push_back({droplet::rectangle({0.7, 0.0}, {0.8, 0.2}), motion, true});
+    droplet::FluidStepper stepper(scene, options());
+    FluidState state = startFluid(scene);
+    for (int frame = 1; frame <= 6; ++frame) {
+        const FluidState next = advanceFluid(state, scene, 0.04 * frame, options());
+        state = stepper.advance(std::move(state), 0.04 * frame);
+        ASSERT_TRUE(bytesOf(state) == bytesOf(next)) << frame;
+    }
+}
+
 TEST_P(FluidOf, ResumesExactlyFromItsBytes)
 {
     FluidScene scene = tank(1.0, 0.5, 0.03);
