@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "blocks.h"
+#include "plain_length.h"
 #include "surface_kernel.h"
 
 namespace droplet {
@@ -38,7 +39,7 @@ std::vector<Vec2> withoutChordLoss(const std::vector<Cut>& cuts, double scale, d
         const Vec2 a = cuts[k].place();
         const Vec2 b = cuts[k + 1 == cuts.size() ? 0 : k + 1].place();
         area += 0.5 * cross(a - cuts[0].place(), b - cuts[0].place());
-        around += length(b - a);
+        around += plainLength(b - a);
     }
     const double share = smoothRamp(2.0 * std::abs(area) / around, thin, 1.5 * thin);
     std::vector<Vec2> points(cuts.size());
@@ -47,7 +48,7 @@ std::vector<Vec2> withoutChordLoss(const std::vector<Cut>& cuts, double scale, d
         const Vec2 after = cuts[k + 1 == cuts.size() ? 0 : k + 1].place();
         Cut cut = cuts[k];
         const Vec2 chord = after - before;
-        const double size = length(chord);
+        const double size = plainLength(chord);
         const Vec2 outwards = size > 0.0 ? Vec2{chord.y / size, -chord.x / size} : Vec2{};
         const double along = cut.up ? outwards.y : outwards.x;
         // At a sharp turn, of more than 45°, no arc fits.
@@ -56,8 +57,8 @@ std::vector<Vec2> withoutChordLoss(const std::vector<Cut>& cuts, double scale, d
         if (std::abs(along) > 0.3 && dot(in, out) > std::abs(cross(in, out))) {
             // Two thirds of the height of the arcs beside the vertex, by the arc through three points.
             const Vec2 p = cut.place();
-            const double a = length(p - before);
-            const double b = length(after - p);
+            const double a = plainLength(p - before);
+            const double b = plainLength(after - p);
             const double height = dot(p - before, outwards);
             const double mean = a * b > 0.0 ? (a * a + b * b) / (12.0 * a * b) * height : 0.0;
             cut.at = std::clamp(cut.at + share * mean / along, kMargin, 1.0 - kMargin);

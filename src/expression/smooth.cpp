@@ -16,6 +16,7 @@
 
 #include "liquid2d/bounds.h"
 #include "liquid2d/cell_grid.h"
+#include "plain_length.h"
 
 namespace droplet {
 namespace {
@@ -40,11 +41,15 @@ using Points = std::vector<Vec2>;
 /// Moves each point towards the middle of the two beside it.
 void relax(Points& points, Points& next, double factor)
 {
-    const std::size_t count = points.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vec2 mean = 0.5 * (points[i + 1 == count ? 0 : i + 1] + points[i == 0 ? count - 1 : i - 1]);
-        next[i] = points[i] + factor * (mean - points[i]);
+    const auto relaxed = [factor](Vec2 before, Vec2 point, Vec2 after) {
+        return point + factor * (0.5 * (after + before) - point);
+    };
+    const std::size_t last = points.size() - 1;
+    next.front() = relaxed(points[last], points[0], points[std::min(last, std::size_t{1})]);
+    for (std::size_t i = 1; i < last; ++i) {
+        next[i] = relaxed(points[i - 1], points[i], points[i + 1]);
     }
+    next.back() = relaxed(points[last == 0 ? 0 : last - 1], points[last], points[0]);
     points.swap(next);
 }
 
@@ -85,7 +90,7 @@ Points normalsOf(const Points& points)
     Points normals(count);
     for (std::size_t i = 0; i < count; ++i) {
         const Vec2 along = points[i + 1 == count ? 0 : i + 1] - points[i == 0 ? count - 1 : i - 1];
-        const double size = length(along);
+        const double size = plainLength(along);
         normals[i] = size > 0.0 ? Vec2{along.y / size, -along.x / size} : Vec2{};
     }
     return normals;
@@ -93,9 +98,9 @@ Points normalsOf(const Points& points)
 
 double lengthOf(const Points& points)
 {
-    double sum = length(points.front() - points.back());
+    double sum = plainLength(points.front() - points.back());
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        sum += length(points[i + 1] - points[i]);
+        sum += plainLength(points[i + 1] - points[i]);
     }
     return sum;
 }
@@ -110,7 +115,7 @@ Points evenlySpaced(const Points& points)
     double done = 0.0;
     for (std::size_t i = 0; i < count && even.size() < count; ++i) {
         const Vec2 side = points[i + 1 == count ? 0 : i + 1] - points[i];
-        const double size = length(side);
+        const double size = plainLength(side);
         while (even.size() < count && step * static_cast<double>(even.size()) < done + size) {
             even.push_back(points[i] + ((step * static_cast<double>(even.size()) - done) / size) * side);
         }

@@ -32,6 +32,7 @@
 #include "grid_sides.h"
 #include "grid_viscosity.h"
 #include "kernel.h"
+#include "plain_length.h"
 #include "reorder.h"
 #include "wall_distance.h"
 
@@ -593,7 +594,7 @@ private:
             const double c = level[k + columns];
             const double d = level[k + columns + 1];
             const Vec2 slope{b + d - a - c, c + d - a - b};
-            const double size = length(slope);
+            const double size = plainLength(slope);
             return size > 1e-6 ? (1.0 / size) * slope : Vec2{};
         };
         forSpans(spans_, [&](std::size_t k) {
@@ -790,7 +791,7 @@ private:
                 const GridPlace in_grid = places_.at(place);
                 const Bilinear at = in_grid.amongCorners();
                 const Vec2 slope = at.slopeIn(field_.distance);
-                const double size = length(slope);
+                const double size = plainLength(slope);
                 if (!(size > 0.0)) {
                     sides.value[k] = sides.wall[k];
                     return;
@@ -938,7 +939,7 @@ private:
         const double distance = corner.in(field_.distance);
         if (2.0 * distance < reach) {
             const Vec2 slope = corner.slopeIn(field_.distance);
-            const double size = length(slope);
+            const double size = plainLength(slope);
             return size > 0.0 ? displacement + ((reach - 2.0 * std::max(distance, 0.0)) / size) * slope : displacement;
         }
         const Bilinear middle = in_grid.amongMiddles();
@@ -1090,7 +1091,7 @@ private:
                 break;
             }
             const Vec2 slope = at.slopeIn(field_.distance);
-            const double size = length(slope);
+            const double size = plainLength(slope);
             if (!(size > 0.0)) {
                 break;
             }

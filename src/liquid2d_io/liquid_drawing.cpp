@@ -9,12 +9,15 @@
 #include <cmath>
 #include <memory>
 
+#include "blocks.h"
 #include "droplet/error.h"
 #include "liquid_paths.h"
 #include "pixel_coverage.h"
 
 namespace droplet {
 namespace {
+
+constexpr std::size_t kRowsPerBlock = 128;
 
 struct Free {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -43,6 +46,27 @@ void fillPaths(cairo_t* context, const std::vector<BezierPath>& paths, Colour fi
     addPaths(context, paths);
     setColour(context, fill);
     cairo_fill(context);
+}
+
+/// Turns a row of Cairo's pixels, whose colours are multiplied by their alpha, into red, green, blue and alpha.
+void unmultiply(const unsigned char* pixels, std::uint8_t* rgba, std::size_t width)
+{
+    for (std::size_t x = 0; x < width; ++x, pixels += 4, rgba += 4) {
+        std::uint32_t pixel = 0;
+        std::copy_n(pixels, 4, reinterpret_cast<unsigned char*>(&pixel));
+        const std::uint32_t alpha = pixel >> 24U;
+        const auto level = [&](unsigned shift) { return (pixel >> shift) & 0xFFU; };
+        // Most pixels are opaque.
+        const auto colour = [&](unsigned shift) {
+            return static_cast<std::uint8_t>(alpha == 255   ? level(shift)
+                                             : alpha == 0 ? 0
+                                                          : std::min((level(shift) * 255U + alpha / 2) / alpha, 255U));
+        };
+        rgba[0] = colour(16U);
+        rgba[1] = colour(8U);
+        rgba[2] = colour(0U);
+        rgba[3] = static_cast<std::uint8_t>(alpha);
+    }
 }
 
 }  // namespace
@@ -86,20 +110,15 @@ Layer liquidLayer(const DrawnLiquid& scene, const LiquidView& view, const Liquid
     const unsigned char* const data = cairo_image_surface_get_data(surface.get());
     const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface.get()));
     const auto width = static_cast<std::size_t>(view.width);
-    layer.rgba.reserve(4 * width * static_cast<std::size_t>(view.height));
-    for (std::size_t y = 0; y < static_cast<std::size_t>(view.height); ++y) {
-        for (std::size_t x = 0; x < width; ++x) {
-            std::uint32_t pixel = 0;
-            std::copy_n(data + y * stride + 4 * x, 4, reinterpret_cast<unsigned char*>(&pixel));
-            const std::uint32_t alpha = pixel >> 24U;
-            for (const unsigned shift : {16U, 8U, 0U}) {
-                const std::uint32_t level = (pixel >> shift) & 0xFFU;
-                layer.rgba.push_back(
-                    static_cast<std::uint8_t>(alpha == 0 ? 0 : std::min((level * 255U + alpha / 2) / alpha, 255U)));
+    layer.rgba.resize(4 * width * static_cast<std::size_t>(view.height));
+    forBlocks(
+        static_cast<std::size_t>(view.height),
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t y = begin; y < end; ++y) {
+                unmultiply(data + y * stride, layer.rgba.data() + 4 * width * y, width);
             }
-            layer.rgba.push_back(static_cast<std::uint8_t>(alpha));
-        }
-    }
+        },
+        kRowsPerBlock);
     return layer;
 }
 
