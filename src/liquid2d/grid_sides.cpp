@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid_sides.h"
 
+#include <cstring>
+
 namespace droplet {
 
 Sides::Sides(Vec2 middle, std::size_t across, std::size_t up) : columns(across), first(middle)
@@ -28,13 +30,7 @@ void Sides::clear()
 void Sides::extend(std::vector<double>& values, const std::vector<std::uint8_t>& given)
 {
     forSpans(spans, [&](std::size_t k) { reached[k] = given[k] != 0 ? Reached::Yes : Reached::No; });
-    layer.clear();
-    forSpans(spans, [&](std::size_t k) {
-        if (reached[k] == Reached::No && isBesideReached(k)) {
-            reached[k] = Reached::Next;
-            layer.push_back(k);
-        }
-    });
+    findLayer();
     for (std::size_t pass = 0; pass + 1 < kPad; ++pass) {
         for (const std::size_t k : layer) {
             double sum = 0.0;
@@ -60,6 +56,33 @@ void Sides::extend(std::vector<double>& values, const std::vector<std::uint8_t>&
             }
         }
         layer.swap(next_layer);
+    }
+}
+
+/// Finds the sides that have no value beside ones that have. Of eight in a row mostly none is one.
+void Sides::findLayer()
+{
+    constexpr std::size_t kMany = 8;
+    constexpr std::uint64_t kLowest = 0x0101010101010101U;
+    const auto many = [&](std::size_t k) {
+        std::uint64_t bytes = 0;
+        std::memcpy(&bytes, reached.data() + k, kMany);
+        return bytes;
+    };
+    layer.clear();
+    for (const Span& span : spans) {
+        for (std::size_t k = span.begin; k < span.end;) {
+            if (k + kMany <= span.end &&
+                ((many(k - 1) | many(k + 1) | many(k - columns) | many(k + columns)) & ~many(k) & kLowest) == 0) {
+                k += kMany;
+                continue;
+            }
+            if (reached[k] == Reached::No && isBesideReached(k)) {
+                reached[k] = Reached::Next;
+                layer.push_back(k);
+            }
+            ++k;
+        }
     }
 }
 

@@ -40,12 +40,12 @@ void fillSpans(const std::vector<Span>& spans, std::vector<Value>& values, Value
     }
 }
 
-/// What is known of a value that is continued.
+/// What is known of a value that is continued. Only `Yes` has the lowest bit.
 enum class Reached : std::uint8_t {
-    No,
-    Yes,
-    Next,     ///< in the present layer
-    Outside,  ///< of the spans
+    No = 0,
+    Yes = 1,
+    Next = 2,     ///< in the present layer
+    Outside = 4,  ///< of the spans
 };
 
 /// Values on the sides of cells that face one axis.
@@ -82,6 +82,7 @@ struct Sides {
     void extend(std::vector<double>& values, const std::vector<std::uint8_t>& given);
 
 private:
+    void findLayer();
     [[nodiscard]] bool isBesideReached(std::size_t k) const;
 };
 
