@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "bays.h"
 #include "drops.h"
 #include "entry_named.h"
 #include "field.h"
@@ -72,6 +74,19 @@ const Drop* dropOf(const Loop& loop, double area, const std::vector<Drop>& drops
         }
     }
     return nullptr;
+}
+
+/// Draws a hole as a bay, if it is closed off by a thin bridge; returns whether it is.
+bool openBay(const Loop& rim, LiquidHole& hole, LiquidShape& shape, const ParticleFrame& frame)
+{
+    for (const Bridge& bridge : bridgesOf(rim, shape.liquid, frame, hole.gap)) {
+        if (std::optional<Loop> bay = withBay(shape.liquid, rim, bridge, frame.spacing)) {
+            shape.liquid[bridge.outline] = std::move(*bay);
+            hole.gap = bridge.middle;
+            return true;
+        }
+    }
+    return false;
 }
 
 }  // namespace
@@ -154,7 +169,9 @@ LiquidShape liquidShape(const ExpressionState& state, const ParticleFrame& frame
         }
     }
     const std::vector<Vec2> erasers = options.air > 0.0 ? erasersOf(state, frame) : std::vector<Vec2>();
-    shape.holes = followedHoles(holes, state, frame);
+    // A hole that may wait is drawn as a bay meanwhile, or not at all if it is small.
+    shape.holes = followedHoles(holes, state, frame,
+                                [&](std::size_t k, LiquidHole& hole) { return openBay(holes[k], hole, shape, frame); });
     for (std::size_t k = 0; k < holes.size(); ++k) {
         Loop& hole = holes[k];
         if (!shape.holes[k].shown) {

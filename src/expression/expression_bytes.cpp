@@ -8,7 +8,7 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kHead = "droplet-shape expression 3\n";
+constexpr std::string_view kHead = "droplet-shape expression 4\n";
 
 }  // namespace
 
@@ -43,7 +43,7 @@ std::string bytesOf(const ExpressionState& state)
     out.put(std::uint64_t{state.holes.size()});
     for (const LiquidHole& hole : state.holes) {
         out.all(hole.centre, hole.area, hole.reach, hole.clearance, hole.seen, std::uint64_t{hole.shown.has_value()},
-                hole.shown.value_or(0.0));
+                hole.shown.value_or(0.0), std::uint64_t{hole.gap.has_value()}, hole.gap.value_or(Vec2{}));
     }
     return out.release();
 }
@@ -89,13 +89,16 @@ ExpressionState expressionFromBytes(std::string_view bytes, const std::string& n
     in.get(remembers);
     in.require(remembers <= 1);
     state.remembers = remembers != 0;
-    state.holes.resize(in.count(8 * sizeof(double)));
+    state.holes.resize(in.count(11 * sizeof(double)));
     for (LiquidHole& hole : state.holes) {
         std::uint64_t is_shown = 0;
         double shown = 0.0;
-        in.all(hole.centre, hole.area, hole.reach, hole.clearance, hole.seen, is_shown, shown);
-        in.require(is_shown <= 1);
+        std::uint64_t has_gap = 0;
+        Vec2 gap;
+        in.all(hole.centre, hole.area, hole.reach, hole.clearance, hole.seen, is_shown, shown, has_gap, gap);
+        in.require(is_shown <= 1 && has_gap <= 1);
         hole.shown = is_shown != 0 ? std::optional(shown) : std::nullopt;
+        hole.gap = has_gap != 0 ? std::optional(gap) : std::nullopt;
     }
     in.require(in.ended());
     return state;

@@ -19,6 +19,9 @@ namespace {
 /// Time after which a small hole is drawn: two frames of 24 a second, with a margin for rounding [s].
 constexpr double kWait = 1.9 / 24.0;
 
+/// Time for which a hole that closed is drawn as a bay, if a thin bridge closes it [s].
+constexpr double kBay = 5.9 / 24.0;
+
 /// Time that a hole is drawn for, at least: at the frame 2/24 s later it is still there [s].
 constexpr double kShown = 2.1 / 24.0;
 
@@ -77,23 +80,29 @@ std::vector<LiquidHole> movedHoles(const ExpressionState& state, double spacing)
     const auto [lower, upper] = boundsOf(before);
     CellGrid cells(lower, upper, kAround * spacing);
     const std::vector<std::uint32_t> order = cells.sort(before);
-    for (LiquidHole& hole : holes) {
-        const double reach = hole.reach + kAround * spacing;
+    // Mean way of the particles around a place.
+    const auto way_at = [&](Vec2 place, double reach) {
         const Vec2 corner{reach, reach};
-        const Vec2 low = hole.centre - corner;
-        const Vec2 high = hole.centre + corner;
+        const Vec2 low = place - corner;
+        const Vec2 high = place + corner;
         Vec2 sum;
         double count = 0.0;
         for (int row = cells.row(low.y); row <= cells.row(high.y); ++row) {
             const auto [first, last] = cells.range(row, cells.column(low.x), cells.column(high.x));
             for (std::uint32_t m = first; m < last; ++m) {
-                if (length(before[order[m]] - hole.centre) < reach) {
+                if (length(before[order[m]] - place) < reach) {
                     sum = sum + way[order[m]];
                     count += 1.0;
                 }
             }
         }
-        hole.centre = hole.centre + (count > 0.0 ? 1.0 / count : 0.0) * sum;
+        return (count > 0.0 ? 1.0 / count : 0.0) * sum;
+    };
+    for (LiquidHole& hole : holes) {
+        hole.centre = hole.centre + way_at(hole.centre, hole.reach + kAround * spacing);
+        if (hole.gap) {
+            hole.gap = *hole.gap + way_at(*hole.gap, kAround * spacing);
+        }
     }
     return holes;
 }
@@ -112,7 +121,7 @@ std::vector<OpenHole> openHoles(const ExpressionState& state, double spacing)
 }
 
 std::vector<LiquidHole> followedHoles(const std::vector<Loop>& rims, const ExpressionState& state,
-                                      const ParticleFrame& frame)
+                                      const ParticleFrame& frame, const OpenBay& open_bay)
 {
     if (rims.empty()) {
         return {};
@@ -151,15 +160,22 @@ std::vector<LiquidHole> followedHoles(const std::vector<Loop>& rims, const Expre
             is_taken[pair.before] = 1;
             hole.seen = before.seen;
             hole.shown = before.shown;
+            hole.gap = before.gap;
         } else if (before.shown && !hole.shown) {
             hole.shown = frame.time;
         }
     }
-    for (LiquidHole& hole : holes) {
+    for (std::size_t k = 0; k < holes.size(); ++k) {
+        LiquidHole& hole = holes[k];
         hole.seen = std::min(hole.seen, frame.time);
         const bool is_large = hole.area >= kLarge * frame.spacing * frame.spacing;
-        if (!hole.shown && (is_large || !state.remembers || frame.time - hole.seen > kWait)) {
+        const double age = frame.time - hole.seen;
+        const bool waits = !hole.shown && state.remembers && (is_large ? age < kBay && open_bay(k, hole) : age < kWait);
+        if (!hole.shown && !waits) {
             hole.shown = frame.time;
+        }
+        if (hole.shown) {
+            hole.gap.reset();
         }
     }
     return holes;

@@ -58,7 +58,7 @@ void unmultiply(const unsigned char* pixels, std::uint8_t* rgba, std::size_t wid
         const auto level = [&](unsigned shift) { return (pixel >> shift) & 0xFFU; };
         // Most pixels are opaque.
         const auto colour = [&](unsigned shift) {
-            return static_cast<std::uint8_t>(alpha == 255   ? level(shift)
+            return static_cast<std::uint8_t>(alpha == 255 ? level(shift)
                                              : alpha == 0 ? 0
                                                           : std::min((level(shift) * 255U + alpha / 2) / alpha, 255U));
         };

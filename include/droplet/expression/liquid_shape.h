@@ -24,6 +24,7 @@ struct LiquidHole {
     double clearance = 0.0;       ///< least distance of its rim from the centre [m]; 0 if that lies outside
     double seen = 0.0;            ///< time at which it opened [s]
     std::optional<double> shown;  ///< time from which on it is drawn [s]; empty: not yet
+    std::optional<Vec2> gap;      ///< gap in a thin bridge, by which it is open until it is drawn [m]; empty: none
 
     friend bool operator==(const LiquidHole&, const LiquidHole&) = default;  ///< Compares all members.
 };
