@@ -175,10 +175,8 @@ std::vector<Bridge> bridgesOf(const Loop& hole, const std::vector<Loop>& rims, c
         }
     }
     std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    bridges.clear();
-    for (const auto& [value, bridge] : ranked) {
-        bridges.push_back(bridge);
-    }
+    bridges.resize(ranked.size());
+    std::transform(ranked.begin(), ranked.end(), bridges.begin(), [](const auto& entry) { return entry.second; });
     return bridges;
 }
 

@@ -851,8 +851,9 @@ private:
                     if (cell_[i] != cell) {
                         cell = cell_[i];
                         is_inner = isInner(cell, reach);
-                        const Vec2 place = grid_.placeOf(static_cast<double>(cell % grid_.columns),
-                                                         static_cast<double>(cell / grid_.columns));
+                        const std::size_t row = cell / grid_.columns;
+                        const std::size_t column = cell % grid_.columns;
+                        const Vec2 place = grid_.placeOf(static_cast<double>(column), static_cast<double>(row));
                         corner = {static_cast<float>(place.x / reach), static_cast<float>(place.y / reach)};
                     }
                     const Vec2 apart = reach * overlap(i, reach, corner);
