@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surroundings.h"
 
+#include <cstdint>
 #include <utility>
 
 #include "droplet/error.h"
-#include "droplet/io/object.h"
+#include "droplet/render/object_stand.h"
 #include "droplet/surface/onto.h"
+#include "option_values.h"
 
 namespace cli {
 
@@ -24,8 +26,9 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
         }
     }
     if (settings.onto) {
-        around.object = preview && showsLooks(*preview) ? droplet::readObjectStand(*settings.onto)
-                                                        : droplet::ObjectStand{droplet::readObject(*settings.onto)};
+        const bool is_shown = preview && showsLooks(*preview);
+        around.object =
+            droplet::readObjectStand(*settings.onto, is_shown ? droplet::StandParts::All : droplet::StandParts::Holes);
     }
     if (preview && preview->ground) {
         around.below = droplet::readPicture(*preview->ground);
@@ -59,14 +62,19 @@ droplet::BaseSurface groundOf(const DropletSettings& settings, const Surrounding
 droplet::ObjectReport placeOnObject(droplet::Droplet& droplet, const droplet::ObjectStand& object,
                                     const std::string& path)
 {
-    droplet::OntoResult result = droplet::placeOnto(droplet.surface, object.mesh, {droplet.domain.extent});
+    droplet::OntoOptions options{droplet.domain.extent};
+    if (!object.looks.empty()) {
+        options.is_there = [&](std::uint32_t triangle, droplet::Vec2 uv) { return object.isThere(triangle, uv); };
+    }
+    droplet::OntoResult result =
+        forOption("--onto " + path, [&] { return droplet::placeOnto(droplet.surface, object.mesh, options); });
     droplet.surface = std::move(result.surface);
     droplet.warnings.insert(droplet.warnings.end(), result.report.warnings.begin(), result.report.warnings.end());
     droplet.warnings.insert(droplet.warnings.end(), object.warnings.begin(), object.warnings.end());
     const droplet::OntoReport& onto = result.report;
     return {path,
             onto.laid,
-            onto.outside + onto.across + onto.folded,
+            onto.outside + onto.across + onto.folded + onto.cut_out,
             onto.flipped_charts,
             onto.overlapping_charts,
             onto.min_scale,

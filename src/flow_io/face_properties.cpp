@@ -77,16 +77,9 @@ bool isCutOut(const FlowObject& object, const FlowSurface::Face& face)
     if (!look.coverage) {
         return false;
     }
-    const Picture& coverage = *look.coverage;
     std::array<Vec2, 3> uvs = uvsOf(object, face);
     std::transform(uvs.begin(), uvs.end(), uvs.begin(), [&](Vec2 uv) { return look.place.at(uv); });
-    return meanOver(coverage, uvs, [&](int x, int y) {
-               const std::uint8_t red =
-                   coverage.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(coverage.width) +
-                                     static_cast<std::size_t>(x))];
-               const bool is_there = look.cutoff ? red / 255.0 >= *look.cutoff : red > 0;
-               return is_there ? 1.0 : 0.0;
-           }) == 0.0;
+    return meanOver(*look.coverage, uvs, [&](int x, int y) { return look.isThere(x, y) ? 1.0 : 0.0; }) == 0.0;
 }
 
 /// Values of faces that materials replace.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/render/object_stand.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "file_bytes.h"
 #include "io/gltf_scene.h"
@@ -23,10 +25,31 @@ double areaOf(const TexturedMesh& mesh, const Triangle& triangle)
 std::vector<bool> clearTriangles(const ObjectStand& object)
 {
     std::vector<bool> clear;
+    if (object.is_plain) {
+        return clear;
+    }
     for (const std::uint32_t material : object.materials) {
         clear.push_back(object.looks[material].clearness() > 0.5);
     }
     return clear;
+}
+
+/// Leaves out the pictures of a file that have no alpha that cuts.
+void keepAlpha(FileMesh& scene)
+{
+    for (FileMaterial& material : scene.looks) {
+        material.normals = {};
+        material.finish = {};
+        material.glows = {};
+        if (!material.blends && !material.cutoff) {
+            material.colours = {};
+        }
+    }
+}
+
+bool hasHoles(const std::vector<StandLook>& looks)
+{
+    return std::any_of(looks.begin(), looks.end(), [](const StandLook& look) { return look.coverage.has_value(); });
 }
 
 }  // namespace
@@ -54,7 +77,7 @@ void ObjectStand::showIn(RenderOptions& options) const
     options.stand = mesh;
     options.shows_whole_stand = true;
     options.stand_openness = openness();
-    if (!looks.empty()) {
+    if (!looks.empty() && !is_plain) {
         options.stand_looks = looks;
         options.stand_materials = materials;
         options.stand_colours = colours;
@@ -62,12 +85,20 @@ void ObjectStand::showIn(RenderOptions& options) const
     }
 }
 
-ObjectStand readObjectStand(const std::filesystem::path& path)
+ObjectStand readObjectStand(const std::filesystem::path& path, StandParts parts)
 {
     ObjectStand object;
     readFile(path, [&] {
         FileMesh scene = readScene(path, {.needs_uv = true, .looks = true});
+        if (parts == StandParts::Holes) {
+            keepAlpha(scene);
+        }
         TakenLooks taken = takeLooks(scene, shown(path), object.warnings);
+        if (parts == StandParts::Holes) {
+            object.is_plain = true;
+            object.warnings.clear();
+            taken.looks = hasHoles(taken.looks) ? std::move(taken.looks) : std::vector<StandLook>{};
+        }
         object.is_open = !openEdges(weldedTriangles(scene.triangles, scene.weld)).empty();
         object.mesh = {std::move(scene.vertices), std::move(scene.normals), std::move(scene.uvs),
                        std::move(scene.triangles)};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "droplet/error.h"
@@ -14,8 +15,10 @@ namespace droplet {
 std::vector<Facet> facetsOf(const TexturedMesh& object, Vec2 extent)
 {
     std::vector<Facet> facets;
-    for (const Triangle& t : object.triangles) {
+    for (std::uint32_t source = 0; source < object.triangles.size(); ++source) {
+        const Triangle& t = object.triangles[source];
         Facet facet;
+        facet.source = source;
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec2 uv = object.uvs[t[k]];
             facet.flat[k] = {(uv.x - 0.5) * extent.x, (0.5 - uv.y) * extent.y};

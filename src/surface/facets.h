@@ -15,7 +15,8 @@ struct Facet {
     std::array<Vec2, 3> flat;                ///< corners in the picture's plane [m]
     std::array<std::uint32_t, 3> corners{};  ///< corners of its chart
     std::uint32_t chart = 0;
-    double twice_flat = 0.0;  ///< signed, doubled area in the plane
+    std::uint32_t source = 0;  ///< triangle of the object
+    double twice_flat = 0.0;   ///< signed, doubled area in the plane
 };
 
 /// Finds the facets with an area in space and in the plane. Their charts are not set, and their corners are vertices of

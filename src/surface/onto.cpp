@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 #include "blocks.h"
@@ -35,6 +36,7 @@ void addWarnings(OntoReport& report)
     left_out(report.outside, "not completely on a chart of the object's uv");
     left_out(report.across, "across a seam between charts of the object's uv");
     left_out(report.folded, "too high for the hollow of the object below");
+    left_out(report.cut_out, "over a place that the alpha of the object's texture cuts out");
     if (report.mirrored > 0) {
         report.warnings.push_back(counted(report.mirrored, "droplet") + " mirrored, on " +
                                   counted(report.flipped_charts, "flipped chart") + " of the object's uv");
@@ -56,11 +58,12 @@ void addWarnings(OntoReport& report)
 void requireAnyPlaced(const OntoReport& report, std::size_t count)
 {
     if (report.laid == 0) {
-        throw Error(ErrorCode::NoSuchDroplet, "none of " + counted(count, "droplet") +
-                                                  " can be placed on the object: " + std::to_string(report.outside) +
-                                                  " not completely on a chart of its uv, " +
-                                                  std::to_string(report.across) + " across a seam, " +
-                                                  std::to_string(report.folded) + " too high for a hollow");
+        throw Error(ErrorCode::NoSuchDroplet,
+                    "none of " + counted(count, "droplet") +
+                        " can be placed on the object: " + std::to_string(report.outside) +
+                        " not completely on a chart of its uv, " + std::to_string(report.across) + " across a seam, " +
+                        std::to_string(report.folded) + " too high for a hollow, " + std::to_string(report.cut_out) +
+                        " over a place that the alpha of its texture cuts out");
     }
 }
 
@@ -94,6 +97,9 @@ void countCharts(const Atlas& atlas, const Hits& hits, const DropletNumbers& dro
                 break;
             case PlacementResult::Folded:
                 ++report.folded;
+                break;
+            case PlacementResult::CutOut:
+                ++report.cut_out;
                 break;
         }
     }
@@ -189,7 +195,11 @@ OntoResult placeOnto(const Surface& droplets, const TexturedMesh& object, const 
     }
     const DropletNumbers numbers = numberDroplets(droplets);
     const std::vector<std::uint32_t>& droplet = numbers.of;
-    const Hits hits = findHits(droplets, atlas, flat);
+    const auto is_there = [&](const Facet& facet, Vec2 p) {
+        return options.is_there(facet.source, {0.5 + p.x / options.extent.x, 0.5 - p.y / options.extent.y});
+    };
+    const Hits hits =
+        findHits(droplets, atlas, flat, options.is_there ? std::function<bool(const Facet&, Vec2)>(is_there) : nullptr);
     std::vector<DropletPlacement> placements = placeDroplets(hits, numbers);
 
     const auto is_placed = [&](std::size_t v) {

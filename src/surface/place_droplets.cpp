@@ -32,25 +32,38 @@ DropletNumbers numberDroplets(const Surface& surface)
     return droplets;
 }
 
-Hits findHits(const Surface& surface, const Atlas& atlas, const std::vector<Vec2>& flat)
+Hits findHits(const Surface& surface, const Atlas& atlas, const std::vector<Vec2>& flat,
+              const std::function<bool(const Facet&, Vec2)>& is_there)
 {
+    struct Block {
+        std::vector<Hit> hits;
+        std::vector<std::size_t> cut;  ///< vertices over what is cut out
+    };
     Hits hits;
     hits.starts.assign(flat.size() + 1, 0);
-    for (const std::vector<Hit>&block :
-         mapBlocks<std::vector<Hit>>(flat.size(), [&](std::size_t begin, std::size_t end) {
-             std::vector<Hit> found;
+    hits.is_cut.assign(flat.size(), false);
+    for (const Block& block : mapBlocks<Block>(flat.size(), [&](std::size_t begin, std::size_t end) {
+             Block found;
              for (std::size_t v = begin; v < end; ++v) {
-                 for (Hit hit : atlas.at(flat[surface.weld[v]])) {
+                 const Vec2 p = flat[surface.weld[v]];
+                 for (Hit hit : atlas.at(p)) {
+                     if (is_there && !is_there(atlas.facets[hit.facet], p)) {
+                         found.cut.push_back(v);
+                         continue;
+                     }
                      hit.vertex = static_cast<std::uint32_t>(v);
-                     found.push_back(hit);
+                     found.hits.push_back(hit);
                  }
              }
              return found;
          })) {
-        for (const Hit& hit : block) {
+        for (const Hit& hit : block.hits) {
             ++hits.starts[hit.vertex + 1];
         }
-        hits.all.insert(hits.all.end(), block.begin(), block.end());
+        hits.all.insert(hits.all.end(), block.hits.begin(), block.hits.end());
+        for (const std::size_t v : block.cut) {
+            hits.is_cut[v] = true;
+        }
     }
     std::partial_sum(hits.starts.begin(), hits.starts.end(), hits.starts.begin());
     return hits;
@@ -60,14 +73,16 @@ std::vector<DropletPlacement> placeDroplets(const Hits& hits, const DropletNumbe
 {
     std::vector<DropletPlacement> placements(droplets.count);
     std::vector<std::optional<std::vector<std::uint32_t>>> common(droplets.count);
+    std::vector<bool> is_cut(droplets.count, false);
     for (std::size_t v = 0; v < droplets.of.size(); ++v) {
-        if (droplets.of[v] == DropletNumbers::kNone) {
+        const std::uint32_t d = droplets.of[v];
+        if (d == DropletNumbers::kNone) {
             continue;
         }
-        DropletPlacement& placement = placements[droplets.of[v]];
-        auto& charts = common[droplets.of[v]];
+        auto& charts = common[d];
+        is_cut[d] = is_cut[d] || hits.is_cut[v];
         if (hits.at(v).empty()) {
-            placement.result = PlacementResult::Outside;
+            placements[d].result = PlacementResult::Outside;
         } else if (!charts) {
             charts.emplace();
             for (const Hit& hit : hits.at(v)) {
@@ -78,13 +93,14 @@ std::vector<DropletPlacement> placeDroplets(const Hits& hits, const DropletNumbe
         }
     }
     for (std::uint32_t d = 0; d < droplets.count; ++d) {
-        if (placements[d].result == PlacementResult::Outside) {
-            continue;
+        DropletPlacement& placement = placements[d];
+        if (placement.result == PlacementResult::Placed && common[d]->empty()) {
+            placement.result = PlacementResult::Across;
         }
-        if (common[d]->empty()) {
-            placements[d].result = PlacementResult::Across;
-        } else {
-            placements[d].chart = common[d]->front();
+        if (placement.result == PlacementResult::Placed) {
+            placement.chart = common[d]->front();
+        } else if (is_cut[d]) {
+            placement.result = PlacementResult::CutOut;
         }
     }
     return placements;

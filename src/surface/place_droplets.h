@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -27,6 +28,7 @@ DropletNumbers numberDroplets(const Surface& surface);
 struct Hits {
     std::vector<Hit> all;
     std::vector<std::size_t> starts;
+    std::vector<bool> is_cut;  ///< of every vertex: whether the object is cut out on a chart under it
 
     [[nodiscard]] std::span<const Hit> at(std::size_t v) const
     {
@@ -41,11 +43,13 @@ struct Hits {
 };
 
 /// Finds the charts under every vertex.
-/// @param flat  vertices in the picture's plane [m]
-Hits findHits(const Surface& surface, const Atlas& atlas, const std::vector<Vec2>& flat);
+/// @param flat      vertices in the picture's plane [m]
+/// @param is_there  whether the object is there at a point of a facet; empty: everywhere
+Hits findHits(const Surface& surface, const Atlas& atlas, const std::vector<Vec2>& flat,
+              const std::function<bool(const Facet&, Vec2)>& is_there);
 
 /// Whether a droplet is placed on the object, or why not.
-enum class PlacementResult { Placed, Outside, Across, Folded };
+enum class PlacementResult { Placed, Outside, Across, Folded, CutOut };
 
 /// Chart of a droplet.
 struct DropletPlacement {

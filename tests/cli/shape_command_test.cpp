@@ -20,6 +20,7 @@
 #include "droplet/drawing/picture.h"
 #include "droplet/image/height_map.h"
 #include "support/command.h"
+#include "support/gltf_draft.h"
 
 namespace droplet {
 namespace {
@@ -605,6 +606,41 @@ TEST_F(ShapeCommandTest, WritesADatafileForSurfaceEvolver)
     EXPECT_TRUE(piped.output == bytesOf("b.fe"));
     EXPECT_THAT(scratch().names(),
                 ElementsAre("a.glb", "b.fe", "b.glb", "c.fe", "c.glb", "c.json", "d.glb", "disc.pgm", "two.pgm"));
+}
+
+// A plate of 10 cm whose picture cuts out its right two fifths, where the disc would lie.
+TEST_F(ShapeCommandTest, LeavesOutDropletsOverHolesOfAnObjectsTexture)
+{
+    testing::Draft draft;
+    draft.addFloats({-0.05F, 0.0F, 0.05F, 0.05F, 0.0F, 0.05F, 0.05F, 0.0F, -0.05F, -0.05F, 0.0F, -0.05F}, "VEC3");
+    draft.addFloats({0.0F, 1.0F, 1.0F, 1.0F, 1.0F, 0.0F, 0.0F, 0.0F}, "VEC2");
+    draft.add(std::string("\0\1\2\0\2\3", 6), 5121, "SCALAR", 6);
+    const auto write = [&](const std::string& name, const std::string& mode) {
+        writeFile(
+            directory() / name,
+            draft.file(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
+                       R"({"POSITION":0,"TEXCOORD_0":1},"indices":2,"material":0}]}],"materials":[{"alphaMode":")" +
+                       mode +
+                       R"(","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+                       R"("textures":[{"source":0}],"images":[{"uri":"part.png"}])"));
+    };
+    std::ostringstream png;
+    Layer part{5, 1, std::vector<std::uint8_t>(20, 255)};
+    part.rgba[15] = 0;
+    part.rgba[19] = 0;
+    writePng(part, png);
+    writeFile(directory() / "part.png", png.str());
+    const auto left_out = [&](const std::string& object) {
+        return report({"two.pgm", "laid.glb", "--onto", object})["onto"]["droplets_left_out"].get<int>();
+    };
+    write("leaf.glb", "MASK");
+    EXPECT_EQ(left_out("leaf.glb"), 1);
+    EXPECT_THAT(run({"two.pgm", "laid.glb", "--onto", "leaf.glb", "--triangles", "2k"}).error,
+                HasSubstr("1 droplet left out: over a place that the alpha of the object's texture cuts out"));
+    write("veil.glb", "BLEND");
+    EXPECT_EQ(left_out("veil.glb"), 1);
+    write("plate.glb", "OPAQUE");
+    EXPECT_EQ(left_out("plate.glb"), 0);
 }
 
 TEST_F(ShapeCommandTest, LaysDropletsOntoAnObject)

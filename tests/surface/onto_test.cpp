@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -319,6 +320,33 @@ TEST(Onto, TheFirstOfOverlappingChartsIsUsedAndReported)
         EXPECT_EQ(result->report.laid, 1U);
         EXPECT_THAT(result->report.warnings, ::testing::ElementsAre(HasSubstr("overlap")));
     }
+}
+
+// The object ends at uv.x = 0.6, as by the alpha of its texture. A droplet that lies over the end in part is left out,
+// and so is one beyond it; where another chart is there below the hole, a droplet lies on that.
+TEST(Onto, NoDropletLiesWhereTheObjectIsCutOut)
+{
+    const Surface kept = roundDroplet({.outer = 2e-3, .centre = {-5e-3, 0.0}});
+    const Surface partly = roundDroplet({.outer = 2e-3, .centre = {0.1 * kExtent + 1e-3, 5e-3}});
+    const Surface beyond = roundDroplet({.outer = 2e-3, .centre = {6e-3, -5e-3}});
+    const TexturedMesh object = meshOf(plane());
+    OntoOptions cut = kPicture;
+    cut.is_there = [&](std::uint32_t triangle, Vec2 uv) { return triangle >= object.triangles.size() || uv.x < 0.6; };
+    const OntoResult result = placeOnto(together(together(beyond, partly), kept), object, cut);
+    EXPECT_EQ(result.report.laid, 1U);
+    EXPECT_EQ(result.report.cut_out, 2U);
+    EXPECT_EQ(result.report.outside, 0U);
+    EXPECT_EQ(result.surface.vertices.size(), kept.vertices.size());
+    EXPECT_THAT(result.report.warnings, ::testing::ElementsAre(HasSubstr("2 droplets left out: over a place that the "
+                                                                         "alpha of the object's texture cuts out")));
+    expectRefused(beyond, object, cut, ErrorCode::NoSuchDroplet, "1 over a place that the alpha of its texture cuts");
+
+    Sheet below = plane();
+    below.columns = 5;
+    below.place = [](Vec2 uv) { return Vec3{flatOf(uv).x, flatOf(uv).y, -1.0}; };
+    const OntoResult second = placeOnto(beyond, together(object, meshOf(below)), cut);
+    EXPECT_EQ(second.report.laid, 1U);
+    EXPECT_LT(second.surface.vertices[0].z, -0.9);
 }
 
 // A leaf whose back has the positions and uv of its front, triangle by triangle: normals must not cancel.

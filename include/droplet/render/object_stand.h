@@ -31,10 +31,17 @@ struct ObjectStand {
     std::vector<std::uint32_t> materials = {};  ///< in `looks`, of every triangle; empty if `looks` is
     std::vector<Vec3> colours = {};             ///< of every vertex, as RenderOptions::stand_colours
     bool is_open = false;                       ///< whether the mesh has an edge with one triangle: its back is seen
+    bool is_plain = false;                      ///< pictures show it plain: `looks` only tell where it is cut out
     std::vector<std::string> warnings = {};     ///< what its file has that pictures do not show, one line each
 
     /// Whether most of the object, by area, lets light pass.
     [[nodiscard]] bool isSeenThrough() const;
+
+    /// Whether something is there at a uv of a triangle, which the alpha of a picture may cut out.
+    [[nodiscard]] bool isThere(std::uint32_t triangle, Vec2 uv) const
+    {
+        return looks.empty() || looks[materials[triangle]].isThere(uv);
+    }
 
     /// Light past the object itself.
     [[nodiscard]] StandOpenness openness() const;
@@ -44,8 +51,14 @@ struct ObjectStand {
     void showIn(RenderOptions& options) const;
 };
 
-/// Reads an object as readObject() does, with its materials and their pictures, and with colours of vertices.
+/// What readObjectStand() reads of an object's materials.
+enum class StandParts {
+    All,   ///< their pictures, and colours of vertices
+    Holes  ///< what the alpha of their pictures cuts out; the object is shown plain
+};
+
+/// Reads an object as readObject() does, with its materials.
 /// @throws Error  as readObject()
-ObjectStand readObjectStand(const std::filesystem::path& path);
+ObjectStand readObjectStand(const std::filesystem::path& path, StandParts parts = StandParts::All);
 
 }  // namespace droplet

@@ -7,6 +7,7 @@
 #include "droplet/drawing/picture.h"
 #include "droplet/surface/material.h"
 #include "droplet/surface/texture_place.h"
+#include "droplet/vector.h"
 
 namespace droplet {
 
@@ -34,6 +35,12 @@ struct StandLook {
     std::optional<Picture> coverage = {};
     std::optional<double> cutoff = {};  ///< below this share there is nothing, else all, 0 … 1; empty: shares mix
     TexturePlace place = {};            ///< of these pictures over uv, finite
+
+    /// Whether something is there at a pixel of `coverage`; a share that mixes is something unless it is 0.
+    [[nodiscard]] bool isThere(int x, int y) const;
+
+    /// The same at a uv of the stand.
+    [[nodiscard]] bool isThere(Vec2 uv) const;
 
     /// Share of the light that passes where it is not mirrored, 0 … 1.
     [[nodiscard]] double clearness() const { return std::min(look.transmission + (1.0 - opacity), 1.0); }

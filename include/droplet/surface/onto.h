@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,9 @@ namespace droplet {
 /// Options of placeOnto().
 struct OntoOptions {
     Vec2 extent;  ///< size of the picture [m], as for loft(): it fills uv from (0,0) to (1,1); both > 0
+    /// Whether the object is there, at a uv of one of its triangles; no droplet lies where it is not, as at a hole that
+    /// the alpha of a texture cuts. Called from several threads. Empty: it is there everywhere
+    std::function<bool(std::uint32_t triangle, Vec2 uv)> is_there = {};
 
     /// Checks the extent.
     /// @throws Error InvalidArgument
@@ -25,6 +30,7 @@ struct OntoReport {
     std::size_t outside = 0;             ///< droplets left out because a part lies beside all charts
     std::size_t across = 0;              ///< droplets left out because they cross from one chart to another
     std::size_t folded = 0;              ///< droplets left out because they are too high for the hollow below them
+    std::size_t cut_out = 0;             ///< droplets left out because a part of the object below them is cut out
     std::size_t mirrored = 0;            ///< droplets on the object, on charts that mirror the picture
     std::size_t flipped_charts = 0;      ///< charts that mirror the picture and have droplets
     std::size_t overlapping_charts = 0;  ///< charts whose uv contain points of a droplet on an earlier chart
@@ -46,8 +52,9 @@ struct OntoResult {
 /// a part of the object that is connected in uv and faces one way there. n and s are means at the vertices of a chart
 /// and interpolated between them, so they are continuous. Normals are those of the map, from derivatives averaged in
 /// the same way. A droplet is placed on the first chart, in the file's order, that contains all its vertices; otherwise
-/// it is left out as a whole. It does not wrap from u = 1 to u = 0, and charts do not repeat beyond (0,0) to (1,1). On
-/// charts that mirror the picture, triangles are reversed so that they wind outward.
+/// it is left out as a whole, and so it is where a part of the object below a vertex is cut out. It does not wrap from
+/// u = 1 to u = 0, and charts do not repeat beyond (0,0) to (1,1). On charts that mirror the picture, triangles are
+/// reversed so that they wind outward.
 ///
 /// Guarantees: topology does not change; every vertex at z = 0 lies on a triangle of the object, to 1e-7 of the
 /// picture's size. Between its vertices a base leaves the object by at most ℓθ/4, where facets meet at an angle θ and
