@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "droplet/io/output.h"
 
-#include <array>
+#include <cstddef>
 #include <ostream>
 #include <streambuf>
 #include <string>
+#include <vector>
 
 #include "droplet/error.h"
 #include "droplet/printable.h"
@@ -18,7 +19,7 @@ constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
 /// Stream buffer of a draft. std::filebuf would not remember why it failed.
 class DraftBuffer : public std::streambuf {
 public:
-    explicit DraftBuffer(Draft& draft) : draft_(draft) { setp(buffer_.begin(), buffer_.end()); }
+    explicit DraftBuffer(Draft& draft) : draft_(draft) { clear(); }
 
     [[nodiscard]] std::uint64_t written() const { return written_; }
 
@@ -37,7 +38,7 @@ protected:
     int sync() override
     {
         const bool ok = put(pbase(), static_cast<std::size_t>(pptr() - pbase()));
-        setp(buffer_.begin(), buffer_.end());
+        clear();
         return ok ? 0 : -1;
     }
 
@@ -50,6 +51,8 @@ protected:
     }
 
 private:
+    void clear() { setp(buffer_.data(), buffer_.data() + buffer_.size()); }
+
     bool put(const char* bytes, std::size_t count)
     {
         written_ += count;
@@ -58,7 +61,8 @@ private:
 
     Draft& draft_;
     std::uint64_t written_ = 0;
-    std::array<char, kBufferBytes> buffer_{};
+    // Not on the stack: files that appear together are written inside one another, hundreds of a turntable.
+    std::vector<char> buffer_ = std::vector<char>(kBufferBytes);
 };
 
 }  // namespace

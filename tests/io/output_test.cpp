@@ -178,6 +178,23 @@ protected:
     fs::path target;
 };
 
+// Files that appear together, as the pictures of a turntable do: 360 inside one another, each with a stream.
+TEST_F(Output, HundredsOfFilesAreWrittenInsideOneAnother)
+{
+    constexpr int kFiles = 360;
+    const std::function<void(int)> write = [&](int k) {
+        (void)writeAtomically(folder / std::to_string(k), [&](std::ostream& out) {
+            out << k;
+            if (k + 1 < kFiles) {
+                write(k + 1);
+            }
+        });
+    };
+    write(0);
+    EXPECT_EQ(contentOf(folder / "0"), "0");
+    EXPECT_EQ(contentOf(folder / std::to_string(kFiles - 1)), std::to_string(kFiles - 1));
+}
+
 TEST_F(Output, WritesEveryByteAndCountsThem)
 {
     for (const std::size_t size : {0U, 1U, 65535U, 65536U, 65537U, 9'500'000U}) {
