@@ -396,8 +396,8 @@ private:
         }
         const float width = pixelWidth(ray, met, way);
         const ShownLook* const shown = studio_.uniform() ? nullptr : lookOfStand(met);
-        if (shown != nullptr && shown->coverage) {
-            const float here = coverageAt(*shown, met, width);
+        if (shown != nullptr) {
+            const float here = shareThere(*shown, met, width);
             if (here < 1.0F) {
                 const Vec3f behind = (1.0F - here) * throughHole(ray, met, way, 1.0F - here);
                 return here > 0.0F ? behind + here * onMatter(ray, met, way, shown) : behind;
@@ -510,7 +510,16 @@ private:
                     std::max(2.0F * level.z - 1.0F, 1e-3F) * meeting.normal);
     }
 
-    // Share of a stand's surface that is there.
+    // Share of a stand's surface that is there. What opacity leaves of metal is a hole: no light passes the rest.
+    [[nodiscard]] float shareThere(const ShownLook& shown, const Meeting& meeting, float width) const
+    {
+        const float covered = shown.coverage ? coverageAt(shown, meeting, width) : 1.0F;
+        if (shown.from.opacity >= 1.0 || shown.from.look.metallic <= 0.0) {
+            return covered;
+        }
+        return covered * (1.0F - matterAt(shown, meeting, width).metal * static_cast<float>(1.0 - shown.from.opacity));
+    }
+
     [[nodiscard]] float coverageAt(const ShownLook& shown, const Meeting& meeting, float width) const
     {
         // Means of a cut picture would shrink what is thin.

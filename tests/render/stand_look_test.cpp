@@ -198,6 +198,20 @@ TEST(StandLook, OpacityMixes)
     EXPECT_NE(none, full);
 }
 
+TEST(StandLook, OpacityMixesMetalToo)
+{
+    StandLook look = opaqueLook({0.9, 0.1, 0.1});
+    look.look.metallic = 1.0;
+    const Picture full = render(Surface(), optionsOf(look));
+    look.opacity = 0.5;
+    const Picture half = render(Surface(), optionsOf(look));
+    look.opacity = 0.0;
+    const Picture none = render(Surface(), optionsOf(look));
+    expectAlike(none, render(Surface(), optionsOf(clearLook({1.0, 1.0, 1.0}, 1.0))));
+    EXPECT_LT(meanOf(full)[1], meanOf(half)[1] - 5.0);
+    EXPECT_LT(meanOf(half)[1], meanOf(none)[1] - 5.0);
+}
+
 // A glowing plate is as bright as white ground in open light, wherever it looks, and adds to what is lit.
 TEST(StandLook, GlowIsLightOfItsOwn)
 {
