@@ -17,12 +17,17 @@
 namespace cli {
 namespace {
 
-RunEnd ended(const droplet::DewReport& report)
+RunEnd ended(const DewCommandOptions& options, const droplet::DewReport& report)
 {
     RunEnd end;
     end.summary = fmt::format("{} droplet{}, {:.4g} mL, cover {:.3g} of {:.4g} cm2\n{}\n{}\n", report.droplets,
                               report.droplets == 1 ? "" : "s", report.volume / 1e-6, report.covered / report.area,
                               report.area / 1e-4, lostOf(report), oneLine(report.output));
+    if (options.file.instancing == droplet::Instancing::Auto && report.instancing == droplet::Instancing::Gpu) {
+        end.summary +=
+            "so many droplets are instances (EXT_mesh_gpu_instancing), which some viewers do not show; "
+            "--instancing none writes one mesh\n";
+    }
     end.warnings = report.warnings;
     return end;
 }
@@ -37,11 +42,10 @@ int runDew(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<DewCommandOptions>(parsed);
-    checkFiles(filesOf(options), options.run.files);
-    runAndTell(options.run, [&](ProgressDisplay& progress) {
-        return ended(makeDew(options, [&](droplet::Stage stage, double share) { progress.begin(stage, share); }));
+    return checkAndRun(options.run, filesOf(options), [&](ProgressDisplay& progress) {
+        return ended(options,
+                     makeDew(options, [&](droplet::Stage stage, double share) { progress.begin(stage, share); }));
     });
-    return 0;
 }
 
 }  // namespace cli

@@ -145,6 +145,9 @@ Dew placeDew(const DewCommandOptions& options, const droplet::Progress& progress
     report.surface = terrain.surface().report;
     report.size = sizeOf(object);
     report.output = options.output;
+    if (droplet::isAnimated(options.file.file.format)) {
+        report.instancing = model.instancingIn(options.file);
+    }
     report.preset = options.preset;
     report.options = options.dew;
     report.area = droplets.area;

@@ -301,6 +301,11 @@ void append(const DropletShape& shape, const std::vector<Triangle>& triangles, D
     }
 }
 
+bool isUsd(Format format)
+{
+    return format == Format::Usda || format == Format::Usdz;
+}
+
 }  // namespace
 
 std::function<DewExtent(double volume, Vec3 normal)> dewExtents(const DropletBodies& bodies, Vec3 gravity,
@@ -544,17 +549,36 @@ SettledDroplets DewModel::settled() const
     return made;
 }
 
+const char* name(Instancing instancing)
+{
+    switch (instancing) {
+        case Instancing::Auto:
+            break;
+        case Instancing::None:
+            return "none";
+        case Instancing::Nodes:
+            return "nodes";
+        case Instancing::Gpu:
+            return "gpu";
+    }
+    return "auto";
+}
+
+Instancing DewModel::instancingIn(const DewFile& file) const
+{
+    if (file.instancing != Instancing::Auto) {
+        return file.instancing;
+    }
+    return content_->shown.size() <= kMostMerged ? Instancing::None
+           : isUsd(file.file.format)             ? Instancing::Nodes
+                                                 : Instancing::Gpu;
+}
+
 std::uint64_t DewModel::write(const FlowObject& object, std::ostream& out, const DewFile& form) const
 {
     const Content& content = *content_;
-    const bool is_usd = form.file.format == Format::Usda || form.file.format == Format::Usdz;
-    Instancing instancing = form.instancing;
-    if (instancing == Instancing::Auto) {
-        instancing = content.shown.size() <= kMostMerged ? Instancing::None
-                     : is_usd                            ? Instancing::Nodes
-                                                         : Instancing::Gpu;
-    }
-    if (instancing == Instancing::Gpu && is_usd) {
+    const Instancing instancing = instancingIn(form);
+    if (instancing == Instancing::Gpu && isUsd(form.file.format)) {
         throw Error(ErrorCode::InvalidArgument, "instancing = gpu is a form of glTF, not of USD");
     }
     Scene scene;

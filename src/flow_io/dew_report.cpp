@@ -21,7 +21,8 @@ void writeDewReport(std::ostream& out, const DewReport& report)
     json["version"] = kVersion;
     json["preset"] = report.preset;
     json["input"] = objectSection(report.input, report.surface, report.size);
-    json["output"] = {{"path", report.output}};
+    json["output"] = {{"path", report.output},
+                      {"instancing", report.instancing ? ReportJson(name(*report.instancing)) : ReportJson()}};
     json["sizes"] = {{"distribution", is_lognormal ? "lognormal" : "condensation"},
                      {"coverage", options.coverage},
                      {"smallest_m", options.smallest},

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/in_process.h"
@@ -23,6 +26,7 @@ namespace {
 
 using testing::CommandResult;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::readFile;
 using testing::runDroplet;
 
@@ -189,6 +193,46 @@ TEST_F(DewCommand, DropletsAreWhereTheWeightsAre)
     EXPECT_EQ(refused.exit_code, 2);
     testing::writeFile(path("plate.obj"), kPlate);
     expectRefused("x.glb", {"--vertex-weights"}, 2, "--vertex-weights");
+}
+
+// A viewer without the extension shows none of so many droplets, so the summary says what to do.
+TEST_F(DewCommand, TellsOfInstancesThatNobodyAskedFor)
+{
+    const auto with = [&](const std::string& output, std::vector<std::string> more) {
+        more.insert(more.end(), {"--smallest", "0.06mm", "--largest", "0.1mm", "--coverage", "0.3", "--detail", "low",
+                                 "--json", path("dew.json")});
+        const CommandResult result = dew(output, more);
+        EXPECT_EQ(result.exit_code, 0) << result.error;
+        const auto report = nlohmann::json::parse(readFile(path("dew.json")));
+        EXPECT_GT(report["droplets"]["count"], 20'000);
+        return std::pair(result.error, report["output"]["instancing"]);
+    };
+    const auto [told, gpu] = with("wet.glb", {});
+    EXPECT_EQ(gpu, "gpu");
+    EXPECT_THAT(told, HasSubstr("--instancing none writes one mesh"));
+    const auto [asked, none] = with("wet.glb", {"--instancing", "none"});
+    EXPECT_EQ(none, "none");
+    EXPECT_THAT(asked, Not(HasSubstr("--instancing")));
+    const auto [mesh, nothing] = with("wet.obj", {});
+    EXPECT_TRUE(nothing.is_null());
+    EXPECT_THAT(mesh, Not(HasSubstr("--instancing")));
+}
+
+// A picture of weights need not look like a footprint, for which dew has no --segment.
+TEST_F(DewCommand, TakesAMaskOfAnyLevels)
+{
+    Picture clouds{64, 64, {}};
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            const double level = 128.0 + 60.0 * std::sin(0.31 * x + 0.2 * y) + 60.0 * std::sin(0.23 * y - 0.12 * x);
+            clouds.rgb.insert(clouds.rgb.end(), 3, static_cast<std::uint8_t>(level));
+        }
+    }
+    std::ostringstream png;
+    writePng(clouds, png);
+    testing::writeFile(path("clouds.png"), png.str());
+    const CommandResult result = dew("wet.obj", {"--mask", path("clouds.png"), "--coverage", "0.05"});
+    EXPECT_EQ(result.exit_code, 0) << result.error;
 }
 
 TEST_F(DewCommand, ItsTableStartsAFlow)

@@ -30,6 +30,9 @@ enum class Instancing {
     Gpu,    ///< glTF's EXT_mesh_gpu_instancing, which three.js and Blender from 3.6 on read
 };
 
+/// Name for files: auto, none, nodes, gpu.
+const char* name(Instancing instancing);
+
 /// Triangles of droplets: from 64 of small ones to 352 of large ones in Medium.
 enum class DewDetail {
     Low,     ///< 64, of those over 2.5 mm 208
@@ -80,6 +83,9 @@ public:
 
     /// All droplets for a picture.
     [[nodiscard]] SettledDroplets settled() const;
+
+    /// How a file has the droplets: what Auto stands for, or what was asked for.
+    [[nodiscard]] Instancing instancingIn(const DewFile& file) const;
 
     /// Writes the droplets as glTF or USD, metres, +Y up.
     /// @return         number of bytes written
