@@ -31,6 +31,8 @@ std::string summaryOf(const droplet::WindshieldReport& report)
            fmt::format("water: {} rained = {} on the glass + {} run off + {} wiped off\n", litres(water.rained),
                        litres(water.on_glass_still + water.on_glass_film + water.on_glass_running), litres(water.left),
                        litres(water.wiped)) +
+           fmt::format("on the glass: {} in the film, {} in still droplets, {} in larger ones\n",
+                       litres(water.on_glass_film), litres(water.on_glass_still), litres(water.on_glass_running)) +
            oneLine(report.output) + "\n";
 }
 

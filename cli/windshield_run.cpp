@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "windshield_run.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -58,6 +60,8 @@ private:
     std::function<void()> frame(std::size_t number);
     /// Makes all remaining frames.
     void run(std::ostream* table);
+    /// Warns if most of the water is in no table or animation.
+    void warnOfFilm();
     void finish();
 
     const WindshieldOptions& options_;
@@ -219,6 +223,24 @@ void WindshieldRun::run(std::ostream* table)
         recordBalance();
     }
     report_.counts = state_.counts;
+    warnOfFilm();
+}
+
+void WindshieldRun::warnOfFilm()
+{
+    const droplet::WaterBalance& water = report_.balance.back().balance;
+    const double on_glass = water.on_glass_still + water.on_glass_film + water.on_glass_running;
+    constexpr double kMuch = 0.5;  // a film with less of the water is beside many droplets
+    if (water.on_glass_film <= kMuch * on_glass || (!options_.model && !options_.droplets)) {
+        return;
+    }
+    const std::string lacking = std::string(options_.droplets ? "--droplets" : "") +
+                                (options_.droplets && options_.model ? ", " : "") +
+                                (options_.model ? "--animation" : "");
+    report_.warnings.push_back(fmt::format(
+        "{}: {:.0f} % of the water on the glass is in the film of heavy rain, which is in pictures and --maps alone; "
+        "--runoff 0s leaves it in droplets",
+        lacking, 100.0 * water.on_glass_film / on_glass));
 }
 
 void WindshieldRun::finish()

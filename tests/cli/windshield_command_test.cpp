@@ -23,10 +23,12 @@
 namespace droplet {
 namespace {
 
+using ::testing::AllOf;
 using testing::CommandResult;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using testing::readFile;
 using testing::runDroplet;
 using ::testing::SizeIs;
@@ -625,6 +627,27 @@ TEST_F(WindshieldCommand, ReportsErrorsInOneLine)
     const CommandResult folder = simulate("/proc/nowhere/%d.png");
     EXPECT_EQ(folder.exit_code, 4);
     EXPECT_THAT(folder.errorLines(), SizeIs(1));
+}
+
+// In heavy rain most water is in the film, which tables and animations of droplets do not have.
+TEST_F(WindshieldCommand, TellsWhereTheWaterIs)
+{
+    const auto told = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = argumentsOf(path("rain.png"), {"--rain", "150mm/h", "--warm-up", "6s"});
+        std::erase(arguments, "--quiet");
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const CommandResult result = runDroplet(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.error;
+        return result.error;
+    };
+    EXPECT_THAT(told({}),
+                AllOf(HasSubstr("\non the glass: "), HasSubstr(" mL in the film, "), Not(HasSubstr("warning"))));
+    const std::string words =
+        "% of the water on the glass is in the film of heavy rain, which is in pictures and --maps";
+    EXPECT_THAT(told({"--droplets", path("d.csv")}), AllOf(HasSubstr("warning: --droplets: "), HasSubstr(words)));
+    EXPECT_THAT(told({"--droplets", path("d.csv"), "--animation", path("d.glb")}),
+                HasSubstr("warning: --droplets, --animation: "));
+    EXPECT_THAT(told({"--droplets", path("d.csv"), "--runoff", "0s"}), Not(HasSubstr("warning")));
 }
 
 }  // namespace
