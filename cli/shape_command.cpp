@@ -305,6 +305,10 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
                                                         .width = options.maps->width,
                                                         .is_tile = options.maps->is_tile,
                                                         .ground = made.settings.droplet.solve.ground}));
+        if (auto seam = options.maps->is_tile ? seamWarning(*maps, made.droplet.domain.extent) : std::nullopt) {
+            report.warnings.push_back(*std::move(seam));
+        }
+        report.output.maps = mapPaths(*options.maps);
         report.output.map_thickness = whiteOf(*maps, *options.maps);
         extras.maps = mapFiles(maps, *options.maps, report.output.map_thickness);
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shape_maps.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -8,6 +10,7 @@
 #include <utility>
 
 #include "common_options.h"
+#include "droplet/units.h"
 #include "map_options.h"
 #include "surface_files.h"
 
@@ -93,6 +96,48 @@ std::optional<double> whiteOf(const DropletMaps& maps, const ShapeMapOptions& op
     const double most = std::max<double>(*std::max_element(heights.begin(), heights.end()) - lowestOf(maps),
                                          *std::max_element(thickness.begin(), thickness.end()));
     return most > 0.0 ? most : 1.0;  // the window may be beside the droplets
+}
+
+std::optional<std::string> seamWarning(const DropletMaps& maps, droplet::Vec2 extent)
+{
+    constexpr float kWhole = 0.97F;  // all but half a place of a pixel's 16: a rim that only touches the edge has less
+    const auto width = static_cast<std::size_t>(maps.height.width);
+    const auto height = static_cast<std::size_t>(maps.height.height);
+    double depth = 0.0;
+    // Number of lines that end in a cut droplet.
+    // @param place  index of a pixel of a line, from an end inwards
+    const auto cuts = [&](std::size_t lines, std::size_t pixels, const auto& place) {
+        std::size_t cut = 0;
+        for (std::size_t line = 0; line < lines; ++line) {
+            bool is_cut = false;
+            for (const bool from_end : {false, true}) {
+                const auto at = [&](std::size_t k) { return place(line, from_end ? pixels - 1 - k : k); };
+                if (maps.wetness.values[at(0)] < kWhole) {
+                    continue;
+                }
+                is_cut = true;
+                std::size_t top = 0;
+                while (top + 1 < pixels && maps.height.values[at(top + 1)] > maps.height.values[at(top)]) {
+                    ++top;
+                }
+                depth = std::max(depth, double{maps.height.values[at(top)]} - maps.height.values[at(0)]);
+            }
+            cut += is_cut ? 1 : 0;
+        }
+        return static_cast<double>(cut);
+    };
+    const double rows = cuts(height, width, [&](std::size_t row, std::size_t k) { return row * width + k; });
+    const double columns = cuts(width, height, [&](std::size_t column, std::size_t k) { return k * width + column; });
+    const double length =
+        rows * extent.y / static_cast<double>(height) + columns * extent.x / static_cast<double>(width);
+    if (length == 0.0) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "--map-tile: the picture's edge cuts droplets along {:.3g} mm, where they fall by up to {:.3g} mm: tiles show "
+        "a "
+        "seam there; keep liquid away from the edge, or draw the picture so that it ends between droplets",
+        length / droplet::kMillimetre, depth / droplet::kMillimetre);
 }
 
 std::vector<OutputFile> mapFiles(const std::shared_ptr<const DropletMaps>& maps, const ShapeMapOptions& options,

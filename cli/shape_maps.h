@@ -40,6 +40,11 @@ std::vector<std::string> mapPaths(const ShapeMapOptions& options);
 /// Thickness that is white in PNGs of maps, and height above the lowest place [m]; nothing for OpenEXR.
 std::optional<double> whiteOf(const droplet::DropletMaps& maps, const ShapeMapOptions& options);
 
+/// Warning about droplets that the edge of a tile cuts: they fall to the ground there, and the tiles show a seam.
+/// Nothing if there are none.
+/// @param extent  of the picture [m]
+std::optional<std::string> seamWarning(const droplet::DropletMaps& maps, droplet::Vec2 extent);
+
 /// Files of maps.
 /// @param white  whiteOf()
 std::vector<OutputFile> mapFiles(const std::shared_ptr<const droplet::DropletMaps>& maps,

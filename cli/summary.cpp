@@ -227,6 +227,16 @@ std::string compression(const droplet::OutputReport& output)
                        digits(output.compression_error->normal / droplet::kDegree, 2));
 }
 
+/// Files of the maps, and the scale of PNGs.
+std::string maps(const droplet::OutputReport& output)
+{
+    std::string text;
+    for (const std::string& path : output.maps) {
+        text += (text.empty() ? "" : ", ") + oneLine(path);
+    }
+    return text + (output.map_thickness ? "; white is " + millimetres(*output.map_thickness) + " of liquid" : "");
+}
+
 std::string details(const Report& report)
 {
     const auto& liquid = report.physics.liquid;
@@ -299,6 +309,9 @@ std::string summary(const Report& report, bool with_details)
     text +=
         line("written", oneLine(report.output.path) + ": " + bytes(report.output.bytes) + ", " + faces(report.output) +
                             ", " + (report.output.topology.closed ? "closed" : "open") + compression(report.output));
+    if (!report.output.maps.empty()) {
+        text += line("maps", maps(report.output));
+    }
     return text;
 }
 

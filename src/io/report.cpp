@@ -221,6 +221,7 @@ Json outputSection(const OutputReport& output)
             {"triangles", output.triangles},
             {"quads", output.quads},
             {"base_m", orNull(output.base)},
+            {"maps", output.maps},
             {"map_thickness_m", orNull(output.map_thickness)},
             {"levels", levelsSection(output.levels)},
             {"closed", output.topology.closed},

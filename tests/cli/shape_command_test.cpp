@@ -329,6 +329,12 @@ TEST_F(ShapeCommandTest, MapsShowTheDroplet)
     EXPECT_EQ(with({"m.png", "--map-thickness", "5mm"})["output"]["map_thickness_m"], 5e-3);
     EXPECT_NEAR(sum("m-thickness.png") * 5e-3, 100e-9, 0.1e-9);
 
+    EXPECT_THAT(with({"m.png"})["output"]["maps"], SizeIs(6));
+    EXPECT_TRUE(report({"disc.pgm", "a.glb"})["output"]["maps"].empty());
+    EXPECT_THAT(run({"disc.pgm", "a.glb", "--triangles", "2k", "--map-width", "64", "--maps", "n.png"}).error,
+                HasSubstr("maps       n-height.png, n-normal.png, n-thickness.png, n-coverage.png, n-wetness.png, "
+                          "n-occlusion.png; white is "));
+
     // OpenEXR has metres, whatever is white.
     EXPECT_TRUE(with({"m.exr"})["output"]["map_thickness_m"].is_null());
     EXPECT_NEAR(sum("m-thickness.exr"), 100e-9, 0.1e-9);
@@ -344,6 +350,23 @@ TEST_F(ShapeCommandTest, MapsShowTheDroplet)
     const json on_ball = with({"b.png", "--surface", "sphere:R=2cm"});
     EXPECT_GT(on_ball["output"]["map_thickness_m"].get<double>(), 1.5 * white);
     EXPECT_GT(sum("b-height.png"), 0.3 * 300 * 300 * pixel * pixel);
+
+    // Discs at both edges meet in the tile, but each falls to the ground at its own edge: a groove as deep as they are.
+    writeFile(directory() / "cut.pgm", greymap(64, 64, [](int x, int y) {
+                  return std::hypot(std::min(x + 0.5, 63.5 - x), y - 31.5) < 20.0 ? 255 : 0;
+              }));
+    const json cut = with({"t.exr", "--map-tile"});
+    EXPECT_THAT(cut["warnings"], IsEmpty()) << "the disc does not reach the edge";
+    const json seam =
+        report({"cut.pgm", "a.glb", "--width", "64mm", "--map-width", "256", "--maps", "t.exr", "--map-tile"});
+    ASSERT_THAT(seam["warnings"], SizeIs(1));
+    const std::string words = seam["warnings"][0];
+    const std::string along = "cuts droplets along ";
+    ASSERT_THAT(words, HasSubstr(along));
+    EXPECT_NEAR(std::stod(words.substr(words.find(along) + along.size())), 40.0, 0.5);
+    const std::string fall = "fall by up to ";
+    EXPECT_NEAR(std::stod(words.substr(words.find(fall) + fall.size())),
+                1e3 * seam["shape"]["height_max_m"].get<double>(), 0.2);
 
     // A tile is the window itself if nothing leans out of it.
     const std::string height = bytesOf("m-height.exr");

@@ -85,6 +85,7 @@ struct OutputReport {
     std::vector<LevelReport> levels = {};                    ///< but the first, which is the surface
     std::optional<double> base = {};                         ///< thickness of the plate below all droplets [m]
     std::optional<double> map_thickness = {};                ///< that is white in PNGs of maps [m]
+    std::vector<std::string> maps = {};                      ///< paths
 };
 
 /// Kind of ground.
