@@ -94,6 +94,15 @@ bool isOutput(const std::string& name)
            extension == ".html";
 }
 
+constexpr const char* kEndless = "it is a pipe, socket or device, not a file";
+
+/// Whether reading a path may wait for ever, for somebody who writes into it.
+bool isEndless(const fs::path& path)
+{
+    std::error_code ignored;
+    return fs::is_other(path, ignored);
+}
+
 /// Adds the pictures of a folder in alphabetical order, then those of its subfolders. Hidden files and outputs are
 /// ignored.
 void addFolder(const fs::path& folder, const fs::path& below, bool recursive, Inputs& inputs)
@@ -111,6 +120,8 @@ void addFolder(const fs::path& folder, const fs::path& below, bool recursive, In
                 if (recursive && !entry.is_symlink()) {
                     folders.push_back(name);
                 }
+            } else if (isEndless(entry.path())) {
+                inputs.left_out.push_back({entry.path().generic_string(), kEndless});
             } else if (isPicture(name.string())) {
                 files.push_back(name);
             } else if (!isOutput(name.string())) {
@@ -144,6 +155,9 @@ Inputs readInputs(const CommandLine& line)
     for (const Given& given : line.values("INPUT")) {
         if (given.text.empty() || isStream(given.text)) {
             refuse(given, "a picture's file or a folder");
+        }
+        if (isEndless(given.text)) {
+            refuse(given, "a picture's file or a folder; " + std::string(kEndless));
         }
         std::error_code ignored;
         if (!fs::is_directory(given.text, ignored)) {
