@@ -124,7 +124,7 @@ Dew placeDew(const DewCommandOptions& options, const droplet::Progress& progress
     droplet::DewOptions dew = options.dew;
     std::optional<droplet::Mask> mask;
     if (options.mask) {
-        mask = droplet::readMask(*options.mask);
+        mask = droplet::readMask(*options.mask, {.accept_any = true});
         dew.weight = forOption("--mask", [&] { return droplet::coverageOver(*mask, object, terrain.surface()); });
     }
     if (options.reading.weights) {

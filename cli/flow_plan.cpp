@@ -60,7 +60,7 @@ std::vector<droplet::FlowStart> startsOf(const FlowOptions& options, const FlowP
         scatter.seed = plan.parameters.seed;
         std::optional<droplet::Mask> mask;
         if (options.mask) {
-            mask = droplet::readMask(*options.mask);
+            mask = droplet::readMask(*options.mask, {.accept_any = true});
             scatter.coverage = forOption(
                 "--mask", [&] { return droplet::coverageOver(*mask, plan.object, plan.terrain().surface()); });
         }
