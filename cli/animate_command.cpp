@@ -29,6 +29,7 @@
 #include "html_page.h"
 #include "mask_shape.h"
 #include "progress_display.h"
+#include "run_command.h"
 #include "shape_command.h"
 #include "stage_clock.h"
 #include "surface_files.h"
@@ -658,8 +659,8 @@ int runAnimate(int argc, const char* const* argv)
     for (const std::string& file : frames.files()) {
         files.reads("INPUT", file);
     }
-    return runFilm(options.run, files,
-                   [&](ProgressDisplay& progress) { return makeAnimation(options, frames, progress); });
+    return checkAndRun(options.run, files,
+                       [&](ProgressDisplay& progress) { return makeAnimation(options, frames, progress); });
 }
 
 }  // namespace cli

@@ -15,6 +15,7 @@
 #include "droplet/error.h"
 #include "droplet/image/picture_format.h"
 #include "files.h"
+#include "library_message.h"
 #include "option_values.h"
 #include "output_pattern.h"
 #include "shape_command.h"
@@ -283,7 +284,7 @@ int runBatch(int argc, const char* const* argv)
         items.push_back(std::move(item));
     }
     checkItems(items, options);
-    around = readSurroundings(shared.settings);
+    inTermsOf(shared.run.terms, read, [&] { around = readSurroundings(shared.settings); });
     settings = settingsFingerprint(shared, options);
     return makeAll(items, options);
 }

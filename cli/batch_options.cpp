@@ -111,6 +111,7 @@ BatchOptions readBatch(const CommandLine& line, const RunOptions& run, const std
     options.decisive = decisiveOptions(line);
     options.files = run.files;
     options.threads = run.threads;
+    options.terms = run.terms;
     options.verbosity = run.verbosity;
     options.progress = run.progress;
     return options;

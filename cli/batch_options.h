@@ -29,6 +29,7 @@ struct BatchOptions {
     std::string manifest;  ///< path
     /// Given options that can change the output's bytes: names without dashes, and values.
     std::vector<std::pair<std::string, std::string>> decisive;
+    CommandTerms terms;           ///< for messages
     std::vector<NamedFile> read;  ///< files beside the items' inputs
     droplet::OutputOptions files;
     std::vector<BatchLeftOut> left_out;  ///< listed in the manifest

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "library_message.h"
 #include "shape_command.h"
 #include "terminal.h"
 
@@ -36,7 +37,7 @@ void BatchProgress::reportItem(const BatchItem& item, const ManifestRow& row)
     ++reported_;
     for (std::size_t i = 0; row.file && i < row.file->figures.severe_warnings; ++i) {
         eraseBar();
-        printWarning(item.name + ": " + row.file->figures.warnings[i], options_.progress);
+        printWarning(withOptions(item.name + ": " + row.file->figures.warnings[i], options_.terms), options_.progress);
     }
     if (options_.progress == ProgressMode::Json) {
         std::cerr << Json{{"item", reported_},

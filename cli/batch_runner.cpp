@@ -248,9 +248,10 @@ private:
             row.file = std::move(file);
             row.status = ItemStatus::Made;
         } catch (const Error& error) {
-            fail(withOptions(error.what()), exitCodeOf(error.code()));
+            fail(withOptionOfFile(withOptions(error.what(), options_.terms), {options_.read, {}}),
+                 exitCodeOf(error.code()));
         } catch (const std::bad_alloc&) {
-            fail("out of memory; use fewer --triangles, a smaller picture or fewer --threads", ExitCode::InternalError);
+            fail("out of memory; use fewer triangles, a smaller picture or fewer threads", ExitCode::InternalError);
         } catch (const std::exception& error) {
             fail(std::string("internal error: ") + error.what(), ExitCode::InternalError);
         } catch (...) {

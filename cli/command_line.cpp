@@ -304,6 +304,20 @@ public:
         return all;
     }
 
+    [[nodiscard]] CommandTerms terms() const
+    {
+        CommandTerms terms;
+        for (const CLI::Option* option : app_.get_options()) {
+            if (!option->get_positional()) {
+                terms.options.push_back(nameOf(option));
+            }
+        }
+        for (const auto& [name, value] : given()) {
+            terms.given.push_back(name);
+        }
+        return terms;
+    }
+
     /// `text`, `json`, or nothing without --help.
     [[nodiscard]] std::string helpForm() const
     {
@@ -674,6 +688,11 @@ std::string CommandLine::argument(const std::string& name) const
 std::vector<std::pair<std::string, std::string>> CommandLine::given() const
 {
     return parser_->given();
+}
+
+CommandTerms CommandLine::terms() const
+{
+    return parser_->terms();
 }
 
 std::string CommandLine::help() const

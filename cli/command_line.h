@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "command_terms.h"
 #include "option_target.h"
 #include "option_values.h"
 
@@ -85,6 +86,8 @@ public:
     [[nodiscard]] std::string argument(const std::string& name) const;
     /// Given options and their values, in the order of declaration, without arguments. The value of a flag is `true`.
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> given() const;
+    /// Options for messages.
+    [[nodiscard]] CommandTerms terms() const;
     /// Text that --help prints.
     [[nodiscard]] std::string help() const;
     /// The same for programs, as JSON, schema `droplet-shape.help/1`: names, kinds of values, units, words, defaults.

@@ -82,10 +82,10 @@ int runGuarded(int argc, const char* const* argv, std::span<const Command> comma
     } catch (const droplet::Error& error) {
         return fail(error.what(), exitCodeOf(error.code()));
     } catch (const std::bad_alloc&) {
-        return fail("out of memory; use fewer --triangles or a smaller picture", ExitCode::InternalError);
+        return fail("out of memory; use fewer triangles or droplets, or smaller pictures", ExitCode::InternalError);
     } catch (const std::exception& error) {
         if (isThreadShortage(error)) {
-            return fail("out of threads or memory: no further thread can be started; use fewer --threads",
+            return fail("out of threads or memory: no further thread can be started; use fewer threads (--threads)",
                         ExitCode::InternalError);
         }
         return fail(std::string("internal error: ") + error.what(), ExitCode::InternalError);

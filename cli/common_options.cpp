@@ -77,6 +77,7 @@ RunOptions readRun(const CommandLine& line)
 {
     const auto flag = [&](const char* name) { return line.knows(name) && line.flag(name); };
     RunOptions options;
+    options.terms = line.terms();
     if (const auto config = line.value("--config")) {
         options.config = config->text;
     }

@@ -29,6 +29,7 @@ struct RunOptions {
     std::optional<std::size_t> threads;
     Verbosity verbosity = Verbosity::Normal;
     ProgressMode progress = ProgressMode::Auto;
+    CommandTerms terms;  ///< for messages
 
     /// Progress to show: none of a quiet run that does not ask for it.
     [[nodiscard]] ProgressMode shownProgress() const;

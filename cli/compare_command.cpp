@@ -25,6 +25,7 @@
 #include "droplet/render/render.h"
 #include "droplet/units.h"
 #include "files.h"
+#include "library_message.h"
 #include "option_values.h"
 #include "run_files.h"
 #include "terminal.h"
@@ -220,25 +221,10 @@ droplet::Surface placedOnGround(droplet::Surface surface)
     return surface;
 }
 
-}  // namespace
-
-int runCompare(int argc, const char* const* argv)
+/// Compares two files, and writes and prints the result.
+/// @return  exit code
+int compareFiles(const Options& options)
 {
-    CommandLine line(commandText());
-    declare(line);
-    line.parse(argc, argv);
-    if (const auto text = requestedText(line)) {
-        print(*text);
-        return 0;
-    }
-    const Options options = readOptions(line);
-    RunFiles run;
-    run.reads("A", options.path_a);
-    run.reads("B", options.path_b);
-    run.reads("--config", options.config);
-    run.writes("--json", options.json);
-    run.writes("--picture", options.picture);
-    checkFiles(run, options.files);
     std::optional<tbb::global_control> limit;
     if (options.threads) {
         limit.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);
@@ -286,6 +272,30 @@ int runCompare(int argc, const char* const* argv)
         return 1;
     }
     return 0;
+}
+
+}  // namespace
+
+int runCompare(int argc, const char* const* argv)
+{
+    CommandLine line(commandText());
+    declare(line);
+    line.parse(argc, argv);
+    if (const auto text = requestedText(line)) {
+        print(*text);
+        return 0;
+    }
+    const Options options = readOptions(line);
+    RunFiles run;
+    run.reads("A", options.path_a);
+    run.reads("B", options.path_b);
+    run.reads("--config", options.config);
+    run.writes("--json", options.json);
+    run.writes("--picture", options.picture);
+    checkFiles(run, options.files);
+    int code = 0;
+    inTermsOf(line.terms(), run, [&] { code = compareFiles(options); });
+    return code;
 }
 
 }  // namespace cli

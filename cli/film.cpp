@@ -96,11 +96,4 @@ void Film::settle()
     }
 }
 
-int runFilm(const RunOptions& run, const RunFiles& files, const std::function<RunEnd(ProgressDisplay&)>& make)
-{
-    checkFiles(files, run.files);
-    runAndTell(run, make);
-    return 0;
-}
-
 }  // namespace cli

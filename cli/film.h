@@ -91,10 +91,4 @@ private:
     tbb::task_group saving_;
 };
 
-/// Checks the files of a run, makes it with the threads and the progress that its options ask for, and prints how it
-/// ended.
-/// @return                exit code
-/// @throws droplet::Error whatever `make` throws
-int runFilm(const RunOptions& run, const RunFiles& files, const std::function<RunEnd(ProgressDisplay&)>& make);
-
 }  // namespace cli

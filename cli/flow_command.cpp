@@ -7,10 +7,10 @@
 #include <variant>
 
 #include "files.h"
-#include "film.h"
 #include "flow_files.h"
 #include "flow_options.h"
 #include "flow_run.h"
+#include "run_command.h"
 #include "terminal.h"
 
 namespace cli {
@@ -43,7 +43,7 @@ int runFlow(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<FlowOptions>(parsed);
-    return runFilm(options.run, filesOf(options), [&](ProgressDisplay& progress) {
+    return checkAndRun(options.run, filesOf(options), [&](ProgressDisplay& progress) {
         const droplet::FlowReport report = simulateFlow(options, progress);
         return RunEnd{summaryOf(report), report.warnings};
     });

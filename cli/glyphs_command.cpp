@@ -172,7 +172,9 @@ DrawnColours drawnColours(droplet::ColourLayout layout, droplet::TypeReport type
 double emOnObject(const droplet::TexturedMesh& object, const Font& font, const GlyphsOptions& options)
 {
     const droplet::Vec2 extent = droplet::layOutText(font, *options.text, options.type).outline.extent;
-    const double width = droplet::metresPerUv(object) * std::sqrt(extent.x / extent.y);
+    const double per_uv =
+        forOption("--onto " + *options.shape.settings.onto, [&] { return droplet::metresPerUv(object); });
+    const double width = per_uv * std::sqrt(extent.x / extent.y);
     return options.type.glyph.em * width / extent.x;
 }
 
@@ -189,7 +191,7 @@ void requireInk(bool has_ink, const std::vector<char32_t>& missing, const Glyphs
 int makeText(const Font& font, GlyphsOptions options)
 {
     requireColourLayers(font, options);
-    makeAndReport(options.shape.run, [&](const droplet::Progress& progress) {
+    makeAndReport(options.shape.run, filesOf(options.shape, "--font"), [&](const droplet::Progress& progress) {
         progress(droplet::Stage::Read, 0.0);
         const Surroundings around = readSurroundings(options.shape.settings, options.shape.preview);
         if (around.object && !options.sized) {

@@ -7,9 +7,9 @@
 #include <variant>
 
 #include "files.h"
-#include "film.h"
 #include "liquid2d_options.h"
 #include "liquid2d_run.h"
+#include "run_command.h"
 #include "terminal.h"
 
 namespace cli {
@@ -38,7 +38,7 @@ int runLiquid2d(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<Liquid2dOptions>(parsed);
-    return runFilm(options.run, filesOf(options), [&](ProgressDisplay& progress) {
+    return checkAndRun(options.run, filesOf(options), [&](ProgressDisplay& progress) {
         return RunEnd{summaryOf(drawLiquid2d(options, progress))};  // warnings were printed at once
     });
 }

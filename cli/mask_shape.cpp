@@ -67,8 +67,9 @@ DropletSettings completeSettings(const droplet::Mask& mask, const Surroundings& 
     droplet::TraceOptions& trace = settings.droplet.trace;
     trace = options.footprint.trace;
     if (around.object && !options.footprint.sized) {
-        trace.width =
-            droplet::metresPerUv(around.object->mesh) * std::sqrt(static_cast<double>(mask.width) / mask.height);
+        const double per_uv =
+            forOption("--onto " + *settings.onto, [&] { return droplet::metresPerUv(around.object->mesh); });
+        trace.width = per_uv * std::sqrt(static_cast<double>(mask.width) / mask.height);
     } else if (takesOwnSize(mask, settings, options.footprint)) {
         trace.width = *mask.physical_width;
         if (!(trace.width >= kLength.min && trace.width <= kLength.max)) {

@@ -26,6 +26,7 @@
 #include "frames.h"
 #include "morph_options.h"
 #include "progress_display.h"
+#include "run_command.h"
 #include "video_writer.h"
 
 namespace cli {
@@ -305,8 +306,8 @@ int runMorph(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<MorphCommandOptions>(parsed);
-    return runFilm(options.animation.run, filesOf(options),
-                   [&](ProgressDisplay& progress) { return Morph(options, progress).make(); });
+    return checkAndRun(options.animation.run, filesOf(options),
+                       [&](ProgressDisplay& progress) { return Morph(options, progress).make(); });
 }
 
 }  // namespace cli

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "library_message.h"
 #include "shape_command.h"
 #include "terminal.h"
 
@@ -26,7 +27,7 @@ std::string rounded(double value, int decimals)
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay(ProgressMode mode) : mode_(mode)
+ProgressDisplay::ProgressDisplay(ProgressMode mode, CommandTerms terms) : mode_(mode), terms_(std::move(terms))
 {
     if (mode_ == ProgressMode::Auto && errorIsTerminal()) {
         try {
@@ -104,7 +105,7 @@ void ProgressDisplay::warn(const std::string& warning)
     if (is_drawn_) {
         std::cerr << kEraseLine;
     }
-    printWarning(warning, mode_);
+    printWarning(withOptions(warning, terms_), mode_);
 }
 
 void ProgressDisplay::finish()

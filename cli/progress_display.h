@@ -17,7 +17,8 @@ namespace cli {
 /// Progress of a run on standard error. While it exists, nothing else may write there.
 class ProgressDisplay {
 public:
-    explicit ProgressDisplay(ProgressMode mode);
+    /// @param terms  of the command, for warnings
+    explicit ProgressDisplay(ProgressMode mode, CommandTerms terms = {});
     /// Erases the bar.
     ~ProgressDisplay();
 
@@ -55,6 +56,7 @@ private:
     void stop();
 
     ProgressMode mode_;
+    CommandTerms terms_;
     Clock::time_point start_ = Clock::now();
     std::mutex mutex_;
     std::condition_variable stopping_;

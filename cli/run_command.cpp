@@ -6,18 +6,20 @@
 #include <iostream>
 #include <optional>
 
+#include "library_message.h"
 #include "shape_command.h"
 
 namespace cli {
 
-void runAndTell(const RunOptions& run, const std::function<RunEnd(ProgressDisplay&)>& make)
+void runAndTell(const RunOptions& run, const RunFiles& files, const std::function<RunEnd(ProgressDisplay&)>& make)
 {
     std::optional<tbb::global_control> threads;
     if (run.threads) {
         threads.emplace(tbb::global_control::max_allowed_parallelism, *run.threads);
     }
-    ProgressDisplay progress(run.shownProgress());
-    const RunEnd end = make(progress);
+    ProgressDisplay progress(run.shownProgress(), run.terms);
+    RunEnd end;
+    inTermsOf(run.terms, files, [&] { end = make(progress); });
     progress.finish();
     const bool is_quiet = run.verbosity == Verbosity::Quiet;
     if (!is_quiet && run.progress != ProgressMode::Json) {
@@ -25,8 +27,15 @@ void runAndTell(const RunOptions& run, const std::function<RunEnd(ProgressDispla
     }
     const std::size_t printed = is_quiet ? end.severe_warnings : end.warnings.size();
     for (std::size_t i = 0; i < printed; ++i) {
-        printWarning(end.warnings[i], run.progress);
+        printWarning(withOptions(end.warnings[i], run.terms), run.progress);
     }
+}
+
+int checkAndRun(const RunOptions& run, const RunFiles& files, const std::function<RunEnd(ProgressDisplay&)>& make)
+{
+    checkFiles(files, run.files);
+    runAndTell(run, files, make);
+    return 0;
 }
 
 }  // namespace cli

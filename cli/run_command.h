@@ -8,6 +8,7 @@
 
 #include "common_options.h"
 #include "progress_display.h"
+#include "run_files.h"
 
 namespace cli {
 
@@ -18,8 +19,15 @@ struct RunEnd {
     std::size_t severe_warnings = 0;  ///< number of the first ones, which --quiet prints, too
 };
 
-/// Makes a run with the threads and the progress that its options ask for, and prints how it ended.
+/// Makes a run with the threads and the progress that its options ask for, and prints how it ended. Messages of the
+/// library get the command's options.
+/// @param files           of the run
 /// @throws droplet::Error whatever `make` throws
-void runAndTell(const RunOptions& run, const std::function<RunEnd(ProgressDisplay&)>& make);
+void runAndTell(const RunOptions& run, const RunFiles& files, const std::function<RunEnd(ProgressDisplay&)>& make);
+
+/// Checks the files of a run, and makes it as runAndTell() does.
+/// @return                exit code
+/// @throws droplet::Error whatever `make` throws
+int checkAndRun(const RunOptions& run, const RunFiles& files, const std::function<RunEnd(ProgressDisplay&)>& make);
 
 }  // namespace cli

@@ -14,6 +14,7 @@
 #include "droplet/io/object.h"
 #include "file_node.h"
 #include "files.h"
+#include "library_message.h"
 #include "option_values.h"
 #include "path_separators.h"
 
@@ -241,24 +242,27 @@ void refuseClashes(const RunFiles& files)
 void checkFiles(const RunFiles& files, const droplet::OutputOptions& options)
 {
     refuseClashes(files);
-    if (options.no_clobber) {
-        refuseReplacing(files);
-    }
-    // Folders are made after all that could refuse the run in them, and before files beside their frames are checked.
-    for (const NamedFile& output : files.written) {
-        if (output.pattern) {
-            makeFolderOf(output.pattern->at(output.numbers.first));
-        } else if (output.makes_folder) {
-            makeFolderOf(output.path);
+    inTermsOf({}, files, [&] {
+        if (options.no_clobber) {
+            refuseReplacing(files);
         }
-    }
-    for (const NamedFile& output : files.written) {
-        if (output.pattern) {
-            droplet::checkWritable(output.pattern->at(output.numbers.first), options);
-        } else if (!isStream(output.path)) {
-            droplet::checkWritable(output.path, options);
+        // Folders are made after all that could refuse the run in them, and before files beside their frames are
+        // checked.
+        for (const NamedFile& output : files.written) {
+            if (output.pattern) {
+                makeFolderOf(output.pattern->at(output.numbers.first));
+            } else if (output.makes_folder) {
+                makeFolderOf(output.path);
+            }
         }
-    }
+        for (const NamedFile& output : files.written) {
+            if (output.pattern) {
+                droplet::checkWritable(output.pattern->at(output.numbers.first), options);
+            } else if (!isStream(output.path)) {
+                droplet::checkWritable(output.path, options);
+            }
+        }
+    });
 }
 
 }  // namespace cli

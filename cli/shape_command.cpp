@@ -14,6 +14,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,7 +34,6 @@
 #include "file_droplets.h"
 #include "files.h"
 #include "html_page.h"
-#include "library_message.h"
 #include "mask_shape.h"
 #include "picture_watch.h"
 #include "progress_display.h"
@@ -61,7 +61,8 @@ auto forInput(const ShapeOptions& options, Function function)
     try {
         return function();
     } catch (const Error& error) {
-        if (error.code() != ErrorCode::InvalidInput) {
+        // Of other files than the picture, messages begin with the option.
+        if (error.code() != ErrorCode::InvalidInput || std::string_view(error.what()).starts_with("--")) {
             throw;
         }
         throw Error(error.code(), (isStream(options.input) ? "standard input" : options.input) + ": " + error.what());
@@ -572,19 +573,19 @@ void checkShape(const ShapeOptions& options, const std::string& input_name)
 
 void printWarning(const std::string& warning, ProgressMode progress)
 {
-    const std::string text = withOptions(warning);
     if (progress == ProgressMode::Json) {
-        std::cerr << nlohmann::json{{"warning", text}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+        std::cerr << nlohmann::json{{"warning", warning}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
                   << "\n"
                   << std::flush;
         return;
     }
-    std::cerr << paint("warning: ", Colour::Yellow) << oneLine(text) << "\n" << std::flush;
+    std::cerr << paint("warning: ", Colour::Yellow) << oneLine(warning) << "\n" << std::flush;
 }
 
-void makeAndReport(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make)
+void makeAndReport(const RunOptions& run, const RunFiles& files,
+                   const std::function<droplet::Report(const droplet::Progress&)>& make)
 {
-    runAndTell(run, [&](ProgressDisplay& progress) {
+    runAndTell(run, files, [&](ProgressDisplay& progress) {
         const droplet::Report report = make([&](Stage stage, double share) { progress.begin(stage, share); });
         return RunEnd{summary(report, run.verbosity == Verbosity::Verbose), report.warnings, report.severe_warnings};
     });
@@ -600,7 +601,8 @@ int runShape(int argc, const char* const* argv)
     const auto& options = std::get<ShapeOptions>(parsed);
     checkShape(options, "INPUT");
     const auto make = [&] {
-        makeAndReport(options.run, [&](const droplet::Progress& progress) { return makeShape(options, progress); });
+        makeAndReport(options.run, filesOf(options, "INPUT"),
+                      [&](const droplet::Progress& progress) { return makeShape(options, progress); });
     };
     if (options.watch) {
         makeWheneverSaved(options.input, make);

@@ -108,7 +108,8 @@ void printWarning(const std::string& warning, ProgressMode progress);
 
 /// Makes one droplet with the given number of threads, and shows progress, summary and warnings.
 /// @param make  makes the droplet, and calls its argument at every stage
-void makeAndReport(const RunOptions& run, const std::function<droplet::Report(const droplet::Progress&)>& make);
+void makeAndReport(const RunOptions& run, const RunFiles& files,
+                   const std::function<droplet::Report(const droplet::Progress&)>& make);
 
 /// Runs `droplet-shape` without a command: a picture in, a droplet out.
 /// @return                exit code

@@ -5,7 +5,6 @@
 #include <iostream>
 
 #include "droplet/printable.h"
-#include "library_message.h"
 
 namespace cli {
 namespace {
@@ -36,8 +35,7 @@ std::string oneLine(std::string_view text)
 void printError(std::string_view message)
 {
     // In one piece, as another thread may end the process meanwhile.
-    std::cerr << paint("droplet-shape: ", Colour::Red) + oneLine(withOptions(std::string(message))) + "\n"
-              << std::flush;
+    std::cerr << paint("droplet-shape: ", Colour::Red) + oneLine(message) + "\n" << std::flush;
 }
 
 }  // namespace cli

@@ -19,6 +19,7 @@
 #include "droplet/wind_io/chart.h"
 #include "droplet/wind_io/tunnel_report.h"
 #include "files.h"
+#include "library_message.h"
 #include "run_files.h"
 #include "wind_tunnel_options.h"
 
@@ -155,22 +156,9 @@ OutputFile fileOf(const TunnelOutput& output, const WindTunnelOptions& options)
     return with([&options](std::ostream& out) { writeTraceJson(out, traced(options)); });
 }
 
-}  // namespace
-
-int runWindTunnel(int argc, const char* const* argv)
+/// Computes all runs, writes the files and prints a summary.
+void computeRuns(WindTunnelOptions& options)
 {
-    auto parsed = parseWindTunnel(argc, argv);
-    if (const auto* text = std::get_if<std::string>(&parsed)) {
-        print(*text);
-        return 0;
-    }
-    auto& options = std::get<WindTunnelOptions>(parsed);
-    RunFiles run_files;
-    run_files.reads("--config", options.config);
-    for (const TunnelOutput& output : options.outputs) {
-        run_files.writes(output.name, output.path);
-    }
-    checkFiles(run_files, options.files);
     std::optional<tbb::global_control> limit;
     if (options.threads) {
         limit.emplace(tbb::global_control::max_allowed_parallelism, *options.threads);
@@ -187,13 +175,32 @@ int runWindTunnel(int argc, const char* const* argv)
         writeTogether(files, options.files);
     }
     if (options.quiet) {
-        return 0;
+        return;
     }
     if (files.empty()) {
         print(summary(options.runs));  // the summary is the only output
     } else {
         std::cerr << summary(options.runs);
     }
+}
+
+}  // namespace
+
+int runWindTunnel(int argc, const char* const* argv)
+{
+    auto parsed = parseWindTunnel(argc, argv);
+    if (const auto* text = std::get_if<std::string>(&parsed)) {
+        print(*text);
+        return 0;
+    }
+    auto& options = std::get<WindTunnelOptions>(parsed);
+    RunFiles run_files;
+    run_files.reads("--config", options.config);
+    for (const TunnelOutput& output : options.outputs) {
+        run_files.writes(output.name, output.path);
+    }
+    checkFiles(run_files, options.files);
+    inTermsOf(options.terms, run_files, [&] { computeRuns(options); });
     return 0;
 }
 

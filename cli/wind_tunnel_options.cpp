@@ -326,6 +326,7 @@ std::variant<WindTunnelOptions, std::string> parseWindTunnel(int argc, const cha
     }
     options.threads = readThreads(line);
     options.quiet = line.flag("--quiet");
+    options.terms = line.terms();
     check(options);
     return options;
 }

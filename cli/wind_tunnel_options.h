@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "command_terms.h"
 #include "droplet/io/output.h"
 #include "droplet/wind/trace.h"
 #include "droplet/wind_io/tunnel_report.h"
@@ -31,6 +32,7 @@ struct WindTunnelOptions {
     std::optional<std::size_t> threads;
     droplet::OutputOptions files;
     bool quiet = false;
+    CommandTerms terms;  ///< for messages
 };
 
 /// Reads the command line; returns the options, or the text that --help or --version prints.

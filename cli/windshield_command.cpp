@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "files.h"
-#include "film.h"
+#include "run_command.h"
 #include "terminal.h"
 #include "windshield_files.h"
 #include "windshield_live.h"
@@ -47,9 +47,9 @@ int runWindshield(int argc, const char* const* argv)
     }
     const auto& options = std::get<WindshieldOptions>(parsed);
     if (options.live) {
-        return runFilm(options.run, filesOfLive(options), [&](ProgressDisplay&) { return writeLive(options); });
+        return checkAndRun(options.run, filesOfLive(options), [&](ProgressDisplay&) { return writeLive(options); });
     }
-    return runFilm(options.run, filesOf(options), [&](ProgressDisplay& progress) {
+    return checkAndRun(options.run, filesOf(options), [&](ProgressDisplay& progress) {
         const droplet::WindshieldReport report = simulateWindshield(options, progress);
         return RunEnd{summaryOf(report), report.warnings};
     });

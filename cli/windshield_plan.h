@@ -27,19 +27,18 @@ std::optional<std::size_t> frameCount(const WindshieldOptions& options);
 /// @throws droplet::Error InvalidArgument, InvalidInput
 WindshieldPlan planOf(const WindshieldOptions& options);
 
-/// Runs a function that may reject the glass, and puts the name of its file or options before the error message.
+/// Runs a function that may reject the glass, and puts the name of its file before the error message.
 template <typename Function>
 void forGlass(const WindshieldOptions& options, const Function& function)
 {
     try {
         function();
     } catch (const droplet::Error& error) {
-        if (options.surface) {
-            throw droplet::Error(droplet::ErrorCode::InvalidInput,
-                                 *options.surface + ": cannot be used as a windshield: " + error.what());
+        if (!options.surface) {
+            throw;
         }
-        throw droplet::Error(error.code(),
-                             std::string("--glass-width, --eye-distance, --eye, --look-at: ") + error.what());
+        throw droplet::Error(droplet::ErrorCode::InvalidInput,
+                             *options.surface + ": cannot be used as a windshield: " + error.what());
     }
 }
 

@@ -238,7 +238,11 @@ std::string countWarning(const Droplet& droplet, const TriangulateOptions& mesh,
     if (mesh.edge || is_near) {
         return {};
     }
-    const std::string counts = countText(triangles) + " triangles, not the " + countText(mesh.triangles) + " asked for";
+    // A number that nobody changed was not asked for.
+    const std::string wanted = countText(mesh.triangles);
+    const std::string counts =
+        countText(triangles) + " triangles, not the " +
+        (mesh.triangles == TriangulateOptions{}.triangles ? "default of " + wanted : wanted + " asked for");
     return triangles < mesh.triangles ? "the surface has " + counts + ": smaller ones failed where it is folded"
            : is_fine                  ? "the footprint's detail takes " + counts
                                       : "the bend of the liquid at its rim takes " + counts;

@@ -158,7 +158,7 @@ TEST(Puddle, IsRefinedOrRefusedWhereTrianglesAreLongerThanTheLayer)
         FAIL();
     } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::InvalidArgument);
-        EXPECT_THAT(error.what(), HasSubstr("edge 0.1 m must be at most 0.00272661 m"));
+        EXPECT_THAT(error.what(), HasSubstr("the edge length 0.1 m must be at most 0.00272661 m"));
     }
     try {
         (void)puddle(1e4, Model::Exact, {.triangles = 500, .edge = {}});

@@ -25,7 +25,7 @@ namespace cli {
 namespace {
 
 constexpr std::string_view kNoMemory =
-    "droplet-shape: out of memory; use fewer --triangles, a smaller picture or fewer --threads\n";
+    "droplet-shape: out of memory; use fewer triangles or droplets, smaller pictures or fewer threads\n";
 constexpr std::string_view kNoThreads =
     "droplet-shape: out of threads or memory: no further thread can be started; use fewer --threads\n";
 constexpr std::string_view kGaveUp = "droplet-shape: internal error: a library has given up\n";

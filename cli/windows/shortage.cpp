@@ -31,7 +31,7 @@ namespace {
             std::rethrow_exception(error);
         }
     } catch (const std::bad_alloc&) {
-        endWith("droplet-shape: out of memory; use fewer --triangles, a smaller picture or fewer --threads\n");
+        endWith("droplet-shape: out of memory; use fewer triangles or droplets, smaller pictures or fewer threads\n");
     } catch (const std::exception& error) {
         if (isThreadShortage(error)) {
             endWith("droplet-shape: out of threads or memory: no further thread can be started; use fewer --threads\n");

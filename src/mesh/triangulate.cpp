@@ -325,7 +325,7 @@ void TriangulateOptions::validate() const
         throw Error(ErrorCode::InvalidArgument, "triangles 0 must be at least 1");
     }
     if (edge && !(*edge > 0.0 && std::isfinite(*edge))) {
-        throw Error(ErrorCode::InvalidArgument, "edge " + numberText(*edge) + " m must be positive");
+        throw Error(ErrorCode::InvalidArgument, "the edge length " + numberText(*edge) + " m must be positive");
     }
     if (grading && (*grading < 1 || *grading > kMaxGrading || !std::has_single_bit(static_cast<unsigned>(*grading)))) {
         throw Error(ErrorCode::InvalidArgument,
@@ -342,7 +342,7 @@ void TriangulateOptions::validate() const
         throw Error(ErrorCode::InvalidArgument, "max_edge " + numberText(*max_edge) + " m must be positive");
     }
     if (edge && max_edge && *edge > *max_edge) {
-        throw Error(ErrorCode::InvalidArgument, "edge " + numberText(*edge) + " m must be at most " +
+        throw Error(ErrorCode::InvalidArgument, "the edge length " + numberText(*edge) + " m must be at most " +
                                                     numberText(*max_edge) +
                                                     " m, over which the liquid's surface bends");
     }
@@ -367,8 +367,8 @@ std::vector<PlanarMesh> triangulate(const Domain& domain, const TriangulateOptio
                           options.quads};
     const double per_square = areaPerSquaredEdge(options.quads);
     if (options.edge && total_area / (per_square * *options.edge * *options.edge) > kMaxTriangles) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "edge " + numberText(*options.edge) + " m must be longer: it would take more than 4e9 triangles");
+        throw Error(ErrorCode::InvalidArgument, "the edge length " + numberText(*options.edge) +
+                                                    " m must be longer: it would take more than 4e9 triangles");
     }
     // 1.5 times the edge of equilateral triangles, because the band along the rim has more triangles than its share of
     // the area.

@@ -23,6 +23,12 @@
 namespace droplet {
 namespace {
 
+/// Least coverage of liquid.
+std::uint16_t levelOf(double threshold)
+{
+    return static_cast<std::uint16_t>(std::ceil(threshold * 65535.0));
+}
+
 /// Message about a mask in which no pixel reaches the threshold, with its levels, such as those of labels, and what
 /// would choose among them.
 std::string noLiquid(const Mask& mask, double threshold)
@@ -102,11 +108,19 @@ Outline trace(const Mask& mask, const TraceOptions& options)
     if (options.clean.any()) {
         TraceOptions without_cleaning = options;
         without_cleaning.clean = {};
-        return trace(clean(mask, options.clean, pixelSize(mask, options), options.threshold), without_cleaning);
+        const Mask cleaned = clean(mask, options.clean, pixelSize(mask, options), options.threshold);
+        const auto has_liquid = [level = levelOf(options.threshold)](const Mask& of) {
+            return std::any_of(of.coverage.begin(), of.coverage.end(),
+                               [=](std::uint16_t coverage) { return coverage >= level; });
+        };
+        if (!options.allow_dry && has_liquid(mask) && !has_liquid(cleaned)) {
+            throw Error(ErrorCode::InvalidInput, "no liquid is left after smoothing over " +
+                                                     numberText(options.clean.smooth) + " m; smooth less");
+        }
+        return trace(cleaned, without_cleaning);
     }
     const CoverageField field(mask, options.threshold);
-    const auto level = static_cast<std::uint16_t>(std::ceil(options.threshold * 65535.0));
-    const std::vector<Border> borders = followBorders(mask, level);
+    const std::vector<Border> borders = followBorders(mask, levelOf(options.threshold));
     if (borders.empty() && !options.allow_dry) {
         throw Error(ErrorCode::InvalidInput, noLiquid(mask, options.threshold));
     }

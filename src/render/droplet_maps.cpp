@@ -423,8 +423,8 @@ DropletMaps dropletMaps(const Surface& surface, const DropletMapOptions& options
     for (const double side : {options.extent.x, options.extent.y}) {
         require(side > 0.0 && std::isfinite(side), "extent", side, "positive on both sides");
     }
-    require(options.extent.y <= 8192.5 / options.width * options.extent.x, "extent.y", options.extent.y,
-            "so that the pictures are at most 8192 px high");
+    const double height = std::round(options.width * options.extent.y / options.extent.x);
+    require(height <= 8192.0, "the maps' height", height, "at most 8192: use a smaller width");
     DropletMaps maps = Painter(surface, options).draw();
     const Horizons horizons(maps, options);
     tbb::parallel_for(0, maps.height.height, [&](int row) {

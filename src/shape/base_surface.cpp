@@ -28,7 +28,7 @@ void checkRadius(double radius, const char* body)
 {
     if (!(std::isfinite(radius) && radius != 0.0)) {
         throw Error(ErrorCode::InvalidArgument,
-                    "radius " + millimetres(radius) + " of the ground's " + body + " must be finite and not zero");
+                    "radius " + millimetres(radius) + " " + body + " must be finite and not zero");
     }
 }
 
@@ -135,7 +135,7 @@ GroundPoint BaseSurface::at(Vec2 p) const
     }
     throw Error(
         ErrorCode::InvalidArgument,
-        fmt::format("radius {} of the ground's {} must exceed {}, the largest distance of the footprint from its {}",
+        fmt::format("radius {} {} must exceed {}, the largest distance of the footprint from its {}",
                     millimetres(bounds_->radius), bounds_->body, millimetres(bounds_->distance(p)), bounds_->middle));
 }
 
@@ -154,17 +154,17 @@ void BaseSurface::requireAt(std::span<const Vec2> points) const
 
 BaseSurface BaseSurface::sphere(double radius)
 {
-    checkRadius(radius, "sphere");
+    checkRadius(radius, "of the ground's sphere");
     const auto sample = [radius](Vec2 p) -> std::optional<GroundPoint> {
         const std::optional<Arc> arc = arcAt(radius, length(p));
         return arc ? std::optional(GroundPoint{arc->height, arc->slope * p}) : std::nullopt;
     };
-    return {sample, {[](Vec2 p) { return length(p); }, std::abs(radius), "sphere", "top"}};
+    return {sample, {[](Vec2 p) { return length(p); }, std::abs(radius), "of the ground's sphere", "top"}};
 }
 
 BaseSurface BaseSurface::cylinder(double radius, double axis)
 {
-    checkRadius(radius, "cylinder");
+    checkRadius(radius, "of the ground's cylinder");
     if (!std::isfinite(axis)) {
         throw Error(ErrorCode::InvalidArgument,
                     "axis " + numberText(axis / kDegree) + " degrees of the ground's cylinder must be finite");
@@ -175,7 +175,9 @@ BaseSurface BaseSurface::cylinder(double radius, double axis)
         const std::optional<Arc> arc = arcAt(radius, std::abs(away));
         return arc ? std::optional(GroundPoint{arc->height, arc->slope * away * across}) : std::nullopt;
     };
-    return {sample, {[across](Vec2 p) { return std::abs(dot(across, p)); }, std::abs(radius), "cylinder", "line"}};
+    return {
+        sample,
+        {[across](Vec2 p) { return std::abs(dot(across, p)); }, std::abs(radius), "of the ground's cylinder", "line"}};
 }
 
 BaseSurface BaseSurface::heightMap(HeightMap map, Vec2 extent, std::optional<double> depth)

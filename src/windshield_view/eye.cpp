@@ -134,8 +134,10 @@ Eye::Eye(const Glass& glass, const ViewOptions& options)
     const Vec2 aim = options.aim.value_or(Vec2{0.5 * glass.width(), 0.5 * glass.height()});
     const auto ahead = glass.place(aim);
     if (!ahead) {
+        const std::string place = "(" + numberText(aim.x) + ", " + numberText(aim.y) + ")";
         throw Error(ErrorCode::InvalidArgument,
-                    "aim (" + numberText(aim.x) + ", " + numberText(aim.y) + ") must be on the glass");
+                    options.aim ? "aim " + place + " must be on the glass"
+                                : "the glass has a hole in its middle, at " + place + " m, where the eye must see it");
     }
     const Vec3 from_aim = options.eye.value_or(Vec3{0.0, -options.eye_distance, 0.0});
     position_ = ahead->point + from_aim;

@@ -40,7 +40,7 @@ WaterRaster rasterFor(const Glass& glass, const GlassMapOptions& options)
 {
     options.validate();
     const WaterRaster raster(glass, options.width);
-    require(raster.height() <= 8192, "height", raster.height(), "at most 8192: use a smaller width");
+    require(raster.height() <= 8192, "the maps' height", raster.height(), "at most 8192: use a smaller width");
     return raster;
 }
 

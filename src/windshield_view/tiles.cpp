@@ -92,7 +92,7 @@ Tiles::Tiles(const Eye& eye, const Glass& glass, const ViewOptions& options)
     }
     if (!(finest < std::numeric_limits<float>::infinity())) {
         throw Error(ErrorCode::InvalidArgument,
-                    "eye_distance " + numberText(options.eye_distance) +
+                    (options.eye ? std::string("eye") : "eye_distance " + numberText(options.eye_distance) + " m") +
                         ": the eye sees nothing of the glass; it must be nearer or look at the glass");
     }
     // One texel for each ray, but at most 128 MiB of texels, and none finer than the detail of droplets.

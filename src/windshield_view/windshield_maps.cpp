@@ -63,7 +63,7 @@ WindshieldMaps::WindshieldMaps(const Glass& glass, const WindshieldMapOptions& o
 {
     options.validate();
     const WaterRaster raster(glass, options.width);
-    require(raster.height() <= 8192, "height", raster.height(), "at most 8192: use a smaller width");
+    require(raster.height() <= 8192, "the maps' height", raster.height(), "at most 8192: use a smaller width");
     content_ = std::make_unique<Content>(Content{WaterSums(raster, options.shape)});
     content_->is_stale.resize(content_->columns() * static_cast<std::size_t>((raster.height() + kTile - 1) / kTile));
 }

@@ -10,6 +10,7 @@
 
 #include "cli/refusal.h"
 #include "support/command.h"
+#include "support/gltf_draft.h"
 #include "support/paths.h"
 
 namespace droplet {
@@ -148,8 +149,70 @@ TEST_F(FailureTest, ReportsUnreadableObject)
     writeFile(directory() / "words.glb", "This is no object, but a sentence of some length.\n");
     fs::create_directory(directory() / "folder.glb");
     for (const char* object : {"missing.glb", "words.glb", "folder.glb"}) {
-        expectRefusal({"disc.pgm", "old.glb", "--json", "old.json", "--onto", object}, 3, {object});
+        expectRefusal({"disc.pgm", "old.glb", "--json", "old.json", "--onto", object}, 3, {"--onto", object});
     }
+}
+
+// A triangle whose uv are all at one place: the object is to blame, not the picture.
+TEST_F(FailureTest, ReportsAnObjectWithoutAreaInUv)
+{
+    testing::Draft draft;
+    draft.addFloats({0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F}, "VEC3");
+    draft.addFloats({0.5F, 0.5F, 0.5F, 0.5F, 0.5F, 0.5F}, "VEC2");
+    writeFile(directory() / "flat.glb",
+              draft.file(R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
+                         R"({"POSITION":0,"TEXCOORD_0":1}}]}])"));
+    expectRefusal({"disc.pgm", "old.glb", "--onto", "flat.glb"}, 3, {"droplet-shape: --onto flat.glb: ", "in uv"});
+    expectRefusal({"disc.pgm", "old.glb", "--onto", "flat.glb", "--width", "1cm"}, 3,
+                  {"droplet-shape: --onto flat.glb: ", "in uv"});
+}
+
+TEST_F(FailureTest, NamesTheOptionOfAFile)
+{
+    writeFile(directory() / "words.exr", "This is no picture, but a sentence of some length.\n");
+    fs::create_directory(directory() / "folder");
+    const auto refused = [&](const std::string& option, const std::string& value, int exit_code) {
+        expectRefusal({"disc.pgm", "old.glb", option, value}, exit_code, {"droplet-shape: " + option + ": ", value});
+    };
+    refused("--surface", "words.exr", 3);
+    refused("--surface", "missing.exr", 3);
+    refused("--json", "folder", 4);
+    refused("--mask-out", "nowhere/mask.png", 4);
+    refused("--html", "folder", 4);
+    for (const char* option : {"--ground", "--environment"}) {
+        expectRefusal({"disc.pgm", "old.glb", "--preview", "p.png", option, "words.exr"}, 3,
+                      {"droplet-shape: " + std::string(option) + ": words.exr"});
+    }
+    expectRefusal({"disc.pgm", "folder"}, 2, {"OUTPUT"});
+    expectRefusal({"disc.pgm", "old.glb", "--smooth", "100m"}, 3, {"smooth less (--smooth)"});
+    expectRefusal({"disc.pgm", "old.glb", "--edge", "1m"}, 2, {"the edge length (--edge) 1 m must be at most"});
+    expectRefusal({"disc.pgm", "old.glb", "--surface", "sphere:R=1mm"}, 2, {"the ground's sphere (--surface)"});
+}
+
+// Fields of the library and limits of several options together.
+TEST_F(FailureTest, NamesTheOptionsOfOtherCommands)
+{
+    writeFile(directory() / "plate.obj", "v 0 0 0\nv 40 0 0\nv 40 0 -40\nv 0 0 -40\nf 1 2 3\nf 1 3 4\n");
+    writeFile(directory() / "bad.csv", "no table\n");
+    writeFile(directory() / "bad.png", "no picture\n");
+    const auto flow = [&](std::vector<std::string> more, int exit_code, const std::vector<std::string>& words) {
+        more.insert(more.begin(), {"flow", "plate.obj", "new.glb"});
+        expectRefusal(more, exit_code, words);
+    };
+    flow({"--drops", "1", "--volume", "100mL"}, 2, {"a droplet's volume (--volume) is 0.0001 m3"});
+    flow({"--drops", "1", "--object-size", "1mm"}, 2, {"and the object (--object-size) "});
+    flow({"--drops", "1", "--mask", "bad.png"}, 3, {"droplet-shape: --mask: bad.png"});
+    flow({"--start", "bad.csv"}, 3, {"droplet-shape: --start: bad.csv"});
+    flow({"--drops", "1", "--motion", "bad.csv"}, 3, {"droplet-shape: --motion: bad.csv"});
+    flow({"--drops", "1", "--from", "0,-1,0"}, 3, {"faces the rain (--from)"});
+    expectRefusal({"dew", "plate.obj", "new.glb", "--scale", "1e-9"}, 3, {"another scale or size (--scale)"});
+    expectRefusal({"dew", "plate.obj", "new.glb", "--from", "0,-1,0"}, 3, {"faces the rain (--from)"});
+    expectRefusal({"windshield", "new.png", "--slope", "0deg", "--time", "0.1s", "--frame-size", "96x54"}, 2,
+                  {"droplet-shape: --eye-distance 0.5 m: the eye sees nothing of the glass", "(--look-at)"});
+    expectRefusal({"windshield", "new.png", "--eye", "0m,1m,0m"}, 2, {"droplet-shape: --eye ", "behind the glass"});
+    expectRefusal({"windshield", "new.png", "--drive-cycle", "bad.csv"}, 3, {"droplet-shape: --drive-cycle: bad.csv"});
+    expectRefusal({"wind-tunnel", "--chart", "nowhere/a.png"}, 4, {"droplet-shape: --chart: output"});
+    expectRefusal({"compare", "old.glb", "old.glb", "--json", "nowhere/a.json"}, 4, {"droplet-shape: --json: output"});
 }
 
 TEST_F(FailureTest, ReportsDropletsThatDoNotExist)

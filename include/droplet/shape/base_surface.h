@@ -70,7 +70,7 @@ private:
     struct Bounds {
         std::function<double(Vec2)> distance;  ///< of a point from where the ground touches the plane [m]
         double radius = 0.0;                   ///< ground is nearer than that [m] > 0
-        const char* body = "";                 ///< name of what has the radius
+        const char* body = "";                 ///< words on what has the radius
         const char* middle = "";               ///< name of where it touches the plane
     };
 
