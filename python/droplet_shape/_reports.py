@@ -114,6 +114,7 @@ class ReportOutput(_Report):
     triangles: int  # Number of triangles
     quads: int  # Number of quadrilaterals in the file, each of two of these triangles
     base_m: float | None  # Thickness of the plate below all droplets, which makes one solid of them; null without one
+    maps: tuple[str, ...]  # Paths of the maps of --maps
     map_thickness_m: float | None
     levels: tuple[ReportLevels, ...]  # Levels of detail but the first
     closed: bool  # Whether the surface is closed
@@ -1051,6 +1052,7 @@ class DewOutput(_Report):
     """The file."""
 
     path: str  # Path
+    instancing: str | None
 
 
 @dataclass(frozen=True)
