@@ -161,7 +161,7 @@ Dew placeDew(const DewCommandOptions& options, const droplet::Progress& progress
     if (shown.empty()) {
         throw droplet::Error(droplet::ErrorCode::InvalidInput,
                              options.object + ": no droplet of this size rests on it: " + lostOf(report) +
-                                 "; give smaller droplets, more --hysteresis, or the object its real size");
+                                 "; give smaller droplets, more --hysteresis, or the object its real size by --object-size");
     }
     for (const droplet::FlowSample& sample : shown) {
         const double radius = droplet::dewRadius(sample.volume, dew.forces.wetting.contact_angle);

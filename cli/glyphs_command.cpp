@@ -20,6 +20,7 @@
 #include "files.h"
 #include "glyph_names.h"
 #include "glyphs_options.h"
+#include "library_message.h"
 #include "output_pattern.h"
 #include "shape_command.h"
 #include "surface_files.h"
@@ -386,6 +387,21 @@ void list(const Font& font, const GlyphsOptions& options)
     print(text.str());
 }
 
+/// Makes what the options ask for.
+/// @return  exit code
+int make(GlyphsOptions options)
+{
+    const Font font = droplet::readFont(options.font, options.face);
+    if (options.text) {
+        return makeText(font, std::move(options));
+    }
+    if (options.set) {
+        return makeGlyphs(font, std::move(options));
+    }
+    list(font, options);
+    return 0;
+}
+
 }  // namespace
 
 droplet::TypeReport describe(const Font& font, const GlyphsOptions& options)
@@ -412,15 +428,12 @@ int runGlyphs(int argc, const char* const* argv)
     if (options.text) {
         checkShape(options.shape, "--font");
     }
-    const Font font = droplet::readFont(options.font, options.face);
-    if (options.text) {
-        return makeText(font, std::move(options));
-    }
-    if (options.set) {
-        return makeGlyphs(font, std::move(options));
-    }
-    list(font, options);
-    return 0;
+    RunFiles files;
+    files.reads("--font", options.font);
+    const CommandTerms terms = options.shape.run.terms;
+    int code = 0;
+    inTermsOf(terms, files, [&] { code = make(std::move(options)); });
+    return code;
 }
 
 }  // namespace cli

@@ -99,6 +99,7 @@ std::span<const NamedOption> namedOptions()
                                      NamedOption{"less gravity or a smaller width", "--gravity, --width"},
                                      NamedOption{"check the footprint's width", "--width, --pixel-size, --em"},
                                      NamedOption{"a given volume", "--volume"},
+                                     NamedOption{"ask for less liquid", "--contact-angle, --volume, --height"},
                                      NamedOption{"ask for less", "--contact-angle, --volume, --height"},
                                      NamedOption{"of the ground's sphere", "--surface"},
                                      NamedOption{"of the ground's cylinder", "--surface"},

@@ -211,6 +211,8 @@ TEST_F(FailureTest, NamesTheOptionsOfOtherCommands)
                   {"droplet-shape: --eye-distance 0.5 m: the eye sees nothing of the glass", "(--look-at)"});
     expectRefusal({"windshield", "new.png", "--eye", "0m,1m,0m"}, 2, {"droplet-shape: --eye ", "behind the glass"});
     expectRefusal({"windshield", "new.png", "--drive-cycle", "bad.csv"}, 3, {"droplet-shape: --drive-cycle: bad.csv"});
+    expectRefusal({"glyphs", "--font", "bad.png", "--text", "a", "-o", "new.glb"}, 3,
+                  {"droplet-shape: --font: bad.png"});
     expectRefusal({"wind-tunnel", "--chart", "nowhere/a.png"}, 4, {"droplet-shape: --chart: output"});
     expectRefusal({"compare", "old.glb", "old.glb", "--json", "nowhere/a.json"}, 4, {"droplet-shape: --json: output"});
 }

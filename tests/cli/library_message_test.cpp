@@ -96,6 +96,8 @@ TEST(LibraryMessages, NameTheOptionThatIsGiven)
     cli::CommandTerms terms = kTerms;
     EXPECT_EQ(cli::withOptions("none was found; ask for less", terms),
               "none was found; ask for less (--contact-angle, --volume, --height)");
+    EXPECT_EQ(cli::withOptions("ask for less liquid, or look away", terms),
+              "ask for less liquid (--contact-angle, --volume, --height), or look away");
     terms.given = {"--triangles", "--volume"};
     EXPECT_EQ(cli::withOptions("none was found; ask for less", terms), "none was found; ask for less (--volume)");
 }
