@@ -338,7 +338,7 @@ TEST_F(Glyphs, RefusesWrongOptions)
     refuses({"--charset", "ab", "-o", "x.glb"}, 2, {"are the same, 'x.glb'"});
     refuses({"--charset", "ab", "-o", "{nom}.glb"}, 2, {"--output", "{name}, {gid} or {codepoint}"});
     refuses({"--charset", "ab", "-o", "-"}, 2, {"--output"});
-    refuses({"--text", "a", "-o", "x.glb", "--face-index", "1"}, 2, {"face index 1 is too large"});
+    refuses({"--text", "a", "-o", "x.glb", "--face-index", "1"}, 2, {"face index (--face-index) 1 is too large"});
     refuses({"--text", "a", "-o", "x.glb", "--face-index", "0.5"}, 2, {"--face-index", "whole number"});
     refuses({"--text", "a", "-o", "x.glb", "--axis", "wght=1"}, 2, {"axis 'wght': the font has no axes"});
     refuses({"--text", "a", "-o", "x.glb", "--axis", "wght=1"}, 2, {"wght from 100 to 900"}, kVariable);
