@@ -159,9 +159,10 @@ Dew placeDew(const DewCommandOptions& options, const droplet::Progress& progress
     report.warnings = object.warnings;
     warnOfDefects(report.surface, oneLine(options.object), report.warnings);
     if (shown.empty()) {
-        throw droplet::Error(droplet::ErrorCode::InvalidInput,
-                             options.object + ": no droplet of this size rests on it: " + lostOf(report) +
-                                 "; give smaller droplets, more --hysteresis, or the object its real size by --object-size");
+        throw droplet::Error(
+            droplet::ErrorCode::InvalidInput,
+            options.object + ": no droplet of this size rests on it: " + lostOf(report) +
+                "; give smaller droplets, more --hysteresis, or the object its real size by --object-size");
     }
     for (const droplet::FlowSample& sample : shown) {
         const double radius = droplet::dewRadius(sample.volume, dew.forces.wetting.contact_angle);
