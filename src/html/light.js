@@ -2,8 +2,8 @@
 // Light on the ground, through the liquid, after E. Wallace, "Rendering realtime caustics in WebGL" (2016): the mesh is
 // drawn where its rays land, brighter by the ratio in which a bundle of rays shrinks. The same light is subtracted
 // where the rays would land without the liquid. Several points of the window make the shadow soft.
-import { AddEquation, BufferGeometry, ClampToEdgeWrapping, Color, CustomBlending, DoubleSide, HalfFloatType, LinearFilter, MathUtils, OneFactor,
-    OrthographicCamera, Scene, ShaderMaterial, Vector2, Vector3, WebGLRenderTarget } from 'three';
+import { AddEquation, BufferGeometry, ClampToEdgeWrapping, Color, CustomBlending, DoubleSide, HalfFloatType, LinearFilter, MathUtils,
+    OneFactor, OrthographicCamera, Scene, ShaderMaterial, Vector2, Vector3, WebGLRenderTarget } from 'three';
 import { liquidTriangles } from './liquid_triangles.js';
 import { kAcross, kSun, kUpward } from './room.js';
 
@@ -136,7 +136,8 @@ export class GroundLight {
                 fragmentShader: kFragment,
                 uniforms: {
                     ...this.uniforms,
-                    opaque: { value: false }, rough: { value: 0 }, transmission: { value: 1 }, ior: { value: 1 }, tint: { value: new Color() }, tint_depth: { value: 0 },
+                    opaque: { value: false }, rough: { value: 0 }, transmission: { value: 1 }, ior: { value: 1 },
+                    tint: { value: new Color() }, tint_depth: { value: 0 },
                     pictured: { value: false }, picture: { value: null },
                 },
                 side: DoubleSide,
