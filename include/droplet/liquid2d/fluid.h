@@ -90,8 +90,8 @@ class FluidStepper {
 public:
     /// @throws Error  InvalidArgument
     explicit FluidStepper(FluidScene scene, FluidOptions options = {});
-    FluidStepper(FluidStepper&&) noexcept;
-    FluidStepper& operator=(FluidStepper&&) noexcept;
+    FluidStepper(FluidStepper&&) noexcept;             ///< moves its memory
+    FluidStepper& operator=(FluidStepper&&) noexcept;  ///< moves its memory
     ~FluidStepper();
 
     /// State at a later time.

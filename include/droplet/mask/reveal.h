@@ -46,8 +46,6 @@ public:
     /// @throws Error InvalidArgument
     [[nodiscard]] Mask at(double time) const;
 
-    [[nodiscard]] const Mask& whole() const { return mask_; }
-
 private:
     Mask mask_;
     std::vector<float> arrival_;  ///< at every pixel [px at full speed]
