@@ -161,7 +161,7 @@ std::string withOptions(std::string message, const CommandTerms& terms)
     return message;
 }
 
-std::string withOptionOfFile(std::string message, const RunFiles& files)
+std::string withOptionOfFile(const std::string& message, const RunFiles& files)
 {
     std::string best;
     std::size_t longest = 0;  // a path may be part of another one

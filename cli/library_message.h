@@ -32,7 +32,7 @@ std::string withOptions(std::string message, const CommandTerms& terms);
 
 /// Message with the option of the file that it speaks of before it: --mask: spots.png is empty. Arguments are not
 /// named, as their files say enough.
-std::string withOptionOfFile(std::string message, const RunFiles& files);
+std::string withOptionOfFile(const std::string& message, const RunFiles& files);
 
 /// Runs a function, and puts the command's options into the message of an error.
 /// @throws droplet::Error as the function throws it, but for the message

@@ -85,8 +85,13 @@ tinygltf::Material materialOf(const SceneMaterial& from, double side)
     material.pbrMetallicRoughness.roughnessFactor = look.roughness;
     // A thickness of 0 means thin-walled; attenuationDistance must be positive.
     const bool has_volume = look.transmission > 0.0 && from.thickness;
-    if (!has_volume || !look.tinted) {
-        material.pbrMetallicRoughness.baseColorFactor = {look.colour.x, look.colour.y, look.colour.z, from.opacity};
+    // In cloudy liquid what is scattered has a colour, too: it and the absorption each have a half of the tint.
+    const bool is_cloudy = has_volume && look.tinted && look.transmission < 1.0 && !from.absorption;
+    Look half = look;
+    half.colour = {std::sqrt(look.colour.x), std::sqrt(look.colour.y), std::sqrt(look.colour.z)};
+    if (!has_volume || !look.tinted || is_cloudy) {
+        const auto [red, green, blue] = is_cloudy ? half.colour : look.colour;
+        material.pbrMetallicRoughness.baseColorFactor = {red, green, blue, from.opacity};
     }
     // The factor ends at 1; a strength is beyond it.
     const double strength = std::max({from.glow.x, from.glow.y, from.glow.z, 1.0});
@@ -113,7 +118,8 @@ tinygltf::Material materialOf(const SceneMaterial& from, double side)
         // The thickness is in the mesh's unit; the distance of attenuation is not.
         Value::Object volume{{"thicknessFactor", Value(*from.thickness / side)}};
         if (look.tinted || from.absorption) {
-            const auto [colour, distance] = from.absorption ? *from.absorption : attenuationOf(look, *from.thickness);
+            const auto [colour, distance] =
+                from.absorption ? *from.absorption : attenuationOf(is_cloudy ? half : look, *from.thickness);
             volume["attenuationColor"] = Value(Value::Array{Value(colour.x), Value(colour.y), Value(colour.z)});
             volume["attenuationDistance"] = Value(distance);
         }

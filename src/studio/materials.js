@@ -10,7 +10,10 @@ export function materialOf(look) {
         const nanometres = 1e9 * film.thickness;
         Object.assign(material, { iridescence: 1, iridescenceIOR: film.ior, iridescenceThicknessRange: [nanometres, nanometres] });
     }
-    if (tinted) {
+    if (tinted && transmission < 1) {  // the scattered light and the absorption each have a half of the tint
+        material.attenuationColor = new Color(...colour.map(Math.sqrt));
+        material.color.copy(material.attenuationColor);
+    } else if (tinted) {
         material.attenuationColor = new Color(...colour);
     } else {
         material.color = new Color(...colour);

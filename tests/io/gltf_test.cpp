@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -514,6 +515,23 @@ TEST_F(GltfMaterial, PlainIsOpaqueGrey)
     EXPECT_EQ(colour[0], colour[1]);
     EXPECT_EQ(colour[1], colour[2]);
     EXPECT_TRUE(plain.extensions.empty());
+}
+
+// Light that passes the mean height down and up has the look's colour; what a cloudy liquid scatters is not white.
+TEST_F(GltfMaterial, CloudyLiquidsHaveTheirColourOnBothWays)
+{
+    for (const Material material : {Material::Blood, Material::Gel, Material::Ice}) {
+        const tinygltf::Material cloudy = made(material, true);
+        const Look look = lookOf(material);
+        EXPECT_EQ(number(cloudy, "transmission", "transmissionFactor"), look.transmission);
+        const std::vector<double>& base = cloudy.pbrMetallicRoughness.baseColorFactor;
+        const tinygltf::Value& absorbed = cloudy.extensions.at("KHR_materials_volume").Get("attenuationColor");
+        const std::array colour{look.colour.x, look.colour.y, look.colour.z};
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_NEAR(base[k] * absorbed.Get(static_cast<int>(k)).GetNumberAsDouble(), colour[k], 1e-12);
+        }
+        EXPECT_LT(*std::min_element(base.begin(), base.end()), 0.9);
+    }
 }
 
 TEST_F(GltfMaterial, OilIsIridescent)

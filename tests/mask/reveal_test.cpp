@@ -135,7 +135,7 @@ TEST(Reveal, RefusesWhatIsNot)
     const Mask full = maskOf(8, 8, [](int, int) { return true; });
     EXPECT_EQ(Reveal(full, RevealFrom::Left).at(1.0).coverage, full.coverage) << "without a rim";
     EXPECT_THROW(Reveal(full, Vec2{std::numeric_limits<double>::quiet_NaN(), 0.0}), Error);
-    EXPECT_THROW(Reveal(full, RevealFrom::Left).at(1.1), Error);
+    EXPECT_THROW(static_cast<void>(Reveal(full, RevealFrom::Left).at(1.1)), Error);
     EXPECT_THROW(revealFromNamed("up"), Error);
     EXPECT_EQ(revealFromNamed("middle"), RevealFrom::Middle);
 }
