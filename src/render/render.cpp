@@ -45,7 +45,8 @@ constexpr float kPi = 3.14159265F;
 constexpr int kMaxMeetings = 9;
 constexpr float kMinWeight = 0.004F;  // one level of 255
 
-// Facets of rough liquid in one sample of a pixel: at 16 samples the grain of frosted glass has a deviation of 3 of 255.
+// Facets of rough liquid in one sample of a pixel: at 16 samples the grain of frosted glass has a deviation of 3 of
+// 255.
 constexpr std::uint32_t kFacets = 8;
 // Share of the facets that are seen. The few that tilt most would show lamps as single bright pixels.
 constexpr float kSeenFacets = 0.9F;
