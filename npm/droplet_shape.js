@@ -25,7 +25,9 @@ const kNotHere = ['format', 'config', 'help', 'version', 'quiet', 'verbose', 'pr
 /** Those of a droplet, and those of colours, which are not a mask's. */
 const kNotOfDroplets = new Set([...kNotHere, 'onto', 'surface-depth', 'by-colour', 'colours', 'gap', 'colour-map', 'nodes', 'materials',
     'compress', 'sink', 'base', 'lod', 'weld']);
-const kNotOfDew = new Set([...kNotHere, 'droplets', 'json']);
+// The module draws no pictures.
+const kNotOfDew = new Set([...kNotHere, 'droplets', 'json', 'preview', 'view', 'camera', 'look-at', 'preview-size', 'environment',
+    'turntable', 'codec', 'quality']);
 const kDewFormats = ['glb', 'gltf', 'usda', 'usdz', 'obj', 'ply', 'stl', 'csv'];
 /** Options of dew that change its files alone. */
 const kDewForm = ['material', 'instancing', 'dropletsOnly', 'compress'];
