@@ -66,15 +66,6 @@ const CommandText& commandText()
     return text;
 }
 
-std::string presetNames()
-{
-    std::string names;
-    for (const Preset& preset : kPresets) {
-        names += (names.empty() ? "" : "|") + std::string(preset.name);
-    }
-    return names;
-}
-
 void declare(CommandLine& line, DewCommandOptions& options)
 {
     droplet::DewOptions& dew = options.dew;
@@ -84,7 +75,7 @@ void declare(CommandLine& line, DewCommandOptions& options)
     constexpr const char* kObject = "Object";
     declareReading(line, kObject, options.reading);
     constexpr const char* kDroplets = "Droplets";
-    line.add(kDroplets, "--preset", presetNames().c_str(),
+    line.add(kDroplets, "--preset", wordsOf(kPresets, &Preset::name).c_str(),
              "Kind of wetness: dew in the morning, fresh rain, a cold bottle, after a shower, fine mist; the other "
              "options of this group change it [dew]");
     line.add(kDroplets, "--coverage", "NUMBER", "Share of the surface below droplets, 0.001 to 0.7 [by preset]",
@@ -155,7 +146,7 @@ void readDroplets(const CommandLine& line, DewCommandOptions& options)
         return one.name == (named ? named->text : std::string("dew"));
     });
     if (preset == kPresets.end()) {
-        refuse(*named, presetNames());
+        refuse(*named, wordsOf(kPresets, &Preset::name));
     }
     options.preset = preset->name;
     options.reading.weights = line.flag("--vertex-weights");

@@ -40,15 +40,6 @@ constexpr Range kSpeed{Dimension::Speed, -150.0, 150.0, "from -150m/s to 150m/s"
 constexpr Range kTurn{Dimension::Angle, -1e4, 1e4,
                       "an angle per s, min or h, such as 30deg/s, from -1e4rad/s to 1e4rad/s"};
 
-std::string presetNames()
-{
-    std::string names;
-    for (const droplet::FlowPreset& preset : droplet::flowPresets()) {
-        names += (names.empty() ? "" : "|") + preset.name;
-    }
-    return names;
-}
-
 const CommandText& commandText()
 {
     static const CommandText text{"droplet-shape flow", "let droplets run over a mesh", "[OPTIONS] OBJECT OUTPUT",
@@ -84,7 +75,7 @@ void declare(CommandLine& line, FlowOptions& options)
         "out/%04d.obj, .glb, .ply, .stl or .usda; pictures, out/%04d.png; a .png of the last frame; or a video, "
         ".mp4, .mkv, .mov or .webm, which needs ffmpeg");
     constexpr const char* kObject = "Object";
-    line.add(kObject, "--preset", presetNames().c_str(),
+    line.add(kObject, "--preset", wordsOf(droplet::flowPresets(), &droplet::FlowPreset::name).c_str(),
              "Named scene with its own object and droplets, instead of OBJECT; other options change it");
     declareReading(line, kObject, options.reading);
     line.add(kObject, "--floor",

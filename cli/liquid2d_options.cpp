@@ -24,24 +24,6 @@ constexpr Range kGravity{Dimension::Acceleration, 0.0, 1e4, "from 0m/s2 to 10000
 constexpr Range kTension{Dimension::SurfaceTension, 0.0, 1e6, "from 0N/m to 1e6N/m"};
 constexpr Range kSpacing{Dimension::Length, 1e-6, 1e3, "from 1um to 1000m"};
 
-std::string presetNames()
-{
-    std::string names;
-    for (const droplet::FluidPreset& preset : droplet::fluidPresets()) {
-        names += preset.name + "|";
-    }
-    return names + "FILE.toml";
-}
-
-std::string lookNames()
-{
-    std::string names;
-    for (const droplet::LiquidLook& look : droplet::liquidLooks()) {
-        names += (names.empty() ? "" : "|") + look.name;
-    }
-    return names;
-}
-
 const CommandText& commandText()
 {
     static const CommandText text{"droplet-shape liquid2d", "draw an animation of liquid in the plane",
@@ -71,7 +53,8 @@ void declare(CommandLine& line, Liquid2dOptions& options)
         "a .json with all frames as a Lottie animation, for web pages, apps and animation programs; or a "
         "video, .mp4, .mkv, .mov or .webm, which needs ffmpeg; may be left out with --masks or --particle-cache");
     constexpr const char* kLiquid = "Liquid";
-    line.add(kLiquid, "--scene", presetNames().c_str(), "Scene to simulate", into(options.scene));
+    line.add(kLiquid, "--scene", (wordsOf(droplet::fluidPresets(), &droplet::FluidPreset::name) + "|FILE.toml").c_str(),
+             "Scene to simulate", into(options.scene));
     line.add(kLiquid, "--particle-count", "N", "Number of particles at the start, up to 1M [the scene's]",
              into(options.particle_count, CountRange{1, 1'000'000, "1M"}));
     line.add(kLiquid, "--walls", "FILE", "Further walls: a mask, drawn over the width of the window",
@@ -140,7 +123,8 @@ void declare(CommandLine& line, Liquid2dOptions& options)
     constexpr const char* kOut = "Output";
     line.add(kOut, "--frame-width,--width", "N", "Width of drawings and masks in pixels, up to 16384",
              into(options.width, {16, 16384, "16384"}));
-    line.add(kOut, "--look", lookNames().c_str(), "Colours and lines [comic; flat for realistic]");
+    line.add(kOut, "--look", wordsOf(droplet::liquidLooks(), &droplet::LiquidLook::name).c_str(),
+             "Colours and lines [comic; flat for realistic]");
     line.add(kOut, "--line-width", "NUMBER", "Width of outlines, in thousandths of the drawing's width",
              within(0.0, 50.0));
     line.add(kOut, "--masks", "PATH",

@@ -8,24 +8,13 @@
 namespace cli {
 namespace {
 
-template <class Things, class Name>
-std::string wordsOf(const Things& things, const Name& name)
-{
-    std::string words;
-    for (const auto& thing : things) {
-        words += (words.empty() ? "" : "|") + name(thing);
-    }
-    return words;
-}
-
 constexpr Range kTension{droplet::Dimension::SurfaceTension, 1e-6, 1e3, "from 0.001mN/m to 1000N/m"};
 
 }  // namespace
 
 void declareLiquidProperties(CommandLine& line, const char* group, const Range& density)
 {
-    line.add(group, "--liquid",
-             wordsOf(droplet::liquids(), [](const droplet::Liquid& liquid) { return liquid.name; }).c_str(),
+    line.add(group, "--liquid", wordsOf(droplet::liquids(), &droplet::Liquid::name).c_str(),
              "Liquid, at 20 C [" + droplet::Liquid().name + "]");
     line.add(group, "--surface-tension", "S", "Surface tension, instead of the liquid's own", within(kTension));
     line.add(group, "--density", "D", "Density, instead of the liquid's own", within(density));

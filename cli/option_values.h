@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -91,6 +92,18 @@ template <typename Value>
 Value choice(const Given& given, std::initializer_list<std::pair<const char*, Value>> known)
 {
     return choiceOf(given, known);
+}
+
+/// Names of things as the words of an option: water|ethanol|glycerol.
+/// @param name  of a thing: a member, or a function
+template <typename Things, typename Name>
+std::string wordsOf(const Things& things, const Name& name)
+{
+    std::string words;
+    for (const auto& thing : things) {
+        words += (words.empty() ? "" : "|") + std::string(std::invoke(name, thing));
+    }
+    return words;
 }
 
 /// A number in SI units, or a quantity.
