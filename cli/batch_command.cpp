@@ -284,7 +284,7 @@ int runBatch(int argc, const char* const* argv)
         items.push_back(std::move(item));
     }
     checkItems(items, options);
-    inTermsOf(shared.run.terms, read, [&] { around = readSurroundings(shared.settings); });
+    around = inTermsOf(shared.run.terms, read, [&] { return readSurroundings(shared.settings); });
     settings = settingsFingerprint(shared, options);
     return makeAll(items, options);
 }

@@ -293,9 +293,7 @@ int runCompare(int argc, const char* const* argv)
     run.writes("--json", options.json);
     run.writes("--picture", options.picture);
     checkFiles(run, options.files);
-    int code = 0;
-    inTermsOf(line.terms(), run, [&] { code = compareFiles(options); });
-    return code;
+    return inTermsOf(line.terms(), run, [&] { return compareFiles(options); });
 }
 
 }  // namespace cli

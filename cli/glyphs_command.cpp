@@ -431,9 +431,7 @@ int runGlyphs(int argc, const char* const* argv)
     RunFiles files;
     files.reads("--font", options.font);
     const CommandTerms terms = options.shape.run.terms;
-    int code = 0;
-    inTermsOf(terms, files, [&] { code = make(std::move(options)); });
-    return code;
+    return inTermsOf(terms, files, [&] { return make(std::move(options)); });
 }
 
 }  // namespace cli

@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "droplet/error.h"
 #include "files.h"
 
 namespace cli {
@@ -175,15 +174,6 @@ std::string withOptionOfFile(const std::string& message, const RunFiles& files)
         }
     }
     return best.empty() || message.find(best) != std::string::npos ? message : best + ": " + message;
-}
-
-void inTermsOf(const CommandTerms& terms, const RunFiles& files, const std::function<void()>& run)
-{
-    try {
-        run();
-    } catch (const droplet::Error& error) {
-        throw droplet::Error(error.code(), withOptionOfFile(withOptions(error.what(), terms), files));
-    }
 }
 
 }  // namespace cli

@@ -3,12 +3,12 @@
 // The library names fields and files. The user has typed options: here fields and files become options.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "command_terms.h"
+#include "droplet/error.h"
 #include "run_files.h"
 
 namespace cli {
@@ -36,6 +36,14 @@ std::string withOptionOfFile(const std::string& message, const RunFiles& files);
 
 /// Runs a function, and puts the command's options into the message of an error.
 /// @throws droplet::Error as the function throws it, but for the message
-void inTermsOf(const CommandTerms& terms, const RunFiles& files, const std::function<void()>& run);
+template <typename Function>
+auto inTermsOf(const CommandTerms& terms, const RunFiles& files, const Function& run)
+{
+    try {
+        return run();
+    } catch (const droplet::Error& error) {
+        throw droplet::Error(error.code(), withOptionOfFile(withOptions(error.what(), terms), files));
+    }
+}
 
 }  // namespace cli

@@ -18,8 +18,7 @@ void runAndTell(const RunOptions& run, const RunFiles& files, const std::functio
         threads.emplace(tbb::global_control::max_allowed_parallelism, *run.threads);
     }
     ProgressDisplay progress(run.shownProgress(), run.terms);
-    RunEnd end;
-    inTermsOf(run.terms, files, [&] { end = make(progress); });
+    const RunEnd end = inTermsOf(run.terms, files, [&] { return make(progress); });
     progress.finish();
     const bool is_quiet = run.verbosity == Verbosity::Quiet;
     if (!is_quiet && run.progress != ProgressMode::Json) {
