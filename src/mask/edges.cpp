@@ -69,6 +69,21 @@ cv::Mat workingImage(const LevelView& plane, int longest)
     return image;
 }
 
+double medianLevel(const cv::Mat& image, const cv::Mat& region)
+{
+    std::vector<float> levels;
+    for (int y = 0; y < image.rows; ++y) {
+        for (int x = 0; x < image.cols; ++x) {
+            if (region.at<std::uint8_t>(y, x) > 0) {
+                levels.push_back(image.at<float>(y, x));
+            }
+        }
+    }
+    const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
+    std::nth_element(levels.begin(), middle, levels.end());
+    return levels.empty() ? 0.0 : *middle;
+}
+
 LocalRange localRange(const cv::Mat& image, int reach)
 {
     LocalRange range;

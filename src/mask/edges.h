@@ -10,6 +10,10 @@ namespace droplet {
 /// Levels of a plane as numbers from 0 to 1, scaled down so that its longer side has at most `longest` pixels.
 cv::Mat workingImage(const LevelView& plane, int longest = 1024);
 
+/// Median level of an image in a region; 0 if that is empty.
+/// @param region  255 or 0
+double medianLevel(const cv::Mat& image, const cv::Mat& region);
+
 /// Smallest and largest level of an image within a distance of each pixel.
 struct LocalRange {
     cv::Mat min;

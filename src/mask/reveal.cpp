@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <queue>
 #include <utility>
 
@@ -178,30 +179,14 @@ private:
     Vec2 centre_;
 };
 
-/// Number of the droplet of every pixel, from 1; 0 on dry ones.
-std::vector<std::uint32_t> dropletsOf(const Grid& grid, const std::vector<bool>& liquid)
+/// Number of the droplet of every pixel, from 1; 0 on dry ones. Pixels are joined by sides, as a front goes.
+std::vector<std::int32_t> dropletsOf(const Grid& grid, const std::vector<bool>& liquid)
 {
-    std::vector<std::uint32_t> droplets(grid.size(), 0);
-    std::uint32_t count = 0;
-    std::vector<std::size_t> open;
-    for (std::size_t first = 0; first < grid.size(); ++first) {
-        if (!liquid[first] || droplets[first] != 0) {
-            continue;
-        }
-        droplets[first] = ++count;
-        open.assign(1, first);
-        while (!open.empty()) {
-            const std::size_t pixel = open.back();
-            open.pop_back();
-            grid.visitNeighbours(pixel, [&](std::size_t next, bool /*is_beside*/) {
-                if (liquid[next] && droplets[next] == 0) {
-                    droplets[next] = count;
-                    open.push_back(next);
-                }
-            });
-        }
-    }
-    return droplets;
+    cv::Mat is_liquid(grid.height, grid.width, CV_8U);
+    std::copy(liquid.begin(), liquid.end(), is_liquid.begin<std::uint8_t>());
+    cv::Mat droplets;
+    cv::connectedComponents(is_liquid, droplets, 4, CV_32S);
+    return {droplets.begin<std::int32_t>(), droplets.end<std::int32_t>()};
 }
 
 }  // namespace
@@ -247,15 +232,17 @@ Reveal::Reveal(Mask mask, const RevealSource& source) : mask_(std::move(mask))
         }
     }
     const Wipe wipe(grid, liquid, source);
-    const std::vector<std::uint32_t> droplets = dropletsOf(grid, liquid);
-    std::vector<float> begin(*std::max_element(droplets.begin(), droplets.end()) + std::size_t{1}, kNever);
+    const std::vector<std::int32_t> droplets = dropletsOf(grid, liquid);
+    const auto count = static_cast<std::size_t>(*std::max_element(droplets.begin(), droplets.end()));
+    std::vector<float> begin(count + 1, kNever);
     for (std::size_t i = 0; i < grid.size(); ++i) {
-        begin[droplets[i]] = std::min(begin[droplets[i]], wipe.at(i));
+        float& first = begin[static_cast<std::size_t>(droplets[i])];
+        first = std::min(first, wipe.at(i));
     }
     const float earliest = *std::min_element(begin.begin() + 1, begin.end());
     arrival_.assign(grid.size(), kNever);
     for (std::size_t i = 0; i < grid.size(); ++i) {
-        if (liquid[i] && wipe.at(i) <= begin[droplets[i]] + half_width) {
+        if (liquid[i] && wipe.at(i) <= begin[static_cast<std::size_t>(droplets[i])] + half_width) {
             arrival_[i] = wipe.at(i) - earliest;
         }
     }

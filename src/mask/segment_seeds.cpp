@@ -19,6 +19,7 @@
 #include "droplet/mask/seeds.h"
 #include "image/image.h"
 #include "image/image_file.h"
+#include "mask/edges.h"
 #include "mask/segmentation.h"
 
 namespace droplet {
@@ -178,23 +179,6 @@ LevelPlane coverageOf(const cv::Mat& probability, int width, int height)
     return plane;
 }
 
-/// Median luma of what is liquid, or of what is dry.
-double medianLuma(const Image& image, const LevelPlane& coverage, bool liquid)
-{
-    std::vector<std::uint16_t> levels;
-    for (std::size_t i = 0; i < coverage.levels.size(); ++i) {
-        if ((coverage.levels[i] >= 32768) == liquid) {
-            levels.push_back(image.luma[i]);
-        }
-    }
-    if (levels.empty()) {
-        return liquid ? 1.0 : 0.0;
-    }
-    const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
-    std::nth_element(levels.begin(), middle, levels.end());
-    return static_cast<double>(*middle) / 65535.0;
-}
-
 }  // namespace
 
 Seeds decodeSeeds(std::span<const std::byte> encoded)
@@ -240,8 +224,11 @@ Segmented segmentSeeds(const Image& image, const Seeds& seeds)
     result.coverage =
         coverageOf(probabilities(coloursOn(image, grid), onGrid(seeds, grid), grid), image.width, image.height);
     result.confidence = 1.0;  // somebody looked
-    result.level_dry = medianLuma(image, result.coverage, false);
-    result.level_liquid = medianLuma(image, result.coverage, true);
+    const cv::Mat luma = workingImage({image.width, image.height, image.luma}, std::max(image.width, image.height));
+    const cv::Mat coverage(image.height, image.width, CV_16U, result.coverage.levels.data());
+    const cv::Mat is_liquid = coverage >= 32768;
+    result.level_dry = medianLevel(luma, ~is_liquid);
+    result.level_liquid = medianLevel(luma, is_liquid);
     return result;
 }
 
