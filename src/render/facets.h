@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "hashed_number.h"
 #include "render/optics.h"
 
 namespace droplet {
@@ -21,13 +22,10 @@ inline bool isSmooth(double roughness)
     return roughness < 0.05;
 }
 
-/// Mixes the bits of two numbers (the finaliser of MurmurHash3).
+/// Hash of two numbers.
 constexpr std::uint32_t hashOf(std::uint32_t a, std::uint32_t b)
 {
-    std::uint32_t h = a * 0x9e3779b9U + b;
-    h = (h ^ (h >> 16)) * 0x85ebca6bU;
-    h = (h ^ (h >> 13)) * 0xc2b2ae35U;
-    return h ^ (h >> 16);
+    return hashed(a * 0x9e3779b9U + b);
 }
 inline std::uint32_t hashOf(float a, float b)
 {

@@ -10,10 +10,10 @@
 
 #include "drawing/tone.h"
 #include "droplet/windshield_view/view.h"
+#include "hashed_number.h"
 #include "render/optics.h"
 #include "require.h"
 #include "windshield_view/backdrop.h"
-#include "windshield_view/hashed_number.h"
 
 namespace droplet {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "hashed_number.h"
 #include "render/optics.h"
-#include "windshield_view/hashed_number.h"
 
 namespace droplet {
 

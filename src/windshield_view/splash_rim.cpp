@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "windshield_view/hashed_number.h"
+#include "hashed_number.h"
 
 namespace droplet {
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "windshield_view/hashed_number.h"
+#include "hashed_number.h"
 #include "windshield_view/smooth_noise.h"
 
 namespace droplet {
