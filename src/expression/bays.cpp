@@ -156,7 +156,7 @@ std::vector<Bridge> bridgesOf(const Loop& hole, const std::vector<Loop>& rims, c
     std::vector<Bridge> bridges = thinBridges(hole, rims, frame.spacing);
     Bounds box;
     for (const Bridge& bridge : bridges) {
-        box.include(std::vector<Vec2>{bridge.middle});
+        box.include(bridge.middle);
     }
     const double reach = kAround * frame.spacing;
     std::vector<std::uint32_t> particles;

@@ -245,7 +245,7 @@ public:
                 const Lanes across = step_ * (static_cast<float>(i) + numbers) - s.x;
                 const Lanes t = ((across * across + up * up).sqrt() * per_support).min(1.0F);
                 Eigen::Map<Lanes> values(row + i);
-                values += s.weight * (1.0F - t * t * (3.0F - 2.0F * t));
+                values += s.weight * surfaceKernelWithin(t);
             }
         }
     }

@@ -17,11 +17,18 @@ inline constexpr double kKernelIntegral = 0.3 * std::numbers::pi;
 /// Radius of a disc of a particle's area, in spacings.
 inline constexpr double kParticleRadius = 0.5641895835477563;
 
-/// 1 − 3t² + 2t³, 0 beyond t = 1.
+/// 1 − 3t² + 2t³, up to t = 1.
+/// @param t  number, or an array of Eigen that lives as long as the result
+template <typename Numbers>
+auto surfaceKernelWithin(const Numbers& t)
+{
+    return 1.0F - t * t * (3.0F - 2.0F * t);
+}
+
+/// The same, 0 beyond t = 1.
 inline float surfaceKernel(float t)
 {
-    t = std::min(t, 1.0F);
-    return 1.0F - t * t * (3.0F - 2.0F * t);
+    return surfaceKernelWithin(std::min(t, 1.0F));
 }
 
 /// From 0 at or before `begin` to 1 at or after `end`, without a kink. `begin` may be the larger one.

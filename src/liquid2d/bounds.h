@@ -14,11 +14,15 @@ struct Bounds {
     Vec2 lower{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     Vec2 upper{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
 
+    void include(Vec2 point)
+    {
+        lower = {std::min(lower.x, point.x), std::min(lower.y, point.y)};
+        upper = {std::max(upper.x, point.x), std::max(upper.y, point.y)};
+    }
     void include(const std::vector<Vec2>& points)
     {
-        for (const Vec2 x : points) {
-            lower = {std::min(lower.x, x.x), std::min(lower.y, x.y)};
-            upper = {std::max(upper.x, x.x), std::max(upper.y, x.y)};
+        for (const Vec2 point : points) {
+            include(point);
         }
     }
 };
