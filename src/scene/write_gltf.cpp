@@ -73,7 +73,7 @@ auto quantizedAll(const std::vector<Float3>& vectors, const Quantize& quantize)
 
 tinygltf::Material materialOf(const SceneMaterial& from, double side)
 {
-    const Look& look = from.look;
+    Look look = from.look;
     tinygltf::Material material;
     material.name = look.name;
     material.doubleSided = from.both_sides;
@@ -87,11 +87,11 @@ tinygltf::Material materialOf(const SceneMaterial& from, double side)
     const bool has_volume = look.transmission > 0.0 && from.thickness;
     // In cloudy liquid what is scattered has a colour, too: it and the absorption each have a half of the tint.
     const bool is_cloudy = has_volume && look.tinted && look.transmission < 1.0 && !from.absorption;
-    Look half = look;
-    half.colour = {std::sqrt(look.colour.x), std::sqrt(look.colour.y), std::sqrt(look.colour.z)};
+    if (is_cloudy) {
+        look.colour = {std::sqrt(look.colour.x), std::sqrt(look.colour.y), std::sqrt(look.colour.z)};
+    }
     if (!has_volume || !look.tinted || is_cloudy) {
-        const auto [red, green, blue] = is_cloudy ? half.colour : look.colour;
-        material.pbrMetallicRoughness.baseColorFactor = {red, green, blue, from.opacity};
+        material.pbrMetallicRoughness.baseColorFactor = {look.colour.x, look.colour.y, look.colour.z, from.opacity};
     }
     // The factor ends at 1; a strength is beyond it.
     const double strength = std::max({from.glow.x, from.glow.y, from.glow.z, 1.0});
@@ -118,8 +118,7 @@ tinygltf::Material materialOf(const SceneMaterial& from, double side)
         // The thickness is in the mesh's unit; the distance of attenuation is not.
         Value::Object volume{{"thicknessFactor", Value(*from.thickness / side)}};
         if (look.tinted || from.absorption) {
-            const auto [colour, distance] =
-                from.absorption ? *from.absorption : attenuationOf(is_cloudy ? half : look, *from.thickness);
+            const auto [colour, distance] = from.absorption ? *from.absorption : attenuationOf(look, *from.thickness);
             volume["attenuationColor"] = Value(Value::Array{Value(colour.x), Value(colour.y), Value(colour.z)});
             volume["attenuationDistance"] = Value(distance);
         }
