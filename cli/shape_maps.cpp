@@ -135,8 +135,7 @@ std::optional<std::string> seamWarning(const DropletMaps& maps, droplet::Vec2 ex
     }
     return fmt::format(
         "--map-tile: the picture's edge cuts droplets along {:.3g} mm, where they fall by up to {:.3g} mm: tiles show "
-        "a "
-        "seam there; keep liquid away from the edge, or draw the picture so that it ends between droplets",
+        "a seam there; keep liquid away from the edge, or draw the picture so that it ends between droplets",
         length / droplet::kMillimetre, depth / droplet::kMillimetre);
 }
 
