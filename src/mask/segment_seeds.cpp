@@ -84,7 +84,7 @@ cv::Mat coloursOn(const Image& image, const Grid& grid)
     return small;
 }
 
-double squared(cv::Vec3f difference)
+double squared(const cv::Vec3f& difference)
 {
     return static_cast<double>(difference.dot(difference));
 }
