@@ -71,6 +71,14 @@ auto quantizedAll(const std::vector<Float3>& vectors, const Quantize& quantize)
     return result;
 }
 
+/// Positive length with the seven digits that readers keep, as they read floats: the last bits of sums differ from processor
+/// to processor.
+double rounded(double length)
+{
+    const double power = std::pow(10.0, 6.0 - std::floor(std::log10(length)));
+    return std::round(length * power) / power;
+}
+
 tinygltf::Material materialOf(const SceneMaterial& from, double side)
 {
     Look look = from.look;
@@ -116,11 +124,11 @@ tinygltf::Material materialOf(const SceneMaterial& from, double side)
     }
     if (has_volume) {
         // The thickness is in the mesh's unit; the distance of attenuation is not.
-        Value::Object volume{{"thicknessFactor", Value(*from.thickness / side)}};
+        Value::Object volume{{"thicknessFactor", Value(rounded(*from.thickness / side))}};
         if (look.tinted || from.absorption) {
             const auto [colour, distance] = from.absorption ? *from.absorption : attenuationOf(look, *from.thickness);
             volume["attenuationColor"] = Value(Value::Array{Value(colour.x), Value(colour.y), Value(colour.z)});
-            volume["attenuationDistance"] = Value(distance);
+            volume["attenuationDistance"] = Value(rounded(distance));
         }
         material.extensions["KHR_materials_volume"] = Value(std::move(volume));
     }
