@@ -92,7 +92,7 @@ export function offerGrounds(stage, chosen, chose = () => {}) {
             complain(`${file.name} is no picture that this browser can read.`);
         }
     });
-    choose(chosen in kGrounds ? chosen : matchMedia('(prefers-color-scheme: dark)').matches ? 'studio' : 'paper');
+    choose(chosen in kGrounds ? chosen : 'mat');
     return choose;
 }
 

@@ -4,8 +4,12 @@ import { BackSide, CircleGeometry, Color, Group, LinearMipmapLinearFilter, Mesh,
     SRGBColorSpace, Texture, Vector2 } from 'three';
 
 const paper = {
-    name: 'Paper with a grid', colour: '#f0ebe0', far: '#e8e2d6', line: '#7d98aa', mark: '#33414d', sky: 0.4, sun: 0.52,
+    name: 'Paper with a grid', colour: '#f0ebe0', far: '#e8e2d6', line: '#7d98aa', mark: '#33414d', lines: 1, sky: 0.4, sun: 0.52,
     swatch: 'repeating-linear-gradient(0deg,#a9bcc8 0 1px,transparent 1px 7px),repeating-linear-gradient(90deg,#a9bcc8 0 1px,transparent 1px 7px),#f3efe6',
+};
+const mat = {
+    name: 'Slate with a grid', colour: '#6a90a5', far: '#51768a', line: '#f2f7f9', mark: '#f2f6f8', lines: 0.75, sky: 0.2, sun: 0.85,
+    swatch: 'repeating-linear-gradient(0deg,#c3d2da 0 1px,transparent 1px 7px),repeating-linear-gradient(90deg,#c3d2da 0 1px,transparent 1px 7px),#6a90a5',
 };
 const studio = {
     name: 'Dark studio', colour: '#4a545d', far: '#14181b', mark: '#c9d3da', sky: 0.28, sun: 1.0, pool: 1, walls: 0.3,
@@ -15,9 +19,9 @@ const plain = (name, colour, far, mark) => ({ name, colour, far, mark, sky: 0.42
 
 /** Grounds to choose from, in the order shown. */
 export const kGrounds = {
+    mat,
     paper,
     studio,
-    sky: plain('Blue', '#4f8fb8', '#3f7da6', '#f2f6f8'),
     leaf: plain('Green', '#6f9a6a', '#5d8858', '#f2f6f2'),
     clay: plain('Terracotta', '#c8704f', '#b56143', '#fdf3ee'),
     rose: plain('Rose', '#dfa7ab', '#d3979c', '#4a2d30'),
@@ -33,7 +37,7 @@ void main() {
     gl_Position = projectionMatrix * viewMatrix * world;
 }`;
 
-/** groundRadiance, in GLSL: light that the ground scatters at a place. Its uniforms are those of Ground. */
+/** groundRadiance, in GLSL: light that the ground scatters at a place, of which a pixel shows that much. Its uniforms are those of Ground. */
 export const kGroundRadiance = `
 uniform vec3 colour;
 uniform vec3 far;
@@ -53,8 +57,7 @@ uniform float pictured;
 uniform vec2 sheet_half;
 
 // 1 on the lines of a grid, which are at least a pixel wide; 0 where the grid is finer than the pixels.
-float grid(vec2 at, float width) {
-    vec2 pixel = fwidth(at);
+float grid(vec2 at, vec2 pixel, float width) {
     vec2 away = abs(fract(at - 0.5) - 0.5);
     vec2 half_width = max(vec2(width), pixel) * 0.5;
     vec2 on = 1.0 - smoothstep(half_width - 0.5 * pixel, half_width + 0.5 * pixel, away);
@@ -62,11 +65,12 @@ float grid(vec2 at, float width) {
     return max(on.x, on.y);
 }
 
-vec3 groundRadiance(vec2 place) {
+vec3 groundRadiance(vec2 place, vec2 pixel) {
     vec3 base = colour;
     vec2 at = place / step_length;
-    float fine = 0.34 * grid(at, 0.045);
-    float coarse = 0.7 * grid(at / 5.0, 0.013);
+    vec2 step_pixel = pixel / step_length;
+    float fine = 0.34 * grid(at, step_pixel, 0.045);
+    float coarse = 0.7 * grid(at / 5.0, step_pixel / 5.0, 0.013);
     base = mix(base, line, lines * max(fine, coarse));
     vec2 uv = place / picture_half;
     vec4 print = texture2D(picture, vec2(0.5, 0.5) + vec2(0.5, -0.5) * uv);
@@ -76,7 +80,7 @@ vec3 groundRadiance(vec2 place) {
     }
     vec2 beyond = abs(place) - sheet_half;
     float to_edge = max(beyond.x, beyond.y);
-    base *= 1.0 - step(0.0, sheet_half.x) * 0.28 * (1.0 - smoothstep(0.0, 1.5 * fwidth(to_edge), abs(to_edge)));
+    base *= 1.0 - step(0.0, sheet_half.x) * 0.28 * (1.0 - smoothstep(0.0, 1.5 * max(pixel.x, pixel.y), abs(to_edge)));
     vec2 lamp = (place - light_centre) / light_half;
     vec2 inside = step(abs(lamp), vec2(1.0));
     vec3 reached = vec3(1.0) + lit * inside.x * inside.y *
@@ -94,7 +98,7 @@ const kGroundFragment = `
 ${kGroundRadiance}
 varying vec3 place;
 void main() {
-    gl_FragColor = vec4(groundRadiance(place.xz), 1.0);
+    gl_FragColor = vec4(groundRadiance(place.xz, fwidth(place.xz)), 1.0);
     #include <tonemapping_fragment>
     #include <colorspace_fragment>
 }`;
@@ -159,7 +163,7 @@ export class Ground extends Group {
         uniforms.colour.value.set(look.colour);
         uniforms.far.value.set(look.far);
         uniforms.line.value.set(look.line ?? look.colour);
-        uniforms.lines.value = look.line ? 1 : 0;
+        uniforms.lines.value = look.lines ?? 0;
         uniforms.sky.value = look.sky;
         uniforms.sun.value = look.sun;
         uniforms.pool.value = look.pool ?? 0;

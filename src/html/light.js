@@ -5,7 +5,7 @@
 import { AddEquation, BufferGeometry, ClampToEdgeWrapping, Color, CustomBlending, DoubleSide, HalfFloatType, LinearFilter, MathUtils,
     OneFactor, OrthographicCamera, Scene, ShaderMaterial, Vector2, Vector3, WebGLRenderTarget } from 'three';
 import { liquidTriangles } from './liquid_triangles.js';
-import { kAcross, kSun, kUpward } from './room.js';
+import { kAcross, kSun, kUpward, transmissionOf } from './room.js';
 
 const kTexels = 768;
 
@@ -153,9 +153,9 @@ export class GroundLight {
         const shader = this.shaders.get(material);
         const { opaque, rough, transmission, ior, tint, tint_depth, pictured, picture } = shader.uniforms;
         const tinted = Number.isFinite(material.attenuationDistance);
-        opaque.value = !(material.transmission > 0);
+        opaque.value = !(transmissionOf(material) > 0);
         rough.value = MathUtils.smoothstep(material.roughness, 0.03, 0.3);
-        transmission.value = material.transmission;
+        transmission.value = transmissionOf(material);
         ior.value = material.ior ?? 1.333;
         tint.value.copy(tinted ? material.attenuationColor : material.color);
         tint_depth.value = tinted ? material.attenuationDistance : 0;  // 0: the same tint everywhere

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Plain frames for graphics that are too slow for refraction while the hand draws: the ground is drawn once for a place of
-// the camera and then copied; liquids only reflect the room.
+// Plain frames for slow graphics while the hand draws: the ground is drawn once for a place of the camera and then copied.
+// Liquids mirror the room; on flat ground they refract it, with the light that enters where it is seen, elsewhere the
+// ground shines through unbent.
 import { CustomBlending, FramebufferTexture, Matrix4, Mesh, NoBlending, OneFactor, OneMinusSrcAlphaFactor, PlaneGeometry,
     ShaderMaterial, Vector2 } from 'three';
-import { kRoom } from './room.js';
+import { kGroundRadiance } from './ground.js';
+import { kRoom, kSun, transmissionOf, vec3 } from './room.js';
 
 const kVertex = `
 varying vec3 place;
@@ -16,6 +18,7 @@ void main() {
 }`;
 
 const kFragment = `
+#define PI 3.141592653589793
 ${kRoom}
 uniform vec3 tint;
 uniform float body;
@@ -23,28 +26,51 @@ uniform float mirror;
 uniform float roughness;
 varying vec3 place;
 varying vec3 upright;
+#ifdef REFRACTS
+${kGroundRadiance}
+uniform float ior;
+uniform float tint_depth;
+uniform float transmission;
+#endif
 void main() {
     vec3 normal = normalize(upright);
     vec3 ray = normalize(place - cameraPosition);
     float fresnel = mirror + (1.0 - mirror) * pow(1.0 - max(dot(normal, -ray), 0.0), 5.0);
-    vec3 reflected = fresnel * roomRadiance(reflect(ray, normal), roughness);
-    float shade = 0.35 * (1.0 - normal.y);
-    gl_FragColor = vec4(reflected * mix(vec3(1.0), tint, step(0.5, mirror)) + body * tint * roomIrradiance(normal) / PI,
-        clamp(body + fresnel + shade, 0.0, 1.0));
+    vec3 reflected = fresnel * roomRadiance(reflect(ray, normal), roughness) * mix(vec3(1.0), tint, step(0.5, mirror));
+    vec3 scattered = tint * roomIrradiance(normal) / PI;
+#ifdef REFRACTS
+    vec3 inward = refract(ray, normal, 1.0 / ior);
+    float depth = max(place.y, 0.0) / max(-inward.y, 0.1);
+    // A lens as flat as a droplet lights the ground about as light enters it there.
+    float entering = clamp(dot(normal, ${vec3(kSun)}) / ${kSun.y.toFixed(6)}, 0.25, 1.5);
+    vec3 seen = groundRadiance(place.xz + depth * inward.xz, fwidth(place.xz)) * entering * pow(tint, vec3(depth / tint_depth));
+    gl_FragColor = vec4(reflected + (1.0 - fresnel) * mix(scattered, seen, transmission), 1.0);
+#else
+    gl_FragColor = vec4(reflected + body * scattered, clamp(body + fresnel + 0.35 * (1.0 - normal.y), 0.0, 1.0));
+#endif
     #include <tonemapping_fragment>
     #include <colorspace_fragment>
 }`;
 
-/** A plain look of a material in the room, without refraction. */
-function sketchOf(material, light) {
+/**
+ * A plain look of a material in the room.
+ * @param flat  whether it stands on flat ground at height 0, which clear liquid then refracts
+ */
+function sketchOf(material, light, flat, ground) {
     const tinted = Number.isFinite(material.attenuationDistance);
+    const transmission = transmissionOf(material);
     return new ShaderMaterial({
         vertexShader: kVertex,
-        fragmentShader: `#define PI 3.141592653589793\n${kFragment}`,
+        fragmentShader: kFragment,
+        defines: flat && transmission > 0 ? { REFRACTS: '' } : {},
         uniforms: {
+            ...ground.uniforms,
             room_walls: light.walls, room_lamps: light.lamps,
             tint: { value: tinted ? material.attenuationColor : material.color },
-            body: { value: material.metalness > 0 ? 0 : material.transmission > 0 ? (tinted ? 0.7 : 0) : 1 },
+            tint_depth: { get value() { return material.attenuationDistance; } },
+            transmission: { value: transmission },
+            ior: { value: material.ior },
+            body: { value: material.metalness > 0 ? 0 : transmission > 0 ? (tinted ? 0.7 : 0) : 1 },
             mirror: { value: material.metalness > 0 ? 0.8 : ((material.ior - 1) / (material.ior + 1)) ** 2 },
             roughness: { value: material.roughness },
         },
@@ -58,7 +84,7 @@ function sketchOf(material, light) {
 export class Sketcher {
     constructor(renderer, scene, room) {
         Object.assign(this, { renderer, scene, room });
-        this.sketches = new WeakMap();
+        this.sketches = { flat: new WeakMap(), uneven: new WeakMap() };  // of materials
         this.size = new Vector2();
         this.seen = new Matrix4();
         this.backdrop = new Mesh(new PlaneGeometry(2, 2), new ShaderMaterial({
@@ -84,26 +110,26 @@ export class Sketcher {
         }
         value?.dispose();
         const texture = new FramebufferTexture(size.x, size.y);
-        const { lit } = ground.uniforms;
-        const was = lit.value;
-        lit.value = 0;  // the light is that of another droplet
         renderer.render(scene, camera);
-        lit.value = was;
         renderer.copyFramebufferToTexture(texture);
         backdrop.material.uniforms.ground.value = texture;
         this.seen.copy(seen);
         this.look = ground.look;
     }
 
-    render(camera, ground, meshes) {
-        const { sketches, backdrop } = this;
+    render(camera, ground, meshes, flat) {
+        const { backdrop } = this;
+        const sketches = this.sketches[flat ? 'flat' : 'uneven'];
+        const { lit } = ground.uniforms;
+        const was = lit.value;
+        lit.value = 0;  // the light is that of another droplet
         camera.updateMatrixWorld();
         meshes.forEach((mesh) => { mesh.visible = false; });
         this.#draw(camera, ground);
         const worn = meshes.map((mesh) => mesh.material);
         meshes.forEach((mesh, k) => {
             if (!sketches.has(worn[k])) {
-                sketches.set(worn[k], sketchOf(worn[k], this.room));
+                sketches.set(worn[k], sketchOf(worn[k], this.room, flat, ground));
             }
             mesh.material = sketches.get(worn[k]);
             mesh.visible = true;
@@ -113,6 +139,7 @@ export class Sketcher {
         this.renderer.render(this.scene, camera);
         backdrop.visible = false;
         ground.visible = true;
+        lit.value = was;
         meshes.forEach((mesh, k) => { mesh.material = worn[k]; });
     }
 }

@@ -4,7 +4,7 @@ import { Group, MathUtils, NeutralToneMapping, PerspectiveCamera, Scene, Vector3
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Ground } from './ground.js';
 import { GroundLight } from './light.js';
-import { putIntoRoom } from './room.js';
+import { putIntoRoom, transmissionOf } from './room.js';
 import { Sketcher } from './sketch.js';
 
 /** Layer of what casts no light and no shadow on the ground. */
@@ -141,12 +141,13 @@ export class Stage {
             triangles = droplet.mixer ? Math.max(triangles, own) : triangles + own;
         }
         for (const { material } of meshes) {
-            if (material.transmission > 0) {
+            const is_liquid = transmissionOf(material) > 0;
+            if (is_liquid) {
                 // In world units, while thickness is in the mesh's.
                 material.userData.tint_depth ??= material.attenuationDistance;
                 material.attenuationDistance = material.userData.tint_depth * this.scale;
             }
-            putIntoRoom(material, this.room, this.flat && material.transmission > 0 && material.thickness > 0,
+            putIntoRoom(material, this.room, this.flat && is_liquid && material.thickness > 0,
                 { uniforms: this.ground.uniforms, level: this.ground_level });
         }
         if (this.ground_light && triangles > 0) {
@@ -226,7 +227,7 @@ export class Stage {
     #render() {
         if (this.sketchy) {
             this.sketcher ??= new Sketcher(this.renderer, this.scene, this.room);
-            this.sketcher.render(this.camera, this.ground, this.droplet.meshes);
+            this.sketcher.render(this.camera, this.ground, this.droplet.meshes, this.flat);
         } else {
             this.renderer.render(this.scene, this.camera);
         }

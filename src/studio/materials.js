@@ -24,7 +24,7 @@ export function materialOf(look) {
 
 /** Fits a material to the mean thickness of its droplet [m]; light passes it down to the ground and up again. */
 export function thicken(material, thickness) {
-    if (material.transmission > 0) {
+    if (kLooks[material.name].transmission > 0) {
         material.thickness = thickness;
         material.userData.tint_depth = kLooks[material.name].tinted ? 2 * thickness : Infinity;
     }
