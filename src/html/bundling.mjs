@@ -27,7 +27,7 @@ export async function bundleScript(entry, given = {}) {
         legalComments: 'none',  // the page's top has three's whole licence
         logLevel: 'warning',
         target: ['es2022'],
-        loader: { '.html': 'text', '.glsl': 'text' },
+        loader: { '.html': 'text', '.glsl': 'text', '.png': 'dataurl' },
         write: false,
         ...given,
     });

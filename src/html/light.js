@@ -30,7 +30,7 @@ void main() {
     #include <begin_vertex>
     #include <morphtarget_vertex>
     vec3 place = (modelMatrix * vec4(transformed, 1.0)).xyz;
-    vec3 normal = normalize(mat3(modelMatrix) * objectNormal);
+    vec3 normal = normalize(transpose(inverse(mat3(modelMatrix))) * objectNormal);
     float lift = max(place.y - ground, 0.0);
     straight = place.xz - sun.xz * (lift / sun.y);
     vec3 ray = refract(-sun, normal, 1.0 / ior);

@@ -53,9 +53,10 @@ vec3 roomRadiance(vec3 way, float roughness) {
     return light;
 }
 
+// On white that faces up, about what lights the ground.
 vec3 roomIrradiance(vec3 normal) {
-    vec3 walls = room_walls * mix(vec3(0.36), vec3(0.8, 0.84, 0.88), 0.5 + 0.5 * normal.y);
-    return PI * walls + room_lamps * 5.0 * max(dot(normal, ${vec3(kSun)}), 0.0);
+    vec3 walls = room_walls * mix(vec3(0.22), vec3(0.46, 0.48, 0.5), 0.5 + 0.5 * normal.y);
+    return PI * walls + room_lamps * 3.0 * max(dot(normal, ${vec3(kSun)}), 0.0);
 }
 `;
 

@@ -13,7 +13,7 @@ varying vec3 upright;
 void main() {
     vec4 world = modelMatrix * vec4(position, 1.0);
     place = world.xyz;
-    upright = mat3(modelMatrix) * normal;
+    upright = transpose(inverse(mat3(modelMatrix))) * normal;
     gl_Position = projectionMatrix * viewMatrix * world;
 }`;
 

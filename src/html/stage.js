@@ -13,6 +13,7 @@ export const kUnlit = 1;
 const kRatioLimit = 2;  // more pixels would not be visible
 const kSketchRatio = 0.5;
 const kFieldOfView = 26;
+const kGlide = 600;  // time in which the camera moves to what it shall show [ms]
 
 /** Largest number up to a given one that is 1, 2 or 5 times a power of ten. */
 export function roundLength(most) {
@@ -33,6 +34,7 @@ export class Stage {
     constructor({ canvas, droplet, flat, extent, space, still, drawn }) {
         this.canvas = canvas;
         this.flat = flat;
+        this.still = still;
         this.drawn = drawn;
         this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
         this.renderer.toneMapping = NeutralToneMapping;
@@ -126,6 +128,7 @@ export class Stage {
 
     /** Shows another space, with a mask of these sides [m]. */
     move(space, extent) {
+        this.part = undefined;
         this.#place(space, extent);
         this.reset();
         this.renew();
@@ -269,12 +272,10 @@ export class Stage {
         this.request();
     }
 
-    /** Shows the whole droplet from the front and above. */
-    frame() {
-        const { camera } = this;
+    /** Where the camera sees all of a box from the front and above: {target, position, distance}. */
+    #placeFor(box) {
         const free = this.canvas.clientWidth - (this.cover ?? 0);
         const upright = this.canvas.clientHeight > free;
-        const box = this.box;
         const target = box.getCenter(new Vector3());
         const direction = new Vector3().setFromSphericalCoords(1, MathUtils.degToRad(this.droplet.tilt ?? (upright ? 40 : 47)), MathUtils.degToRad(10));
         const forward = direction.clone().negate();
@@ -295,14 +296,53 @@ export class Stage {
             target.addScaledVector(right, middle(seen.map(({ x, nearer }) => x / (distance - nearer))) * distance);
             target.addScaledVector(up, middle(seen.map(({ y, nearer }) => y / (distance - nearer))) * distance);
         }
+        return { target, position: target.clone().addScaledVector(direction, distance), distance };
+    }
+
+    /** Shows all that there is, or the part of it that was asked for, at once. */
+    frame() {
+        const { camera } = this;
+        const { distance } = this.#placeFor(this.box);
         camera.near = 0.02 * distance;
         camera.updateProjectionMatrix();
+        this.gliding = undefined;
+        const { target, position } = this.#placeFor(this.part ?? this.box);
         this.#atOnce((controls) => {
             controls.minDistance = 0.12 * distance;
             controls.maxDistance = 3 * distance;
-            camera.position.copy(target).addScaledVector(direction, distance);
+            camera.position.copy(position);
             controls.target.copy(target);
         });
+    }
+
+    /** Glides to a part of the space, in world units; undefined is all of it. A hand at the camera is left alone. */
+    glideTo(part) {
+        this.part = part;
+        if (this.touched) {
+            return;
+        }
+        if (this.still || this.sketchy) {
+            this.frame();
+            return;
+        }
+        this.gliding = {
+            began: performance.now(), to: this.#placeFor(part ?? this.box),
+            from: { target: this.controls.target.clone(), position: this.camera.position.clone() },
+        };
+        this.request();
+    }
+
+    #glide() {
+        const { began, from, to } = this.gliding;
+        const time = Math.min(1, (performance.now() - began) / kGlide);
+        const way = MathUtils.smootherstep(time, 0, 1);
+        this.camera.position.lerpVectors(from.position, to.position, way);
+        this.controls.target.lerpVectors(from.target, to.target, way);
+        if (time === 1) {
+            this.gliding = undefined;
+        } else {
+            this.request();
+        }
     }
 
     /**
@@ -366,6 +406,12 @@ export class Stage {
 
     #draw() {
         this.frame_id = undefined;
+        if (this.gliding && this.touched) {
+            this.gliding = undefined;
+        }
+        if (this.gliding) {
+            this.#glide();
+        }
         this.controls.update();  // requests another frame while the motion fades
         if (this.light_is_old && this.ground_light && !this.sketchy) {
             const { meshes, casters = meshes } = this.droplet;

@@ -20,7 +20,8 @@ const wordsOf = (option, labels) => Object.fromEntries(kOptions[option].words.ma
 
 /**
  * Fields: name; label; the value at first; `choices` {value: label}, or `unit` and `range` [min, max, step] of a number;
- * `optional` numbers may be empty, which means `empty`; `slider`; `when(settings)`: whether the field matters.
+ * `optional` numbers may be empty, which means `empty`; `slider`; `tiles`: looks are choices, shown as pictures, too;
+ * `when(settings)`: whether the field matters.
  */
 export const kLayerFields = [
     {
@@ -28,7 +29,7 @@ export const kLayerFields = [
         choices: wordsOf('liquid', {}),
     },
     {
-        name: 'material', label: 'Look', value: 'own',
+        name: 'material', label: 'Look', value: 'own', tiles: true,
         choices: { own: 'as the liquid', ...wordsOf('material', { water: 'Clear water', ink: 'Blue ink', oil: 'Iridescent oil', frosted: 'Frosted glass' }) },
     },
     {

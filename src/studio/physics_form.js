@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Controls for a table of fields.
+import { buildTiles } from './look_tiles.js';
 
 const shown = (field, value) => `${String(value).replace('-', '\u2212')}${field.unit === '°' ? '' : '\u00a0'}${field.unit}`;
 
@@ -84,11 +85,16 @@ export function buildForm(fields, hosts, prefix, changed) {
             }
             changed(field.name, field.choices ? control.value : control.value === '' ? '' : control.valueAsNumber);
         });
-        (field.more ? hosts.more : hosts.plain).append(row);
-        return { field, row, control, slider, scale };
+        const host = field.more ? hosts.more : hosts.plain;
+        host.append(row);
+        const show_tile = field.tiles && buildTiles(host, field, (value) => {
+            control.value = value;
+            changed(field.name, value);
+        });
+        return { field, row, control, slider, scale, show_tile };
     });
     return (settings) => {
-        for (const { field, row, control, slider, scale } of rows) {
+        for (const { field, row, control, slider, scale, show_tile } of rows) {
             row.hidden = field.when ? !field.when(settings) : false;
             const value = settings[field.name];
             // Somebody who has emptied an optional number is about to write another.
@@ -96,6 +102,7 @@ export function buildForm(fields, hosts, prefix, changed) {
             if (field.choices || document.activeElement !== control || !emptied && (control.value === '' ? '' : control.valueAsNumber) !== value) {
                 control.value = value;
             }
+            show_tile?.(value);
             if (slider) {
                 slider.value = scale.place(value);
                 slider.setAttribute('aria-valuetext', shown(field, value));

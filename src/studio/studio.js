@@ -6,12 +6,14 @@ import { readPicture } from '../html/read_picture.js';
 import { roundLength } from '../html/stage.js';
 import { blank, isDry, overlap } from './coverage.js';
 import { Dew } from './dew.js';
+import { buildGallery, coverageOf, kDrawings } from './gallery.js';
 import { History } from './history.js';
 import { askPicture } from './import_dialog.js';
 import { buildLayers } from './layers.js';
 import { kLiveParts, showLive } from './live_parts.js';
 import markup from './markup.html';
 import { inkOf, lookOf } from './looks.js';
+import { kOptions } from './options.js';
 import { commandOf, kLayerFields, kSceneFields, optionsOf } from './physics.js';
 import { buildForm } from './physics_form.js';
 import { fitted, levelsOf, maskOfLevels } from './pictures.js';
@@ -25,6 +27,8 @@ import { kTools } from './tools.js';
 import { View } from './view.js';
 
 const kDrawnSide = 1024;  // longer side of an SVG [pixels]
+const kExample = 'example';  // id of the droplet that is shown while there is none
+const kExampleTriangles = 8000;
 const root = document.documentElement;
 
 /** Keys of shortcuts must not act while somebody writes. */
@@ -68,6 +72,7 @@ class Studio {
         this.#offerKeys();
         this.#offerView();
         this.dew = new Dew({ parts: { wasm, worker_url }, view: this.view, say: (text) => this.#say(text), keeper });
+        this.#offerBeginning();
         this.#update(undefined);
         keeper?.beside('dew').then((dew) => dew?.shown && this.#show('dew'));
         find('kept').hidden = !kept;
@@ -154,6 +159,9 @@ class Studio {
     /** Wants the droplets of layers that have changed, and removes those of layers that are dry or gone. */
     #solve(before) {
         const { layers, scene } = this.project;
+        if (this.known.has(kExample) && !this.#is_empty) {
+            this.#drop(kExample);
+        }
         for (const { id } of before?.layers ?? []) {
             if (!layers.some((layer) => layer.id === id)) {
                 this.#drop(id);
@@ -173,6 +181,35 @@ class Studio {
                 this.#want(layer, layer.mask, performance.now());
             }
         }
+    }
+
+    /** Whether nothing is drawn and nothing lies below. */
+    get #is_empty() {
+        const { layers, underlay } = this.project;
+        return !this.stroke && !underlay && layers.every(({ mask }) => isDry(mask));
+    }
+
+    /** Offers drawings to begin with; on the first empty sheet, one of them is shown. */
+    #offerBeginning() {
+        buildGallery(find('gallery'), (drawing) => this.#beginWith(drawing));
+        if (this.view && this.#is_empty) {
+            const { scene } = this.project;
+            const mask = coverageOf(kDrawings[0], kDrawnSide, kDrawnSide);
+            const options = { ...optionsOf(selectedLayer(this.project), scene), triangles: kExampleTriangles };
+            const job = { id: kExample, mask, options, look: 'water', flat: true, input: performance.now(), stroke: kExample };
+            this.known.set(kExample, { job });
+            this.view.rise(kExample);
+            this.solver.want(job);
+        }
+    }
+
+    #beginWith({ name, look, ...drawing }) {
+        const { project } = this;
+        const layer = selectedLayer(project);
+        const of = kOptions.liquid.words.includes(look) ? { liquid: look, material: 'own' } : { liquid: 'water', material: look };
+        const mask = coverageOf(drawing, project.width, project.height);
+        this.view?.rise(layer.id);
+        this.#change({ ...withLayer(project, { mask, liquid: { ...layer.liquid, ...of } }), name: project.name === 'Droplet' ? name : project.name });
     }
 
     #want(layer, mask, time) {
@@ -206,7 +243,7 @@ class Studio {
         }
         Object.assign(known, { report, draft, error: undefined });
         if (this.view) {
-            if (draft) {
+            if (draft && job.id !== kExample) {
                 this.frame = this.times.came({ input: job.input, solve_ms });
             }
             this.view.stage.sketch(draft && this.times.slow);
@@ -239,6 +276,7 @@ class Studio {
         if (!this.stroke && this.solver.at_rest && !this.dew.is_shown) {
             root.dataset.droplets = 'ready';
             this.view?.stage.sketch(false);
+            this.view?.frame();
             this.#say(this.#words().replaceAll('\n', '; '));
         }
     }
@@ -252,6 +290,9 @@ class Studio {
         this.history.rest();
         find('hint').hidden = true;
         find('kept').hidden = true;
+        if (this.known.has(kExample)) {
+            this.#drop(kExample);
+        }
     }
 
     #drew(mask, rect, time) {
@@ -320,7 +361,7 @@ class Studio {
         const draft = this.#drops().some(({ id }) => this.known.get(id).draft);
         find('result').textContent = (draft && !refused ? '≈ ' : '') + this.#words();
         find('result').classList.toggle('refused', refused);
-        find('hint').hidden = this.stroke !== undefined || this.project.underlay !== undefined || !this.project.layers.every(({ mask }) => isDry(mask));
+        find('hint').hidden = find('begin').hidden = !this.#is_empty;
         const report = known?.report;
         tabulate(report ? [...rows(report), ...(known.draft ? [['Draft', `${report.output?.triangles ?? report.mesh.triangles} triangles`]] :
             [['Triangles', String(report.output?.triangles ?? report.mesh.triangles)]])] : [['Layer', 'no droplet']]);

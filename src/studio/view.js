@@ -54,6 +54,10 @@ class Droplets {
     }
 }
 
+const kRise = 900;      // time in which a droplet rises from the ground [ms]
+const kMargin = 0.08;   // around the droplets that are shown, as a part of their extent
+const kNearest = 0.3;   // least part of the sheet that is shown
+
 /** What is shown of a sheet of these sides [m]. */
 function spaceOf([width, depth]) {
     return new Box3(new Vector3(-width / 2, 0, -depth / 2), new Vector3(width / 2, 0.08 * width, depth / 2));
@@ -77,6 +81,7 @@ export class View {
     /** Shows a sheet of other sides [m]. */
     fit(extent) {
         this.extent = extent;
+        this.framed = undefined;
         if (!this.object) {
             this.stage.move(spaceOf(extent), extent);
         }
@@ -85,7 +90,49 @@ export class View {
     show(id, look, shape, flat) {
         this.flat = flat;
         this.droplets.show(id, look, shape);
+        if (this.rising === id) {
+            this.rising = undefined;
+            this.#rise(this.droplets.layers.get(id), performance.now());
+        }
+        if (this.framed && !this.framed.containsBox(this.droplets.box())) {
+            this.frame();
+        }
         this.#renew();
+    }
+
+    /** Lets a layer's droplet rise from the ground when it is shown next. */
+    rise(id) {
+        this.rising = this.stage.still || this.stage.sketchy ? undefined : id;
+    }
+
+    #rise(mesh, began) {
+        const left = Math.max(0, 1 - (performance.now() - began) / kRise);
+        mesh.scale.y = Math.max(1e-3, 1 - left ** 3);
+        this.#renew();
+        if (left > 0) {
+            requestAnimationFrame(() => this.#rise(mesh, began));
+        }
+    }
+
+    /** Lets the view show the droplets, or all of the sheet if there are none. */
+    frame() {
+        const { stage, extent: [width, depth] } = this;
+        const box = this.droplets.box();
+        if (this.object || box.isEmpty()) {
+            this.framed = undefined;
+            this.object || stage.part && stage.glideTo(undefined);
+            return;
+        }
+        // Small changes leave the view as it is.
+        const fits = this.framed?.containsBox(box) && box.getSize(new Vector3()).length() > 0.6 * this.framed.getSize(new Vector3()).length();
+        if (!fits) {
+            const size = box.getSize(new Vector3());
+            const least = kNearest * Math.max(width, depth);
+            const grow = (side) => Math.max(kMargin * Math.max(size.x, size.z), (least - side) / 2);
+            this.framed = box.clone().expandByVector(new Vector3(grow(size.x), 0, grow(size.z)));
+            this.framed.intersect(spaceOf([1.2 * width, 1.2 * depth]).union(box));
+            stage.glideTo(new Box3(this.framed.min.clone().multiplyScalar(stage.scale), this.framed.max.clone().multiplyScalar(stage.scale)));
+        }
     }
 
     /** Changes a look without a new mesh. */
@@ -116,6 +163,8 @@ export class View {
             stage.ground.outline(false);
         } else {
             stage.swap(this.droplets, this.flat, spaceOf(this.extent), this.extent);
+            this.framed = undefined;
+            this.frame();
             stage.ground.outline();
         }
     }
