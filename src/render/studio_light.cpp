@@ -248,9 +248,9 @@ Vec3f StudioLight::room(Vec3f direction) const
     if (uniform_) {
         return grey(1.0F);
     }
-    constexpr Vec3f kFloor = {0.10F, 0.13F, 0.16F};
-    constexpr Vec3f kWall = {1.00F, 1.16F, 1.32F};
-    constexpr Vec3f kCeiling = {0.24F, 0.33F, 0.44F};
+    constexpr Vec3f kFloor = {0.11F, 0.13F, 0.15F};
+    constexpr Vec3f kWall = {1.12F, 1.15F, 1.20F};
+    constexpr Vec3f kCeiling = {0.35F, 0.34F, 0.34F};
     const float z = direction.z;
     return z < 0.25F ? mix(kFloor, kWall, smoothstep(-0.15F, 0.25F, z))
                      : mix(kWall, kCeiling, smoothstep(0.25F, 1.0F, z));
