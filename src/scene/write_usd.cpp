@@ -317,6 +317,9 @@ public:
                       [&](std::size_t i) { return corners_[i]; });
         }
         bytes_.text("\n" + indent_ + "uniform token subdivisionScheme = \"none\"\n");
+        if (weights_) {
+            writeVelocities();
+        }
     }
 
     /// Writes the faces of every material, if there are several, and ends the prim.
@@ -360,6 +363,29 @@ private:
         }
         writeSamples(bytes_, indent_, samplesOf(*weights_, scene_),
                      [&](std::size_t key) { write_value(vectorsAt(key, base, change)); });
+    }
+
+    /// Writes what points move by until their next sample [m/s]. From the last one they go on: there, other triangles
+    /// take their place, and renderers blur that frame by its velocities alone.
+    void writeVelocities()
+    {
+        const std::vector<float>& times = scene_.times[weights_->times];
+        bytes_.text(indent_ + "vector3f[] velocities");
+        writeSamples(bytes_, indent_, samplesOf(*weights_, scene_), [&](std::size_t key) {
+            const std::size_t from = std::min(key, times.size() - 2);
+            const Vectors before = vectorsAt(from, &SceneGeometry::vertices, &SceneTarget::vertices);
+            const Vectors after = vectorsAt(from + 1, &SceneGeometry::vertices, &SceneTarget::vertices);
+            const float duration = times[from + 1] - times[from];
+            writeList(bytes_, welded_.first.size(), [&](std::size_t i) {
+                const std::size_t v = welded_.first[i];
+                Float3 velocity{};
+                for (std::size_t k = 0; k < velocity.size(); ++k) {
+                    velocity[k] = (after[v][k] - before[v][k]) / duration;
+                }
+                return velocity;
+            });
+        });
+        bytes_.u8('\n');
     }
 
     /// Positions or normals at a key of the weights.

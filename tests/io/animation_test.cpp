@@ -423,6 +423,37 @@ TEST(Animation, HasTimeSamplesInUsd)
     EXPECT_EQ(still.find("timeCode"), std::string::npos) << "one frame has no time";
 }
 
+// Renderers blur motion by velocities: a point's place and velocity give its place at the next sample.
+TEST(Animation, MovesByItsVelocitiesInUsd)
+{
+    constexpr double kFrames = 10.0;
+    const std::string usda = written(filmOf({3, 1, 4, 1}), {.frames_per_second = kFrames}, {Format::Usda});
+    const testing::UsdPrim root = testing::UsdaReader(usda).read();
+    const testing::UsdPrim& droplet = root.child("droplet");
+    for (const auto& [name, run] : {std::pair{"frame_1", 3U}, {"frame_5", 4U}}) {
+        const auto& properties = droplet.child(name).properties;
+        const auto& points = properties.at("points").samples;
+        const auto& velocities = properties.at("velocities").samples;
+        ASSERT_EQ(velocities.size(), points.size()) << name;
+        ASSERT_EQ(points.size(), run) << name;
+        double fastest = 0.0;
+        for (auto now = points.begin(), next = std::next(now); next != points.end(); ++now, ++next) {
+            const std::vector<double> from = testing::numbersIn(now->second);
+            const std::vector<double> to = testing::numbersIn(next->second);
+            const std::vector<double> velocity = testing::numbersIn(velocities.at(now->first));
+            ASSERT_EQ(velocity.size(), from.size());
+            for (std::size_t i = 0; i < from.size(); ++i) {
+                EXPECT_NEAR(from[i] + velocity[i] * (next->first - now->first) / kFrames, to[i], 1e-9);
+                fastest = std::max(fastest, std::abs(velocity[i]));
+            }
+        }
+        EXPECT_GT(fastest, 0.0) << name;
+        EXPECT_EQ(velocities.rbegin()->second, std::next(velocities.rbegin())->second)
+            << "it goes on until it is replaced";
+    }
+    EXPECT_FALSE(droplet.child("frame_4").properties.contains("velocities"));
+}
+
 // Nodes that appear and go keep their tracks; a child places the compressed vertices.
 TEST(Animation, IsCompressed)
 {
