@@ -651,7 +651,7 @@ int runAnimate(int argc, const char* const* argv)
     }
     AnimateOptions options = std::get<AnimateOptions>(parsed);
     Frames frames =
-        options.reveal ? Frames(options.inputs.front(), *options.reveal, options.frames) : Frames(options.inputs);
+        options.motion ? Frames(options.inputs.front(), *options.motion, options.frames) : Frames(options.inputs);
     const bool is_resumable = options.files && !isStream(options.inputs.front());
     options.fingerprint = is_resumable ? fingerprintOf(options, frames.files()) : "";
     const std::vector<std::size_t> numbers = frames.numbers();

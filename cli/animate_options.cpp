@@ -27,6 +27,7 @@ const CommandText& commandText()
             "  droplet-shape animate rain.mp4 rain.glb --volume-mode track\n"
             "  droplet-shape animate frames/ 'rain-%04d.obj'\n"
             "  droplet-shape animate logo.svg logo.glb --reveal left --frames 72\n"
+            "  droplet-shape animate logo.svg logo.glb --drips 7 --material honey\n"
             "  ffmpeg -i rain.mp4 -f image2pipe -c:v png - | droplet-shape animate - rain.glb\n"
             "\n"
             "Exit codes:\n"
@@ -105,19 +106,27 @@ droplet::RevealSource revealSource(const Given& given)
     return droplet::Vec2{place[0], place[1]};
 }
 
-/// Reads --reveal.
-void readReveal(const CommandLine& line, AnimateOptions& options)
+/// Reads what becomes of the footprint of one picture.
+void readMotion(const CommandLine& line, const droplet::DripOptions& drips, AnimateOptions& options)
 {
     const auto source = line.value("--reveal");
-    if (!source) {
+    const bool drip = line.value("--drips").has_value();
+    if (line.value("--seed") && !drip) {
+        refuse("--seed needs --drips");
+    }
+    if (source && drip) {
+        refuse("--reveal and --drips cannot be used together");
+    }
+    if (!source && !drip) {
         if (line.value("--frames")) {
-            refuse("--frames needs --reveal; without it, the frames are those of INPUT");
+            refuse("--frames needs --reveal or --drips; without them, the frames are those of INPUT");
         }
         return;
     }
-    options.reveal = revealSource(*source);
+    options.motion = source ? FootprintMotion(revealSource(*source)) : FootprintMotion(drips);
     if (options.inputs.size() > 1 || isStream(options.inputs.front()) || !isPicture(options.inputs.front())) {
-        refuse("--reveal takes one picture as INPUT, into whose footprint liquid flows");
+        refuse(source ? "--reveal takes one picture as INPUT, into whose footprint liquid flows"
+                      : "--drips takes one picture as INPUT, from whose footprint liquid drips");
     }
     if (!line.value("--volume-mode")) {
         options.volume_mode = droplet::VolumeMode::Fill;
@@ -211,7 +220,14 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
         "Let liquid flow into the footprint of one picture, from a side, from its middle or from a place (shares of "
         "width and height, from the top left), along its strokes, at the same contact angle; --volume-mode is fill "
         "then");
-    line.add("Sequence", "--frames", "N", "Number of frames of --reveal, up to 100k",
+    droplet::DripOptions drips;
+    line.add(
+        "Sequence", "--drips", "N",
+        "Let liquid drip from up to N lower edges of one picture's footprint, as paint runs down a wall, at the same "
+        "contact angle; --volume-mode is fill then",
+        into(drips.count, {1, 1000, "1000"}));
+    line.add("Sequence", "--seed", "N", "Random seed of --drips", seedInto(drips.seed));
+    line.add("Sequence", "--frames", "N", "Number of frames of --reveal and --drips, up to 100k",
              into(options.frames, {1, 100'000, "100k"}));
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
@@ -230,7 +246,7 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
         refuse("INPUT: - must stand alone: all frames are on standard input");
     }
     options.output = files.back().text;
-    readReveal(line, options);
+    readMotion(line, drips, options);
     readAnimation(line, options);
     if (options.resume && (!options.files || isStream(options.inputs.front()))) {
         refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.glb, and INPUT in files");

@@ -9,9 +9,9 @@
 
 #include "command_line.h"
 #include "droplet/io/output.h"
-#include "droplet/mask/reveal.h"
 #include "droplet/sequence/sequence.h"
 #include "droplet_options.h"
+#include "frames.h"
 #include "numbered_path.h"
 #include "preview.h"
 
@@ -24,8 +24,8 @@ struct AnimateOptions {
     std::optional<NumberedPath> files;  ///< set if every frame gets a file
     droplet::Format format = droplet::Format::Glb;
     droplet::Compression compression = droplet::Compression::None;
-    std::optional<droplet::RevealSource> reveal;  ///< liquid flows from there into the footprint of the one input
-    std::size_t frames = 48;                      ///< with `reveal`
+    std::optional<FootprintMotion> motion;  ///< of the one input
+    std::size_t frames = 48;                ///< with `motion`
     droplet::VolumeMode volume_mode = droplet::VolumeMode::Total;
     std::optional<double> frames_per_second;
     std::optional<std::string> json;            ///< path or kStandardStream

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <string_view>
 #include <system_error>
 #include <tuple>
@@ -134,28 +135,36 @@ Frames::Frames(std::istream& pictures, std::string name)
 {
 }
 
-Frames::Frames(std::string picture, droplet::RevealSource source, std::size_t count) : source_(source)
+Frames::Frames(std::string picture, FootprintMotion motion, std::size_t count) : motion_(std::move(motion))
 {
     for (std::size_t k = 1; k <= count; ++k) {
         pictures_.emplace_back(k, picture);
     }
 }
 
-FramePicture Frames::revealed(const droplet::MaskOptions& options)
+FramePicture Frames::moved(const droplet::MaskOptions& options)
 {
     FramePicture frame;
     std::tie(frame.number, frame.name) = pictures_[done_];
-    if (!reveal_) {
+    if (!footprint_) {
         droplet::MaskOptions wet = options;
         wet.allow_dry = false;
         droplet::Mask mask = droplet::readMask(frame.name, wet);
+        const auto moving = [&]<class Motion>(const Motion& motion) {
+            return [motion = std::make_shared<const Motion>(motion)](double time) { return motion->at(time); };
+        };
         try {
-            reveal_.emplace(std::move(mask), *source_);
+            if (const auto* options_of_drips = std::get_if<droplet::DripOptions>(&*motion_)) {
+                footprint_ = moving(droplet::Drips(std::move(mask), *options_of_drips));
+            } else {
+                footprint_ = moving(droplet::Reveal(std::move(mask), std::get<droplet::RevealSource>(*motion_)));
+            }
         } catch (const Error& error) {
             throw Error(error.code(), frame.name + ": " + error.what());
         }
     }
-    frame.mask = reveal_->at(static_cast<double>(frame.number) / static_cast<double>(pictures_.size()));
+    // Liquid that drips is there before the first frame, liquid that flows in is not: neither time has a frame.
+    frame.mask = footprint_(static_cast<double>(frame.number) / static_cast<double>(pictures_.size()));
     frame.name += ", frame " + std::to_string(frame.number);
     return frame;
 }
@@ -196,7 +205,7 @@ std::optional<FramePicture> Frames::next(const droplet::MaskOptions& options)
 {
     const bool by_levels =
         options.segment == droplet::Segmentation::Auto || options.segment == droplet::Segmentation::Threshold;
-    if (options.channel != droplet::Channel::Auto || !by_levels || options.colour || source_) {
+    if (options.channel != droplet::Channel::Auto || !by_levels || options.colour || motion_) {
         return read(options);
     }
     if (!decision_) {
@@ -269,8 +278,8 @@ std::optional<FramePicture> Frames::read(const droplet::MaskOptions& options)
         if (done_ == pictures_.size()) {
             return std::nullopt;
         }
-        if (source_) {
-            frame = revealed(options);
+        if (motion_) {
+            frame = moved(options);
         } else {
             std::tie(frame.number, frame.name) = pictures_[done_];
             frame.mask = droplet::readMask(frame.name, options);
@@ -312,7 +321,7 @@ std::vector<std::string> Frames::files() const
 {
     std::vector<std::string> files;
     for (const auto& [number, name] : pictures_) {
-        if (files.empty() || !source_) {
+        if (files.empty() || !motion_) {
             files.push_back(name);
         }
     }

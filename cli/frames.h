@@ -3,13 +3,16 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "droplet/mask/drips.h"
 #include "droplet/mask/mask.h"
 #include "droplet/mask/reveal.h"
 #include "picture_stream.h"
@@ -25,6 +28,9 @@ struct FramePicture {
     bool disagrees = false;  ///< whether the frame by itself would be read differently
 };
 
+/// What becomes of the footprint of one picture: liquid flows into it, or drips from it.
+using FootprintMotion = std::variant<droplet::RevealSource, droplet::DripOptions>;
+
 /// Frames of a sequence, all read in the same way: with Channel::Auto, the first frame with a clear footprint decides
 /// which levels of which channel are dry and liquid in all frames.
 class Frames {
@@ -36,10 +42,10 @@ public:
     /// @param pictures  as PictureStream reads them; used until the last frame
     /// @param name      of the stream, for messages
     Frames(std::istream& pictures, std::string name);
-    /// Frames in which liquid flows into the footprint of one picture.
+    /// Frames of one picture whose footprint moves.
     /// @param picture  path
     /// @param count    of frames, at least 1
-    Frames(std::string picture, droplet::RevealSource source, std::size_t count);
+    Frames(std::string picture, FootprintMotion motion, std::size_t count);
 
     /// Reads the next frame; returns nothing after the last one.
     /// @throws droplet::Error InvalidInput, naming the frame: unreadable, or not of the first frame's size
@@ -75,13 +81,13 @@ private:
 
     std::optional<Decision> decision_;
     std::optional<FramePicture> first_picture_;  ///< first frame, if it decided
-    /// Frame of a footprint that liquid flows into.
-    [[nodiscard]] FramePicture revealed(const droplet::MaskOptions& options);
+    /// Frame of a footprint that moves.
+    [[nodiscard]] FramePicture moved(const droplet::MaskOptions& options);
 
     std::vector<std::pair<std::size_t, std::string>> pictures_;
-    std::optional<droplet::RevealSource> source_;  ///< of liquid that flows into the one picture, which all frames name
-    std::optional<droplet::Reveal> reveal_;        ///< from the first frame on
-    std::string video_path_;                       ///< empty without a video
+    std::optional<FootprintMotion> motion_;           ///< of the one picture, which all frames name
+    std::function<droplet::Mask(double)> footprint_;  ///< at a time from 0 to 1; from the first frame on
+    std::string video_path_;                          ///< empty without a video
     std::unique_ptr<Video> video_;
     std::unique_ptr<PictureStream> stream_;
     std::string stream_name_;

@@ -644,6 +644,29 @@ TEST_F(AnimateTest, RevealFillsTheFootprintOfOnePicture)
     }
 }
 
+// Liquid drips from the picture's droplet: ever more of it, at the same angle, always as one droplet.
+TEST_F(AnimateTest, DripsGrowFromTheFootprintOfOnePicture)
+{
+    const auto drips = [&](const std::string& seed) {
+        return report({"frames/" + name(4), "drips.glb", "--drips", "2", "--seed", seed, "--frames", "5",
+                       "--contact-angle", "30deg", "--model", "linear"});
+    };
+    const json told = drips("1");
+    ASSERT_EQ(told["frames"].size(), 5U);
+    EXPECT_EQ(told["volume_mode"], "fill");
+    const auto volume = [](const json& frame) { return frame["volume_m3"].get<double>(); };
+    for (const json& frame : told["frames"]) {
+        EXPECT_GE(volume(frame), 0.999 * volume(told["frames"][0]));
+    }
+    EXPECT_GT(volume(told["frames"][4]), 1.02 * volume(told["frames"][0]));
+    EXPECT_NE(drips("2")["frames"], told["frames"]);
+    const std::string picture = "frames/" + name(4);
+    expectFailure({picture, "old.glb", "--drips", "0"}, 2, {"--drips", "0"});
+    expectFailure({picture, "old.glb", "--drips", "2", "--reveal", "left"}, 2, {"--drips", "--reveal"});
+    expectFailure({picture, "old.glb", "--seed", "2"}, 2, {"--seed", "--drips"});
+    expectFailure({"frames", "old.glb", "--drips", "2"}, 2, {"--drips", "one picture"});
+}
+
 TEST_F(AnimateTest, RevealRefusesWhatItCannotFill)
 {
     const std::string picture = "frames/" + name(4);
