@@ -281,7 +281,7 @@ export const kGerman = new Map(Object.entries({
     'many': 'viele',
     'automatic': 'automatisch',
     'one mesh': 'ein Netz',
-    'a node each': 'je ein Knoten',
+    'a node each': 'Knoten',
     'instances': 'Instanzen',
     'Compress': 'Kompres\u00adsion',
     '16 bits': '16 Bit',
@@ -317,7 +317,7 @@ export const kGerman = new Map(Object.entries({
     'Liquid, at 20 C': 'Flüssigkeit bei 20 °C',
     'Look of the droplets': 'Aussehen der Tropfen',
     'Triangles of droplets: medium has 64 of small ones to 352 of large ones': 'Dreiecke der Tropfen: üblich sind 64 bei kleinen bis 352 bei großen',
-    'auto is one mesh up to 20000 droplets; none one mesh; nodes a node for each droplet, with shared meshes; gpu EXT_mesh_gpu_instancing, for glTF': 'Automatisch: bis 20000 Tropfen ein Netz. Je ein Knoten: mit gemeinsamen Netzen. Instanzen: EXT_mesh_gpu_instancing, für glTF',
+    'auto is one mesh up to 20000 droplets; none one mesh; nodes a node for each droplet, with shared meshes; gpu EXT_mesh_gpu_instancing, for glTF': 'Automatisch: bis 20000 Tropfen ein Netz. Knoten: mit gemeinsamen Netzen. Instanzen: EXT_mesh_gpu_instancing, für glTF',
     'Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size': 'Kompression einer .glb: 16 Bit (KHR_mesh_quantization), drei Viertel der Größe; meshopt (EXT_meshopt_compression), ein Drittel der Größe',
     // Rain and splash.
     'Go on (Space)': 'Weiter (Leertaste)',

@@ -282,7 +282,7 @@ export const kFrench = new Map(Object.entries({
     'many': 'beaucoup',
     'automatic': 'automatique',
     'one mesh': 'un maillage',
-    'a node each': 'un nœud chacune',
+    'a node each': 'des nœuds',
     'instances': 'instances',
     'Compress': 'Compres\u00adsion',
     '16 bits': '16 bits',
@@ -318,7 +318,7 @@ export const kFrench = new Map(Object.entries({
     'Liquid, at 20 C': 'Liquide, à 20 °C',
     'Look of the droplets': 'Aspect des gouttes',
     'Triangles of droplets: medium has 64 of small ones to 352 of large ones': 'Triangles des gouttes\u00a0: usuel va de 64 pour les petites à 352 pour les grandes',
-    'auto is one mesh up to 20000 droplets; none one mesh; nodes a node for each droplet, with shared meshes; gpu EXT_mesh_gpu_instancing, for glTF': 'Automatique\u00a0: un maillage jusqu’à 20000 gouttes. Un nœud chacune\u00a0: maillages partagés. Instances\u00a0: EXT_mesh_gpu_instancing, pour glTF',
+    'auto is one mesh up to 20000 droplets; none one mesh; nodes a node for each droplet, with shared meshes; gpu EXT_mesh_gpu_instancing, for glTF': 'Automatique\u00a0: un maillage jusqu’à 20000 gouttes. Nœuds\u00a0: maillages partagés. Instances\u00a0: EXT_mesh_gpu_instancing, pour glTF',
     'Compress a .glb: quantize, integers of 16 bits (KHR_mesh_quantization), three quarters of the size; meshopt, those encoded (EXT_meshopt_compression), a third of the size': 'Compression d’un .glb\u00a0: 16 bits (KHR_mesh_quantization), trois quarts de la taille\u00a0; meshopt (EXT_meshopt_compression), un tiers de la taille',
     // Rain and splash.
     'Go on (Space)': 'Continuer (Espace)',

@@ -281,7 +281,7 @@ export const kJapanese = new Map(Object.entries({
     'many': '多',
     'automatic': '自動',
     'one mesh': '1つのメッシュ',
-    'a node each': '液滴ごとにノード',
+    'a node each': 'ノード',
     'instances': 'インスタンス',
     'Compress': '圧縮',
     '16 bits': '16ビット',

@@ -281,7 +281,7 @@ export const kChinese = new Map(Object.entries({
     'many': '多',
     'automatic': '自动',
     'one mesh': '单一网格',
-    'a node each': '各一个节点',
+    'a node each': '节点',
     'instances': '实例',
     'Compress': '压缩',
     '16 bits': '16 位',
