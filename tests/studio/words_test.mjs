@@ -45,11 +45,11 @@ const texts = (page) => page.evaluate(() => {
     return found.filter((text) => text !== '');
 });
 
-const kUnits = /\b(?:[pnµm]?L|[nµmck]?m[²³]?|m[²³]|[mk]?Pa|mN\/m|N\/m|kg\/m³|m\/s²?|km\/h|mm\/h|ms|s|meshopt)(?![\p{L}\d])|µ\w[²³]?/gu;
+const kUnits = /(?<!\p{L})(?:mN\/m|N\/m|kg\/m³|m\/s²?|km\/h|mm\/h|[pnµm]?L|[nµmck]?m[²³]?|[mk]?Pa|m?s)(?![\p{L}\d])/gu;
 
 /** Texts with words that are not marked as translated. */
 const bare = async (page) => (await texts(page)).filter((text) => {
-    const rest = text.replace(/⟦[^]*⟧/, '').replace(' – Droplet Studio', '').replace('Aqua', '');
+    const rest = text.replace(/⟦[^]*⟧/, '').replace(/^(bottle\.obj)? – Droplet Studio$|^Aqua$/, '');
     return /\p{Ll}/u.test(rest.replace(kUnits, ''));
 });
 
@@ -190,6 +190,7 @@ studio('another language changes the words and nothing else, and is kept', { ...
 
 studio('dew and its messages follow another language', kDesktop, async (page) => {
     await page.locator('[name=mode][value=dew]').check({ force: true });
+    await stateOfDew(page, 'empty');
     await page.locator('#dew-bottle').click();
     await stateOfDew(page, 'ready');
     const english = await texts(page);
