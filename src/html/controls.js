@@ -4,6 +4,7 @@ import { length } from './figures.js';
 import { kGrounds } from './ground.js';
 import { readPicture } from './read_picture.js';
 import { roundLength } from './stage.js';
+import { say } from './words.js';
 
 export const find = (id) => document.getElementById(id);
 
@@ -89,7 +90,7 @@ export function offerGrounds(stage, chosen, chose = () => {}) {
             chose(undefined);
             find('trouble').hidden = true;
         } catch {
-            complain(`${file.name} is no picture that this browser can read.`);
+            complain(say('{file} is no picture that this browser can read.', { file: file.name }));
         }
     });
     choose(chosen in kGrounds ? chosen : 'mat');
@@ -106,5 +107,5 @@ export function drawScale(stage) {
     const scale = find('scale');
     const metres = roundLength(stage.metresPerPixel * Math.min(180, 0.3 * stage.canvas.clientWidth));
     scale.style.width = `${metres / stage.metresPerPixel}px`;
-    scale.firstElementChild.textContent = length(metres).replace(/(\.\d*?)0+(?=\D)/, '$1').replace(/\.(?=\D)/, '');
+    scale.firstElementChild.textContent = length(metres).replace(/([.,]\d*?)0+(?=\D)/, '$1').replace(/[.,](?=\D)/, '');
 }

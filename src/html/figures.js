@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Formats the report's numbers in readable units.
+import { decimal, say } from './words.js';
 
 const kScales = {
     volume: [[1e-15, 'pL'], [1e-12, 'nL'], [1e-9, 'µL'], [1e-6, 'mL'], [1e-3, 'L'], [1, 'm³']],
@@ -17,10 +18,10 @@ export function digits(value, count = 3) {
     }
     const size = Math.abs(value);
     if (size >= 1e7 || size < 1e-4) {
-        return value.toExponential(count - 1).replace('-', '−').replace('e', ' × 10^').replace('^+', '^');
+        return decimal(value.toExponential(count - 1)).replace('-', '−').replace('e', ' × 10^').replace('^+', '^');
     }
     const places = Math.max(0, count - 1 - Math.floor(Math.log10(size)));
-    return value.toFixed(places).replace('-', '−');
+    return decimal(value.toFixed(places)).replace('-', '−');
 }
 
 /** The largest unit in which the number is at least one, else the smallest unit. */
@@ -62,9 +63,10 @@ export function sides([width, height]) {
 
 function groundText(ground) {
     if (ground.radius_m !== null) {
-        return `${ground.radius_m < 0 ? 'hollow ' : ''}${ground.kind}, radius ${length(Math.abs(ground.radius_m))}`;
+        const radius = length(Math.abs(ground.radius_m));
+        return say('{ground}, radius {radius}', { ground: say(ground.radius_m < 0 ? `hollow ${ground.kind}` : ground.kind), radius });
     }
-    return ground.kind;
+    return say(ground.kind);
 }
 
 /**
@@ -145,16 +147,16 @@ export function rows(report) {
     const found = [];
     const add = (name, value, text) => {
         if (value !== null && value !== undefined) {
-            found.push([name, text(value)]);
+            found.push([say(name), text(value)]);
         }
     };
-    add('Liquid', liquid?.name, capital);
+    add('Liquid', liquid?.name, (name) => say(capital(name)));
     add('Surface tension', liquid?.surface_tension_n_per_m, (s) => `${digits(s * 1e3)}${kSpace}mN/m`);
     add('Density', liquid?.density_kg_per_m3, (d) => `${digits(d)}${kSpace}kg/m³`);
     add('Volume', shape?.volume_m3, volume);
     add('Greatest height', shape?.height_max_m, length);
     add('Contact angle', shape?.contact_angle_deg, ({ min, mean, max }) =>
-        `${degrees(mean)} (${degrees(min)} to ${degrees(max)})`);
+        say('{mean} ({min} to {max})', { mean: degrees(mean), min: degrees(min), max: degrees(max) }));
     add('Footprint', mesh?.footprint_area_m2, area);
     add('Liquid surface', shape?.liquid_area_m2, area);
     add('Rim', mesh?.rim_length_m, length);
@@ -182,7 +184,7 @@ export function rows(report) {
     if (onto) {
         add('Laid on', onto.path, (path) => path.split('/').pop());
     }
-    add('Would slide', shape?.would_slide, (slides) => (slides ? 'yes' : 'no'));
-    add('Model', model, String);
+    add('Would slide', shape?.would_slide, (slides) => say(slides ? 'yes' : 'no'));
+    add('Model', model, say);
     return found;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A 2D liquid in a page: the simulation, its outlines on a canvas, what the pointer does, and the controls.
 import { loadLiquid2d } from '../../npm/liquid2d.js';
+import { say } from '../html/words.js';
 import { download, Recorder, savePicture } from '../live/recorder.js';
 import { kPresets } from './controls.js';
 import { LottieRecorder } from './lottie_recorder.js';
@@ -274,7 +275,7 @@ class Liquid {
         context.fill(pathOf([...this.outlines.liquid, ...this.outlines.droplets]));
         const { draw, values } = this;
         this.leave();
-        draw(canvas, kPresets[values.preset][0]);
+        draw(canvas, say(kPresets[values.preset][0]));
     }
 
     #followPointer() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bar and the panel over a 2D liquid.
+import { count, decimal, say } from '../html/words.js';
 import { element, Overlay } from '../live/overlay.js';
 import { kLooks, kPresets, kRecords, kSliders, kStyles } from './controls.js';
 
@@ -50,8 +51,8 @@ export class Panel extends Overlay {
     }
 
     showFigures({ particles }, busy, rate) {
-        this.figures.textContent = `${particles.toLocaleString('en')} particles · ${rate.toFixed(0)} frames/s`;
-        this.figures.title = `Simulation and outlines ${busy.toFixed(1)} ms a frame`;
+        this.figures.textContent = say('{count} particles · {rate} frames/s', { count: count(particles), rate: rate.toFixed(0) });
+        this.figures.title = say('Simulation and outlines {busy} ms a frame', { busy: decimal(busy.toFixed(1)) });
     }
 
     act(icon) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bar and the panel over a simulation that fills the page.
+import { say, translate } from '../html/words.js';
 
 const kIcons = {
     pause: '<path d="M9 5v14M15 5v14"/>',
@@ -59,6 +60,7 @@ export class Overlay {
             root.addEventListener(kind, () => this.wake());
         }
         this.wake();
+        translate(root);
         this.showAll();
     }
 
@@ -139,7 +141,7 @@ export class Overlay {
     showPaused(paused) {
         const button = this.buttons.get('pause');
         this.#draw(button, paused ? 'play' : 'pause');
-        button.setAttribute('aria-label', paused ? 'Go on (Space)' : 'Pause (Space)');
+        button.setAttribute('aria-label', say(paused ? 'Go on (Space)' : 'Pause (Space)'));
         button.title = button.getAttribute('aria-label');
     }
 
@@ -197,7 +199,7 @@ export class Overlay {
                 }
                 part.recorder.runs ? part.recorder.stop() : part.recorder.start();
                 button.classList.toggle('recording', part.recorder.runs);
-                button.setAttribute('aria-label', part.recorder.runs ? 'End the recording (R)' : this.about.bar.find((each) => each.icon === icon).label);
+                button.setAttribute('aria-label', say(part.recorder.runs ? 'End the recording (R)' : this.about.bar.find((each) => each.icon === icon).label));
                 break;
             case 'whole':
                 document.fullscreenElement ? document.exitFullscreen() : this.root.requestFullscreen?.();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is behind the glass: the street, or a picture, panorama or video that is dropped on the page.
+import { say } from '../html/words.js';
 
 /** A picture twice as wide as it is high, to this part, is a panorama all around. */
 const kPanorama = 0.01;
@@ -62,7 +63,7 @@ export class Backdrop {
             await (file.type.startsWith('video/') ? this.#play(url) : this.#show(await createImageBitmap(file)));
             this.shown('own');
         } catch {
-            this.shown('own', `${file.name} is not a picture or video that this browser reads`);
+            this.shown('own', say('{file} is not a picture or video that this browser reads', { file: file.name }));
         } finally {
             if (!this.video) {
                 URL.revokeObjectURL(url);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bar and the panel over the rain.
 import { kGlassParameters } from '../../npm/rain.js';
+import { count, decimal, say } from '../html/words.js';
 import { element, Overlay } from '../live/overlay.js';
 import { angleOfCoating, kCoatings, kFigures, kSliders } from './controls.js';
 
@@ -43,7 +44,7 @@ export class Panel extends Overlay {
         this.backdrop_trouble = element('p', { role: 'alert', hidden: '' });
         groups.get('View').children[0].after(element('div', { class: 'choices' }, ...this.backdrops.values(), file), this.backdrop_trouble);
         this.panel.append(element('h2', {}, 'Figures of the thesis'), element('div', { class: 'choices' },
-            ...Object.entries(kFigures).map(([figure, what]) => element('button', { type: 'button', title: `Figure ${figure}: ${what}`, id: `rain-figure-${figure}`,
+            ...Object.entries(kFigures).map(([figure, what]) => element('button', { type: 'button', title: say('Figure {figure}: {what}', { figure, what: say(what) }), id: `rain-figure-${figure}`,
                 onclick: () => this.rain.show(figure) }, figure))));
     }
 
@@ -82,8 +83,8 @@ export class Panel extends Overlay {
     }
 
     showFigures({ time, running, still }, busy, rate) {
-        this.figures.textContent = `${(running + still).toLocaleString('en')} droplets, ${running.toLocaleString('en')} of them large · ${rate.toFixed(0)} frames/s`;
-        this.figures.title = `${time.toFixed(0)} s of rain; simulation and maps ${busy.toFixed(1)} ms a frame`;
+        this.figures.textContent = say('{all} droplets, {large} of them large · {rate} frames/s', { all: count(running + still), large: count(running), rate: rate.toFixed(0) });
+        this.figures.title = say('{time} s of rain; simulation and maps {busy} ms a frame', { time: time.toFixed(0), busy: decimal(busy.toFixed(1)) });
     }
 
     act(icon) {

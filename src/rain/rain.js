@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rain on a windshield in a page: the simulation in fixed steps, its view, and the controls.
 import { kGlassParameters, kWindshieldParameters, loadRain } from '../../npm/rain.js';
+import { say } from '../html/words.js';
 import { Recorder, savePicture } from '../live/recorder.js';
 import { Backdrop } from './backdrop.js';
 import { Panel } from './panel.js';
@@ -52,7 +53,7 @@ export async function openRain(parent, wasm, given = {}, leave = undefined) {
         const trouble = document.createElement('div');
         trouble.className = 'trouble';
         trouble.setAttribute('role', 'alert');
-        trouble.textContent = `The rain cannot be shown: ${error.message}`;
+        trouble.textContent = say('The rain cannot be shown: {reason}', { reason: error.message });
         root.append(trouble);
         state.state = 'failed';
         throw error;

@@ -4,6 +4,7 @@
 import { complain, download, fileStem, find, tabulate } from '../html/controls.js';
 import { CoveredObject } from '../html/covered_object.js';
 import { digits, length, volume } from '../html/figures.js';
+import { say, translate } from '../html/words.js';
 import { bottle } from './bottle.js';
 import markup from './dew.html';
 import {
@@ -75,9 +76,7 @@ export class Dew {
         find('save').setAttribute('popovertarget', shown ? 'dew-saves' : 'saves');
         find('trouble').hidden = true;
         this.#keep();
-        const words = find('command-line').firstChild;
-        this.#words ??= words.textContent;
-        words.textContent = shown ? 'The same by the command: ' : this.#words;
+        this.#introduceCommand();
         if (!shown) {
             this.#view?.showObject(undefined);
             return;
@@ -101,7 +100,6 @@ export class Dew {
         return this.#started;
     }
 
-    #words;  // of the drawing, before its command
     #started;
     #known;
     #worker;
@@ -145,6 +143,18 @@ export class Dew {
         }
     }
 
+    /** The line before the command that is shown with the figures. */
+    #introduceCommand() {
+        find('command-line').firstChild.data = `${this.#shown ? say('The same by the command:') :
+            say('The same by the command, with the footprint saved as PNG:')} `;
+    }
+
+    /** Says everything again, in another language. */
+    retell() {
+        this.#introduceCommand();
+        this.#update();
+    }
+
     async open(files) {
         find('trouble').hidden = true;
         try {
@@ -152,14 +162,14 @@ export class Dew {
             await this.#start();
             this.#take(object);
         } catch (error) {
-            complain(`${files[0].name} cannot be opened: ${error.message}.`);
+            complain(say('{file} cannot be opened: {reason}.', { file: files[0].name, reason: error.message }));
         }
     }
 
     /** Takes another object; it keeps its own size. */
     #take(object) {
         this.#change({ object, settings: { ...this.#state.settings, objectSize: '', up: '' } });
-        this.#say(`${object.name} opened`);
+        this.#say(say('{file} opened', { file: object.name }));
     }
 
     /** Without an object, as at first. */
@@ -312,14 +322,14 @@ export class Dew {
         find('redo').disabled = !this.#history.can_redo;
         find('dew-bottle').hidden = object !== undefined;
         find('dew-open').classList.toggle('main', object === undefined);
-        find('dew-open').textContent = object ? 'Open another' : 'Open object';
-        find('dew-name').textContent = object?.name ?? 'No object';
+        find('dew-open').textContent = say(object ? 'Open another' : 'Open object');
+        find('dew-name').textContent = object?.name ?? say('No object');
         find('dew-settings').hidden = object === undefined;
-        document.title = `${object?.name ?? 'Dew'} – Droplet Studio`;
+        document.title = `${object?.name ?? say('Dew')} – Droplet Studio`;
         find('dew-object').hidden = !report;
         if (report) {
             const { triangles, size_m } = report.input;
-            find('dew-object').textContent = `${counted(triangles)} triangles, ${size_m.map((side) => length(side)).join(' × ')}`;
+            find('dew-object').textContent = say('{count} triangles, {size}', { count: counted(triangles), size: size_m.map((side) => length(side)).join(' × ') });
         }
         this.#showResult();
         this.#showFigures(report);
@@ -335,7 +345,8 @@ export class Dew {
         const stopped = waits && !this.#job && this.#stopped?.object === object && this.#stopped.text === JSON.stringify(this.#options);
         const seconds = this.#job ? Math.floor((performance.now() - this.#job.began) / 1000) : 0;
         const refused = !waits && made?.error !== undefined;
-        const text = stopped ? 'Stopped; change something to begin again' : waits ? `Covering ${object.name}…${seconds > 1 ? ` ${seconds} s` : ''}` :
+        const text = stopped ? say('Stopped; change something to begin again') :
+            waits ? `${say('Covering {object}…', { object: object.name })}${seconds > 1 ? ` ${seconds} s` : ''}` :
             refused ? `${sentence(made.error)}.` : made ? wordsOf(made.report) : '';
         find('result').textContent = text;
         find('result').classList.toggle('refused', refused);
@@ -345,9 +356,9 @@ export class Dew {
     }
 
     #showFigures(report) {
-        tabulate(report ? rowsOf(report, this.#made.solve_ms) : [['Object', 'none']]);
+        tabulate(report ? rowsOf(report, this.#made.solve_ms) : [[say('Object'), say('none')]]);
         const many = report && report.input.triangles > kManyTriangles ?
-            [`${counted(report.input.triangles)} triangles are many for a browser; the command droplet-shape dew is faster.`] : [];
+            [say('{count} triangles are many for a browser; the command droplet-shape dew is faster.', { count: counted(report.input.triangles) })] : [];
         find('warnings').replaceChildren(...[...report?.warnings ?? [], ...many].map((warning) =>
             Object.assign(document.createElement('li'), { textContent: warning })));
         find('command-line').hidden = !report;
@@ -368,7 +379,7 @@ export class Dew {
             const files = [...event.target.files];
             event.target.value = '';
             if (files.length > 0) {
-                hasObject(files) ? this.open(files) : complain(`${files[0].name} is no mesh; .glb, .gltf, .obj, .ply and .stl are.`);
+                hasObject(files) ? this.open(files) : complain(say('{file} is no mesh; .glb, .gltf, .obj, .ply and .stl are.', { file: files[0].name }));
             }
         });
         find('dew-bottle').addEventListener('click', () => {
@@ -403,6 +414,7 @@ export class Dew {
             choice.title = title ?? '';
             find('dew-kinds').append(choice);
         }
+        [find('dew'), find('dew-saves')].forEach(translate);
     }
 
     // Files.
@@ -419,15 +431,15 @@ export class Dew {
             const name = kind === 'view' ? `${this.#stem}.png` : `${this.#stem}.${kind}`;
             download(kind === 'view' ? await this.#view.picture() : new Blob([await this.#bytes(kind)], { type: kTypes[kind] }), name);
             find('trouble').hidden = true;
-            this.#say(`${name} saved`);
+            this.#say(say('{file} saved', { file: name }));
         } catch (error) {
-            complain(`Nothing was saved. ${sentence(error)}.`);
+            complain(say('Nothing was saved. {reason}.', { reason: sentence(error) }));
         }
     }
 
     async #bytes(format) {
         if (root.dataset.dew !== 'ready') {
-            throw new Error('there are no droplets yet');
+            throw new Error(say('there are no droplets yet'));
         }
         const form = formOf(this.#known, this.#state.settings);
         if (format === 'usdz' && form.instancing === 'gpu') {
@@ -445,16 +457,17 @@ const frameOf = ({ options: { objectSize, up } }) => `${objectSize} ${up}`;
 
 function wordsOf({ droplets }) {
     const { count, volume_m3, covered_m2, area_m2 } = droplets;
-    return `${counted(count)} droplet${count === 1 ? '' : 's'}, ${volume(volume_m3)} on ${digits(100 * covered_m2 / area_m2, 2)}\u2009%`;
+    const text = count === 1 ? '{count} droplet, {volume} on {share}' : '{count} droplets, {volume} on {share}';
+    return say(text, { count: counted(count), volume: volume(volume_m3), share: `${digits(100 * covered_m2 / area_m2, 2)}\u2009%` });
 }
 
 function rowsOf({ input, droplets, forces }, solve_ms) {
     const { count, volume_m3, smallest_m, largest_m, joined, run_off, between_edges, left_out, covered_m2, area_m2 } = droplets;
     return [
         ['Droplets', counted(count)], ['Volume', volume(volume_m3)], ['Covered', `${digits(100 * covered_m2 / area_m2, 3)}\u2009%`],
-        ['Radii', `${length(smallest_m)} to ${length(largest_m)}`], ['Contact angle', `${digits(forces.contact_angle_deg)}°`],
+        ['Radii', say('{smallest} to {largest}', { smallest: length(smallest_m), largest: length(largest_m) })], ['Contact angle', `${digits(forces.contact_angle_deg)}°`],
         ['Joined others', counted(joined)], ['Ran off', counted(run_off)], ['Too large between edges', counted(between_edges)],
         ['Left out', counted(left_out)],
         ['Triangles of the object', counted(input.triangles)], ['Time', `${digits(solve_ms / 1000, 2)}\u00a0s`],
-    ];
+    ].map(([name, value]) => [say(name), value]);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The list of layers, topmost first.
+import { say } from '../html/words.js';
 import { inkOf, lookOf } from './looks.js';
+import { shownName } from './project.js';
 
 const kEye = '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="M2 10s3-5 8-5 8 5 8 5-3 5-8 5-8-5-8-5z"/><circle cx="10" cy="10" r="2.3"/></svg>';
 const kPencil = '<svg viewBox="0 0 20 20" aria-hidden="true"><path d="m4 16 .8-3.6L13.5 3.7l2.800 2.800-8.700 8.700z"/></svg>';
@@ -18,7 +20,8 @@ function button(label, svg, act) {
  * @return a function that shows a project's layers
  */
 export function buildLayers(list, { select, show, rename }) {
-    const row = ({ name, visible, liquid }, index, selected) => {
+    const row = ({ name: stored, visible, liquid }, index, selected) => {
+        const name = shownName(stored);
         const item = document.createElement('li');
         const label = document.createElement('label');
         const radio = Object.assign(document.createElement('input'), { type: 'radio', name: 'layer', value: index, checked: selected });
@@ -28,12 +31,13 @@ export function buildLayers(list, { select, show, rename }) {
         label.append(radio, dot, Object.assign(document.createElement('span'), { textContent: name }));
         const change = () => {
             const field = Object.assign(document.createElement('input'), { className: 'rename', value: name, maxLength: 80 });
-            field.setAttribute('aria-label', `Name of ${name}`);
+            field.setAttribute('aria-label', say('Name of {layer}', { layer: name }));
             let done = false;
             const end = (accepted) => {
                 if (!done) {
                     done = true;
-                    rename(index, accepted && field.value.trim() ? field.value.trim() : name);
+                    const given = field.value.trim();
+                    rename(index, accepted && given && given !== name ? given : stored);
                     list.querySelector('input[type=radio]:checked')?.focus();
                 }
             };
@@ -49,9 +53,9 @@ export function buildLayers(list, { select, show, rename }) {
             field.select();
         };
         label.addEventListener('dblclick', change);
-        const eye = button(`Show ${name}`, kEye, () => show(index, !visible));
+        const eye = button(say('Show {layer}', { layer: name }), kEye, () => show(index, !visible));
         eye.setAttribute('aria-pressed', visible);
-        item.append(label, button(`Rename ${name}`, kPencil, change), eye);
+        item.append(label, button(say('Rename {layer}', { layer: name }), kPencil, change), eye);
         return item;
     };
     return ({ layers, selected }) => {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Files that a user opens as an object: its own, and those beside it that it names.
+import { say } from '../html/words.js';
 
 const kMeshes = /\.(glb|gltf|obj|ply|stl)$/i;
 const kMost = 400 << 20;  // a browser's memory holds a mesh several times [bytes]
@@ -24,8 +25,8 @@ export async function readObject(files) {
     const main = files.find(({ name }) => kMeshes.test(name));
     const total = files.reduce((sum, { size }) => sum + size, 0);
     if (total > kMost) {
-        throw new Error(`it has ${Math.round(total / 2 ** 20)} MB, which is too much for a browser, at most ${kMost >> 20} MB. ` +
-            'Give it fewer triangles, or use the command droplet-shape dew');
+        throw new Error(say('it has {size} MB, which is too much for a browser, at most {most} MB. Give it fewer triangles, or use the command droplet-shape dew',
+            { size: Math.round(total / 2 ** 20), most: kMost >> 20 }));
     }
     const data = await bytesOf(main);
     const others = files.filter((file) => file !== main);

@@ -66,7 +66,7 @@ export function buildForm(fields, hosts, prefix, changed) {
         row.append(label, control);
         let [slider, scale] = [];
         if (!field.choices) {
-            row.append(Object.assign(document.createElement('span'), { className: 'unit', textContent: field.unit }));
+            row.append(Object.assign(document.createElement('span'), { className: 'unit', textContent: field.unit, translate: false }));
             control.setAttribute('aria-description', field.unit);
         }
         if (field.slider) {

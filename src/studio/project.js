@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A project: a sheet with layers of liquid, and the physics. A plain value that is never written to; it is saved as JSON
 // with masks as PNG.
+import { say } from '../html/words.js';
 import { blank } from './coverage.js';
 import { kLayerFields, kSceneFields, settingsOf } from './physics.js';
 
@@ -8,13 +9,19 @@ const kFormat = 'droplet-shape.studio';
 const kVersion = 1;
 const kLargestSide = 4096;
 
+/** Name of a project that has been given none. It is kept in English, as are the first names of layers, and shown in the user's language. */
+export const kName = 'Droplet';
+
+/** The name of a project or a layer as it is shown and named in files. */
+export const shownName = (name) => (name === kName ? say('Droplet') : name.replace(/^Layer(?= \d+$)/, () => say('Layer')));
+
 let next_id = 1;
 
 export function newLayer(width, height, name, more = {}) {
     return { id: next_id++, name, visible: true, mask: blank(width, height), liquid: settingsOf(kLayerFields), ...more };
 }
 
-export function newProject({ width = 1024, height = 1024, name = 'Droplet' } = {}) {
+export function newProject({ width = 1024, height = 1024, name = kName } = {}) {
     return {
         name, width, height, scene: settingsOf(kSceneFields), ground: undefined, underlay: undefined,
         layers: [newLayer(width, height, 'Layer 1')], selected: 0,
@@ -51,7 +58,7 @@ async function dataUrl(blob) {
 /** Decodes a picture in a data: URL; nothing is fetched. */
 export async function imageOf(url) {
     if (!/^data:image\/[a-z+]+;base64,/.test(url)) {
-        throw new Error('a picture in it is not a data URL');
+        throw new Error(say('a picture in it is not a data URL'));
     }
     const image = new Image();
     image.src = url;
@@ -62,7 +69,8 @@ export async function imageOf(url) {
 async function maskOf(url, width, height) {
     const image = await imageOf(url);
     if (image.naturalWidth !== width || image.naturalHeight !== height) {
-        throw new Error(`a mask has ${image.naturalWidth} × ${image.naturalHeight} pixels, must have ${width} × ${height}`);
+        const [has, must] = [[image.naturalWidth, image.naturalHeight], [width, height]].map((sides) => sides.join(' × '));
+        throw new Error(say('a mask has {has} pixels, must have {must}', { has, must }));
     }
     const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
     context.drawImage(image, 0, 0);
@@ -88,24 +96,24 @@ export async function projectOf(text) {
     try {
         json = JSON.parse(text);
     } catch {
-        throw new Error('it is not a project of Studio');
+        throw new Error(say('it is not a project of Studio'));
     }
     if (json?.format !== kFormat) {
-        throw new Error('it is not a project of Studio');
+        throw new Error(say('it is not a project of Studio'));
     }
     if (json.version !== kVersion) {
-        throw new Error(`its version is ${json.version}; this Studio reads version ${kVersion}`);
+        throw new Error(say('its version is {version}; this Studio reads version {known}', { version: json.version, known: kVersion }));
     }
     const { width, height, layers } = json;
     if (!isSide(width) || !isSide(height) || !Array.isArray(layers) || layers.length === 0) {
-        throw new Error('its sides or layers are damaged');
+        throw new Error(say('its sides or layers are damaged'));
     }
     const underlay = json.underlay && { picture: String(json.underlay.picture), opacity: Number(json.underlay.opacity) || 0.4 };
     if (underlay) {
         await imageOf(underlay.picture);
     }
     return {
-        name: String(json.name ?? 'Droplet'), width, height, scene: settingsOf(kSceneFields, json.scene),
+        name: String(json.name ?? kName), width, height, scene: settingsOf(kSceneFields, json.scene),
         ground: json.ground === undefined ? undefined : String(json.ground), underlay,
         layers: await Promise.all(layers.map(async (layer, k) => newLayer(1, 1, String(layer.name ?? `Layer ${k + 1}`), {
             visible: layer.visible !== false, liquid: settingsOf(kLayerFields, layer.liquid),

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What Studio saves.
 import { download, fileStem } from '../html/controls.js';
+import { say } from '../html/words.js';
 import { merged } from './merge.js';
-import { pictureOf, selectedLayer, textOf } from './project.js';
+import { pictureOf, selectedLayer, shownName, textOf } from './project.js';
 
 const kTypes = { glb: 'model/gltf-binary', obj: 'model/obj', stl: 'model/stl' };
 
@@ -12,7 +13,7 @@ const kTypes = { glb: 'model/gltf-binary', obj: 'model/obj', stl: 'model/stl' };
  * @param parts   {project, solver, view, drawn: layers that have a droplet, bottom first}
  */
 export async function save(kind, { project, solver, view, drawn }) {
-    const stem = fileStem(project.name);
+    const stem = fileStem(shownName(project.name));
     if (kind === 'project') {
         const name = `${stem}.droplet.json`;
         download(new Blob([await textOf(project)], { type: 'application/json' }), name);
@@ -25,10 +26,10 @@ export async function save(kind, { project, solver, view, drawn }) {
         return name;
     }
     if (drawn.length === 0) {
-        throw new Error('there is no droplet yet');
+        throw new Error(say('there is no droplet yet'));
     }
     const files = await solver.files(drawn.map(({ id }) => id), kind);
     const name = `${stem}.${kind}`;
-    download(new Blob([merged(kind, files, drawn.map((layer) => layer.name))], { type: kTypes[kind] }), name);
+    download(new Blob([merged(kind, files, drawn.map((layer) => shownName(layer.name)))], { type: kTypes[kind] }), name);
     return name;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Two workers: one makes drafts while the hand draws, the other the whole mesh when it rests. A job that a newer one of
 // the same layer replaces is not begun; a whole mesh that is no longer wanted is broken off.
+import { say } from '../html/words.js';
 
 const kRest = 250;  // without a change, the hand rests [ms]
 
@@ -20,7 +21,7 @@ export class Servant {
             }
         });
         this.worker.addEventListener('error', (event) => {
-            const error = Object.assign(new Error(event.message || 'the solver stopped'), { code: 'Internal' });
+            const error = Object.assign(new Error(event.message || say('the solver stopped')), { code: 'Internal' });
             this.waiting.forEach(({ reject }) => reject(error));
             this.waiting.clear();
         });
@@ -44,7 +45,7 @@ export class Servant {
 
     stop() {
         this.worker.terminate();
-        this.waiting.forEach(({ reject }) => reject(Object.assign(new Error('broken off'), { code: 'BrokenOff' })));
+        this.waiting.forEach(({ reject }) => reject(Object.assign(new Error(say('broken off')), { code: 'BrokenOff' })));
         this.waiting.clear();
     }
 }

@@ -4,11 +4,13 @@ import { complain, drawScale, find, offerGrounds, tabulate } from '../html/contr
 import { length, rows, volume } from '../html/figures.js';
 import { readPicture } from '../html/read_picture.js';
 import { roundLength } from '../html/stage.js';
+import { decimal, say, translate } from '../html/words.js';
 import { blank, isDry, overlap } from './coverage.js';
 import { Dew } from './dew.js';
 import { buildGallery, coverageOf, kDrawings } from './gallery.js';
 import { History } from './history.js';
 import { askPicture } from './import_dialog.js';
+import { beginLanguage, offerLanguages } from './language.js';
 import { buildLayers } from './layers.js';
 import { kLiveParts, showLive } from './live_parts.js';
 import markup from './markup.html';
@@ -17,7 +19,7 @@ import { kOptions } from './options.js';
 import { commandOf, kLayerFields, kSceneFields, optionsOf } from './physics.js';
 import { buildForm } from './physics_form.js';
 import { fitted, levelsOf, maskOfLevels } from './pictures.js';
-import { newLayer, newProject, projectOf, selectedLayer, withLayer } from './project.js';
+import { kName, newLayer, newProject, projectOf, selectedLayer, shownName, withLayer } from './project.js';
 import { save } from './save.js';
 import { Sheet } from './sheet.js';
 import { Solver } from './solver.js';
@@ -73,11 +75,12 @@ class Studio {
         this.#offerView();
         this.dew = new Dew({ parts: { wasm, worker_url }, view: this.view, say: (text) => this.#say(text), keeper });
         this.#offerBeginning();
+        this.#offerLanguages();
         this.#update(undefined);
         keeper?.beside('dew').then((dew) => dew?.shown && this.#show('dew'));
         find('kept').hidden = !kept;
         this.solver.ready.then(() => { root.dataset.solver = 'ready'; }, (error) => {
-            complain('The solver does not run in this browser. Drawings can be saved all the same.');
+            complain(say('The solver does not run in this browser. Drawings can be saved all the same.'));
             console.error(error);
         });
         addEventListener('beforeunload', (event) => {
@@ -136,9 +139,9 @@ class Studio {
             }
         }
         if (document.activeElement !== find('name')) {
-            find('name').value = project.name;
+            find('name').value = shownName(project.name);
         }
-        document.title = `${project.name} – Droplet Studio`;
+        document.title = `${shownName(project.name)} – Droplet Studio`;
         this.show_layers(project);
         this.show_liquid(selectedLayer(project).liquid);
         this.show_scene(scene);
@@ -209,7 +212,7 @@ class Studio {
         const of = kOptions.liquid.words.includes(look) ? { liquid: look, material: 'own' } : { liquid: 'water', material: look };
         const mask = coverageOf(drawing, project.width, project.height);
         this.view?.rise(layer.id);
-        this.#change({ ...withLayer(project, { mask, liquid: { ...layer.liquid, ...of } }), name: project.name === 'Droplet' ? name : project.name });
+        this.#change({ ...withLayer(project, { mask, liquid: { ...layer.liquid, ...of } }), name: project.name === kName ? say(name) : project.name });
     }
 
     #want(layer, mask, time) {
@@ -270,7 +273,7 @@ class Studio {
             this.looked = layers;
             this.overlaps = layers.flatMap((upper, k) => layers.slice(0, k)
                 .filter((lower) => upper.visible && lower.visible && overlap(lower.mask, upper.mask))
-                .map((lower) => `${upper.name} overlaps ${lower.name}: their droplets go through each other.`));
+                .map((lower) => [upper.name, lower.name]));
         }
         this.#showFigures();
         if (!this.stroke && this.solver.at_rest && !this.dew.is_shown) {
@@ -334,7 +337,8 @@ class Studio {
         const layer = selectedLayer(this.project);
         const at = Math.min(Math.floor(y), this.project.height - 1) * width + Math.min(Math.floor(x), width - 1);
         const metres = (pixels) => length(pixels * scene.width * 1e-3 / width);
-        find('where').textContent = `${metres(x)} from the left, ${metres(y)} from the top, ${(this.stroke ?? layer.mask).data[at] >= 128 ? 'liquid' : 'dry'}`;
+        const is_liquid = (this.stroke ?? layer.mask).data[at] >= 128;
+        find('where').textContent = say('{x} from the left, {y} from the top, {state}', { x: metres(x), y: metres(y), state: say(is_liquid ? 'liquid' : 'dry') });
     }
 
     /** Layers whose droplets are shown. */
@@ -344,10 +348,10 @@ class Studio {
 
     #words() {
         const errors = this.project.layers.filter(({ id, visible }) => visible && this.known.get(id)?.error)
-            .map(({ id, name }) => `${this.project.layers.length > 1 ? `${name}: ` : ''}${plainly(this.known.get(id).error)}`);
+            .map(({ id, name }) => `${this.project.layers.length > 1 ? `${shownName(name)}: ` : ''}${plainly(this.known.get(id).error)}`);
         const liquids = this.#drops().map(({ id }) => {
             const { report: { liquid, shape } } = this.known.get(id);
-            return `${volume(shape.volume_m3)} of ${liquid.name}, ${length(shape.height_max_m)} high`;
+            return say('{volume} of {liquid}, {height} high', { volume: volume(shape.volume_m3), liquid: say(liquid.name), height: length(shape.height_max_m) });
         });
         return [...errors, ...liquids].join('\n');
     }
@@ -363,26 +367,31 @@ class Studio {
         find('result').classList.toggle('refused', refused);
         find('hint').hidden = find('begin').hidden = !this.#is_empty;
         const report = known?.report;
-        tabulate(report ? [...rows(report), ...(known.draft ? [['Draft', `${report.output?.triangles ?? report.mesh.triangles} triangles`]] :
-            [['Triangles', String(report.output?.triangles ?? report.mesh.triangles)]])] : [['Layer', 'no droplet']]);
-        find('warnings').replaceChildren(...[...report && !known.draft ? report.warnings ?? [] : [], ...this.overlaps ?? []]
+        const triangles = report?.output?.triangles ?? report?.mesh.triangles;
+        tabulate(report ? [...rows(report), known.draft ? [say('Draft'), say('{count} triangles', { count: triangles })] :
+            [say('Triangles'), String(triangles)]] : [[say('Layer'), say('no droplet')]]);
+        const overlaps = (this.overlaps ?? []).map((names) => {
+            const [upper, lower] = names.map(shownName);
+            return say('{upper} overlaps {lower}: their droplets go through each other.', { upper, lower });
+        });
+        find('warnings').replaceChildren(...[...report && !known.draft ? report.warnings ?? [] : [], ...overlaps]
             .map((warning) => Object.assign(document.createElement('li'), { textContent: warning })));
         find('command-line').hidden = !report;
         if (report) {
-            find('command').textContent = commandOf(this.project.name.replaceAll('\'', ''), optionsOf(selectedLayer(this.project), this.project.scene));
+            find('command').textContent = commandOf(shownName(this.project.name).replaceAll('\'', ''), optionsOf(selectedLayer(this.project), this.project.scene));
         }
     }
 
     #showTimes() {
         const { summary } = this.times;
         if (summary && find('times').open) {
-            const ms = (value) => `${value.toFixed(1)} ms`;
+            const ms = (value) => `${decimal(value.toFixed(1))} ms`;
             find('times').querySelector('tbody').replaceChildren(...[
                 ['Drafts', String(summary.drafts)], ['Hand to eye, median', ms(summary.median)],
                 ['Nine in ten within', ms(summary.nine_in_ten)], ['Solver, median', ms(summary.solve)],
             ].map(([name, value]) => {
                 const row = document.createElement('tr');
-                row.append(Object.assign(document.createElement('th'), { scope: 'row', textContent: name }),
+                row.append(Object.assign(document.createElement('th'), { scope: 'row', textContent: say(name) }),
                     Object.assign(document.createElement('td'), { textContent: value }));
                 return row;
             }));
@@ -412,7 +421,11 @@ class Studio {
         find('sizing').hidden = !kTools[tool].sized;
         find('writing').hidden = !kTools[tool].written;
         find('subtracting').hidden = ['eraser', 'move'].includes(tool);
-        find('sheet').setAttribute('aria-label', `Footprint, drawn with: ${kTools[tool].name}`);
+        this.#nameSheet();
+    }
+
+    #nameSheet() {
+        find('sheet').setAttribute('aria-label', say('Footprint, drawn with: {tool}', { tool: say(kTools[this.tool].name) }));
     }
 
     #resize(size) {
@@ -432,7 +445,7 @@ class Studio {
             this.#change({ ...this.project, scene: { ...this.project.scene, [name]: value } }, name);
             this.#resize(this.setting.size);
         });
-        find('name').addEventListener('input', () => this.#change({ ...this.project, name: find('name').value.trim() || 'Droplet' }, 'name'));
+        find('name').addEventListener('input', () => this.#change({ ...this.project, name: find('name').value.trim() || kName }, 'name'));
         find('opacity').addEventListener('input', () =>
             this.#change({ ...this.project, underlay: { ...this.project.underlay, opacity: Number(find('opacity').value) } }, 'opacity'));
         find('untrace').addEventListener('click', () => this.#change({ ...this.project, underlay: undefined }));
@@ -447,7 +460,7 @@ class Studio {
         const insert = (layer) => {
             const { layers, selected } = this.project;
             this.#change({ ...this.project, layers: layers.toSpliced(selected + 1, 0, layer), selected: selected + 1 });
-            this.#say(`${layer.name} added`);
+            this.#say(say('{layer} added', { layer: shownName(layer.name) }));
         };
         const free = (stem) => {
             const names = new Set(this.project.layers.map(({ name }) => name));
@@ -469,7 +482,7 @@ class Studio {
             this.#change(withLayer(this.project, { mask: blank(this.project.width, this.project.height) })));
         find('layer-remove').addEventListener('click', () => {
             const { layers, selected } = this.project;
-            this.#say(`${layers[selected].name} removed`);
+            this.#say(say('{layer} removed', { layer: shownName(layers[selected].name) }));
             this.#change({ ...this.project, layers: layers.toSpliced(selected, 1), selected: Math.max(0, selected - 1) });
         });
     }
@@ -515,9 +528,9 @@ class Studio {
             const name = await save(kind, { project: this.project, solver: this.solver, view: this.view, drawn: this.#drops() });
             this.unsaved &&= kind !== 'project';
             find('trouble').hidden = true;
-            this.#say(`${name} saved`);
+            this.#say(say('{file} saved', { file: name }));
         } catch (error) {
-            complain(`Nothing was saved. ${plainly(error)}.`);
+            complain(say('Nothing was saved. {reason}.', { reason: plainly(error) }));
         }
     }
 
@@ -539,7 +552,7 @@ class Studio {
                 this.history.add(newProject());  // it can be undone, so nothing is asked
                 this.#altered(this.unsaved);
                 this.#update(before);
-                this.#say('New project');
+                this.#say(say('New project'));
             });
         }
         find('open').addEventListener('click', () => find('file').click());
@@ -585,12 +598,13 @@ class Studio {
         try {
             if (/\.json$/i.test(file.name) || file.type === 'application/json') {
                 this.#replace(await projectOf(await file.text()));
-                this.#say(`${this.project.name} opened`);
+                this.#say(say('{file} opened', { file: shownName(this.project.name) }));
             } else {
                 await this.#import(await readPicture(file, kDrawnSide), file.name);
             }
         } catch (error) {
-            complain(`${file.name} cannot be opened. ${error instanceof DOMException ? 'It is no picture that this browser can read' : plainly(error)}.`);
+            const reason = error instanceof DOMException ? say('It is no picture that this browser can read') : plainly(error);
+            complain(say('{file} cannot be opened. {reason}.', { file: file.name, reason }));
         }
     }
 
@@ -607,7 +621,7 @@ class Studio {
     #draw(canvas, title) {
         this.#show('draw');
         this.#take(maskOfLevels(levelsOf(canvas), 0.5, false), title);
-        this.#say(`${title} is on the sheet`);
+        this.#say(say('{drawing} is on the sheet', { drawing: title }));
     }
 
     /** Takes a mask for the selected layer. An empty sheet gets its size and its name. */
@@ -615,7 +629,7 @@ class Studio {
         const { project } = this;
         if (project.layers.every(({ mask }) => isDry(mask))) {
             const { width, height } = mask;
-            const name = project.name === 'Droplet' ? file_name.replace(/\.\w+$/, '') || 'Droplet' : project.name;
+            const name = project.name === kName ? file_name.replace(/\.\w+$/, '') || kName : project.name;
             const layers = project.layers.map((layer, k) => ({ ...layer, mask: k === project.selected ? mask : blank(width, height) }));
             this.#change({ ...project, name, width, height, layers });
         } else {
@@ -677,6 +691,20 @@ class Studio {
         }
     }
 
+    /** Translates what has been built in English, and again when another language is chosen. */
+    #offerLanguages() {
+        offerLanguages(document.querySelectorAll('.language select'), () => {
+            translate(document.body);
+            this.#nameSheet();
+            this.#resize(this.setting.size);
+            this.#update(this.project);
+            this.#showTimes();
+            this.dew.retell();
+            this.view && drawScale(this.view.stage);
+        });
+        translate(document.body);
+    }
+
     #offerView() {
         let frames = 0;
         try {
@@ -693,7 +721,7 @@ class Studio {
                 },
             });
         } catch (error) {
-            complain('This browser does not show droplets in 3D. Drawing, figures and files are here all the same.');
+            complain(say('This browser does not show droplets in 3D. Drawing, figures and files are here all the same.'));
             find('grounds').hidden = true;
             root.dataset.state = 'failed';
             console.error(error);
@@ -718,13 +746,14 @@ function plainly({ message }) {
 }
 
 /**
- * Opens Studio in this document.
+ * Opens Studio in this document, in the user's language.
  * @param wasm        the solver: bytes, or the compiled module
  * @param worker_url  of solver_worker.js
  * @param project     the first one
  * @param keeper      keeps the project in the browser; undefined: it is not kept
  * @param kept        whether the keeper had the first project
  */
-export function openStudio({ wasm, worker_url, project = newProject(), keeper, kept = false }) {
-    return new Studio({ wasm, worker_url, project, keeper, kept });
+export function openStudio({ wasm, worker_url, project, keeper, kept = false }) {
+    beginLanguage();
+    return new Studio({ wasm, worker_url, project: project ?? newProject(), keeper, kept });
 }

@@ -5,6 +5,7 @@ import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
+import { kTables, wordsOfCalls, wordsOfMarkup, wordsOfReports } from './words.mjs';
 
 const { SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
 const module = (path) => import(pathToFileURL(resolve(SOURCES, path)).href);
@@ -14,6 +15,7 @@ const { kLooks } = await module('studio/looks.js');
 const { commandOf, kLayerFields, kSceneFields, optionsOf, settingsOf } = await module('studio/physics.js');
 const { levelsOf, maskOfLevels } = await module('studio/pictures.js');
 const { kTools } = await module('studio/tools.js');
+const { decimal, say, speak } = await module('html/words.js');
 
 const area = ({ data }) => data.reduce((sum, value) => sum + value, 0) / 255;
 const layerWith = (given) => ({ liquid: settingsOf(kLayerFields, given) });
@@ -134,4 +136,35 @@ test('looks are those of the library', () => {
         return [name, values[8] ? { ...look, film: { ior: Number(values[8]), thickness: Number(values[9]) } } : look];
     }));
     assert.deepEqual(Object.fromEntries(Object.entries(kLooks).map(([name, { ink, ...look }]) => [name, look])), known);
+});
+
+test('all languages have the same texts, with the same placeholders', () => {
+    const placeholders = (text) => (text.match(/\{\w+\}/g) ?? []).sort();
+    const [first, ...others] = Object.values(kTables).map((table) => [...table.keys()]);
+    others.forEach((keys) => assert.deepEqual(keys, first));
+    for (const [language, table] of Object.entries(kTables)) {
+        for (const [english, text] of table) {
+            assert.ok(text.trim() === text && text !== '', `${language}: ${english}`);
+            assert.deepEqual(placeholders(text), placeholders(english), `${language}: ${english}`);
+        }
+    }
+});
+
+test('every text of the markup and of the scripts is in the tables', () => {
+    for (const words of [wordsOfMarkup(), wordsOfCalls(), wordsOfReports()]) {
+        assert.ok(words.length > 5);
+        assert.deepEqual(words.filter((english) => !kTables.de.has(english)), []);
+    }
+});
+
+test('a text is said in the chosen language, else in English', () => {
+    assert.equal(say('{file} saved', { file: 'a.glb' }), 'a.glb saved');
+    assert.equal(decimal('1.25'), '1.25');
+    speak({ tag: 'de', point: ',', words: kTables.de });
+    assert.equal(say('{file} saved', { file: '{file} $& a.glb' }), '{file} $& a.glb gespeichert');
+    assert.equal(say('constructor'), 'constructor');
+    assert.equal(say('GLB'), 'GLB');
+    assert.equal(decimal('1.25'), '1,25');
+    speak();
+    assert.equal(say('Undo'), 'Undo');
 });
