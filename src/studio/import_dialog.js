@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The dialog about a picture: where its liquid begins, and what it is for.
 import { find } from '../html/controls.js';
+import { coloursOf } from './colours.js';
 import { levelsOf, maskOfLevels } from './pictures.js';
 
 /** Shows a mask in a colour. */
@@ -16,10 +17,12 @@ function showMask(canvas, { width, height, data }, [red, green, blue]) {
 /**
  * Asks what a picture shall be, and shows the footprint that it gives.
  * @param ink  colour of the footprint
- * @return {use, mask, photo}; `use` is footprint, underlay or empty
+ * @return {use, mask, photo, colours}; `use` is footprint, colours, underlay or empty; `colours` as coloursOf() gives them
  */
 export async function askPicture(canvas, ink) {
     const levels = levelsOf(canvas);
+    const colours = coloursOf(levels.image);
+    find('divide').hidden = colours.length === 0;
     const dialog = find('import');
     find('threshold').value = levels.threshold;
     find('invert').checked = levels.inverted;
@@ -33,5 +36,5 @@ export async function askPicture(canvas, ink) {
     dialog.returnValue = '';
     dialog.showModal();
     await new Promise((done) => { dialog.addEventListener('close', done, { once: true }); });
-    return { use: dialog.returnValue, mask, photo: levels.photo };
+    return { use: dialog.returnValue, mask, photo: levels.photo, colours };
 }

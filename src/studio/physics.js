@@ -132,6 +132,10 @@ export function optionsOf({ liquid }, scene) {
     return options;
 }
 
+/** What of a layer's liquid gives it a look: the liquid that has it, else water that wears it. */
+export const liquidOf = (look) =>
+    (kOptions.liquid.words.includes(look) ? { liquid: look, material: 'own' } : { liquid: kOptions.liquid.default, material: look });
+
 /** The command that makes the same droplet of the footprint's picture. */
 export function commandOf(stem, options) {
     const words = Object.entries(options).map(([name, value]) =>

@@ -4,11 +4,12 @@ import { blank } from './coverage.js';
 
 /**
  * The levels of a picture, 0 to 255: its transparency if it has transparent parts, else its brightness.
- * `inverted`: whether dark is liquid, since the border is bright. `photo`: whether most edges are soft.
+ * `inverted`: whether dark is liquid, since the border is bright. `photo`: whether most edges are soft. `image`: the pixels.
  */
 export function levelsOf(canvas) {
     const { width, height } = canvas;
-    const { data } = canvas.getContext('2d').getImageData(0, 0, width, height);
+    const image = canvas.getContext('2d').getImageData(0, 0, width, height);
+    const { data } = image;
     const levels = new Uint8Array(width * height);
     let transparent = 0;
     for (let i = 3; i < data.length; i += 4) {
@@ -32,7 +33,7 @@ export function levelsOf(canvas) {
     const middle = histogram.subarray(48, 208).reduce((sum, count) => sum + count, 0);
     const photo = transparent === 0 && middle > 0.15 * levels.length;
     return {
-        width, height, levels, photo, inverted,
+        width, height, levels, photo, inverted, image,
         threshold: photo ? otsu(histogram) : 0.5,
     };
 }

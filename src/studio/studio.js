@@ -7,6 +7,7 @@ import { roundLength } from '../html/stage.js';
 import { decimal, say, translate } from '../html/words.js';
 import { blank, isDry, overlap } from './coverage.js';
 import { Dew } from './dew.js';
+import { lookNear } from './colours.js';
 import { buildGallery, coverageOf, kDrawings } from './gallery.js';
 import { History } from './history.js';
 import { askPicture } from './import_dialog.js';
@@ -15,8 +16,7 @@ import { buildLayers } from './layers.js';
 import { kLiveParts, showLive } from './live_parts.js';
 import markup from './markup.html';
 import { inkOf, lookOf } from './looks.js';
-import { kOptions } from './options.js';
-import { commandOf, kLayerFields, kSceneFields, optionsOf } from './physics.js';
+import { commandOf, kLayerFields, kSceneFields, liquidOf, optionsOf } from './physics.js';
 import { buildForm } from './physics_form.js';
 import { fitted, levelsOf, maskOfLevels } from './pictures.js';
 import { kName, newLayer, newProject, projectOf, selectedLayer, shownName, withLayer } from './project.js';
@@ -37,12 +37,13 @@ const root = document.documentElement;
 const writes = (target) => target.matches?.('input:not([type=range], [type=checkbox], [type=radio]), select, textarea');
 
 class Studio {
-    constructor({ wasm, worker_url, project, keeper, kept }) {
+    constructor({ wasm, worker_url, project, keeper, kept, source }) {
         document.body.className = 'studio';
         document.body.dataset.part = 'draw';
         document.body.innerHTML = markup;
         this.history = new History(project);
         this.keeper = keeper;
+        this.source = source;
         this.unsaved = kept;
         this.known = new Map();    // layer → {job, report, draft, error}: what is known of its droplet
         this.strokes = 0;
@@ -209,10 +210,9 @@ class Studio {
     #beginWith({ name, look, ...drawing }) {
         const { project } = this;
         const layer = selectedLayer(project);
-        const of = kOptions.liquid.words.includes(look) ? { liquid: look, material: 'own' } : { liquid: 'water', material: look };
         const mask = coverageOf(drawing, project.width, project.height);
         this.view?.rise(layer.id);
-        this.#change({ ...withLayer(project, { mask, liquid: { ...layer.liquid, ...of } }), name: project.name === kName ? say(name) : project.name });
+        this.#change({ ...withLayer(project, { mask, liquid: { ...layer.liquid, ...liquidOf(look) } }), name: project.name === kName ? say(name) : project.name });
     }
 
     #want(layer, mask, time) {
@@ -525,8 +525,8 @@ class Studio {
     async #save(kind) {
         find('saves').hidePopover();
         try {
-            const name = await save(kind, { project: this.project, solver: this.solver, view: this.view, drawn: this.#drops() });
-            this.unsaved &&= kind !== 'project';
+            const name = await save(kind, { project: this.project, solver: this.solver, view: this.view, drawn: this.#drops(), source: this.source });
+            this.unsaved &&= !['project', 'page'].includes(kind);
             find('trouble').hidden = true;
             this.#say(say('{file} saved', { file: name }));
         } catch (error) {
@@ -535,6 +535,7 @@ class Studio {
     }
 
     #offerFiles() {
+        find('saves').querySelector('[data-save=page]').hidden = !this.source;
         for (const button of find('saves').querySelectorAll('[data-save]')) {
             button.addEventListener('click', () => this.#save(button.dataset.save));
         }
@@ -609,12 +610,26 @@ class Studio {
     }
 
     async #import(canvas, file_name) {
-        const { use, mask, photo } = await askPicture(canvas, inkOf(lookOf(selectedLayer(this.project).liquid)));
+        const { use, mask, photo, colours } = await askPicture(canvas, inkOf(lookOf(selectedLayer(this.project).liquid)));
         if (use === 'footprint') {
             this.#take(mask, file_name);
+        } else if (use === 'colours') {
+            this.#divide(colours, file_name);
         } else if (use === 'underlay') {
             this.#change({ ...this.project, underlay: { picture: canvas.toDataURL(photo ? 'image/jpeg' : 'image/png', 0.9), opacity: 0.5 } });
         }
+    }
+
+    /** Takes every colour of a picture for a layer, in the look that comes nearest. Layers that are dry make room for them. */
+    #divide(colours, file_name) {
+        const { project } = this;
+        const kept = project.layers.filter(({ mask }) => !isDry(mask));
+        const { width, height } = kept.length === 0 ? colours[0].mask : project;
+        const added = colours.map(({ colour, mask }, k) => newLayer(1, 1, say('Colour {number}', { number: k + 1 }), {
+            mask: fitted(mask, width, height), liquid: { ...selectedLayer(project).liquid, ...liquidOf(lookNear(colour)) },
+        }));
+        const name = kept.length === 0 && project.name === 'Droplet' ? file_name.replace(/\.\w+$/, '') || 'Droplet' : project.name;
+        this.#change({ ...project, name, width, height, layers: [...kept, ...added], selected: kept.length });
     }
 
     /** Takes a drawing of a part over Studio, whose transparency is dry, and shows it on the sheet. */
@@ -752,8 +767,9 @@ function plainly({ message }) {
  * @param project     the first one
  * @param keeper      keeps the project in the browser; undefined: it is not kept
  * @param kept        whether the keeper had the first project
+ * @param source      of the page in which Studio is alone, for saving it with a drawing
  */
-export function openStudio({ wasm, worker_url, project, keeper, kept = false }) {
+export function openStudio({ wasm, worker_url, project, keeper, kept = false, source }) {
     beginLanguage();
-    return new Studio({ wasm, worker_url, project: project ?? newProject(), keeper, kept });
+    return new Studio({ wasm, worker_url, project: project ?? newProject(), keeper, kept, source });
 }

@@ -10,6 +10,7 @@ import { kTables, wordsOfCalls, wordsOfMarkup, wordsOfReports } from './words.mj
 const { SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
 const module = (path) => import(pathToFileURL(resolve(SOURCES, path)).href);
 const { blank, drawPiece, flood, isDry, overlap, shifted } = await module('studio/coverage.js');
+const { coloursOf, lookNear } = await module('studio/colours.js');
 const { History } = await module('studio/history.js');
 const { kLooks } = await module('studio/looks.js');
 const { commandOf, kLayerFields, kSceneFields, optionsOf, settingsOf } = await module('studio/physics.js');
@@ -167,4 +168,33 @@ test('a text is said in the chosen language, else in English', () => {
     assert.equal(decimal('1.25'), '1,25');
     speak();
     assert.equal(say('Undo'), 'Undo');
+});
+
+/** A picture of 100 × 60 pixels whose colour is a function of the place; edges are smooth over a pixel. */
+function paintedBy(colourAt) {
+    const data = new Uint8ClampedArray(4 * 100 * 60);
+    for (let i = 0; i < 6000; ++i) {
+        const parts = [0.25, 0.75].flatMap((dx) => [0.25, 0.75].map((dy) => colourAt(i % 100 + dx, Math.floor(i / 100) + dy)));
+        for (let k = 0; k < 4; ++k) {
+            data[4 * i + k] = parts.reduce((sum, part) => sum + part[k], 0) / 4;
+        }
+    }
+    return { width: 100, height: 60, data };
+}
+
+test('a logo is divided into its flat colours, with what edges share', () => {
+    const [white, red, blue] = [[255, 255, 255, 255], [200, 30, 30, 255], [40, 90, 170, 255]];
+    const logo = paintedBy((x, y) => (Math.hypot(x - 30, y - 30) < 20 ? red : Math.hypot(x - 70.3, y - 30) < 15 ? blue : white));
+    const layers = coloursOf(logo);
+    assert.equal(layers.length, 2);
+    for (const [layer, colour, radius, look] of [[layers[0], red, 20, 'lacquer'], [layers[1], blue, 15, 'enamel']]) {
+        assert.ok(layer.colour.every((value, k) => Math.abs(value - colour[k]) < 2), `${layer.colour}`);
+        const covered = layer.mask.data.reduce((sum, value) => sum + (value >= 128 ? 1 : 0), 0);
+        assert.ok(Math.abs(covered / (Math.PI * radius ** 2) - 1) < 0.02, `${covered}`);
+        assert.equal(lookNear(layer.colour), look);
+    }
+    // On nothing, white is a colour like others; a picture of one colour has no layers.
+    const bare = paintedBy((x) => (x < 20 ? red : x > 80 ? white : [0, 0, 0, 0]));
+    assert.equal(coloursOf(bare).length, 2);
+    assert.deepEqual(coloursOf(paintedBy((x) => (x > 30 && x < 60 ? red : white))), []);
 });

@@ -8,7 +8,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { dropFiles, folder, jsonOf, kDesktop, kPhone, kStudio, saved as savedBy, started, studio } from './browser.mjs';
+import { dropFiles, folder, jsonOf, kDesktop, kPhone, kStudio, saved as savedBy, started, studio, watched } from './browser.mjs';
 import { choose, setValue, settle } from './controls.mjs';
 
 const { DROPLET_SHAPE, PAGE, SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
@@ -274,6 +274,45 @@ studio('a saved project opens as it was', kDesktop, async (page) => {
     await page.waitForFunction(() => !document.getElementById('trouble').hidden);
     assert.match(await page.locator('#trouble').textContent(), /wrong\.json cannot be opened\. Its version is 99/);
     assert.deepEqual(await drawing(page), before_it.drawing);
+});
+
+studio('a page with the drawing opens by itself, and saves pages again', kDesktop, async (page) => {
+    await stroke(page, [0.2, 0.3], [0.5, 0.3]);
+    await setValue(page, 'liquid-liquid', 'honey');
+    await page.locator('#name').fill('Tea </script> & cake');
+    await settle(page);
+    const first = await saved(page, 'page');
+    assert.match(first.name, /^Tea .*\.html$/);
+    const before_it = { drawing: await drawing(page), said: await result(page) };
+    const { context, complaints } = await watched({}, pathToFileURL(first.path).href);
+    const opened = await context.newPage();
+    await opened.goto(pathToFileURL(first.path).href);
+    await started(opened);
+    await settle(opened);
+    assert.deepEqual({ drawing: await drawing(opened), said: await result(opened) }, before_it);
+    assert.equal(await opened.locator('#name').inputValue(), 'Tea </script> & cake');
+    const again = await saved(opened, 'page');
+    assert.equal(again.bytes.toString().match(/<script id="project"/g).length, 1);
+    assert.equal(again.bytes.length, first.bytes.length);
+    assert.deepEqual(complaints, []);
+    await context.close();
+});
+
+studio('a logo in colours becomes a layer for each', kDesktop, async (page) => {
+    const svg = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 12 8" width="12" height="8"><path fill="#fff" d="M0 0h12v8H0z"/><circle cx="4" cy="4" r="2.5" fill="#b01a1a"/><circle cx="9" cy="4" r="1.8" fill="#265dae"/></svg>';
+    await drop(page, 'logo.svg', 'image/svg+xml', Buffer.from(svg));
+    await page.locator('#import').waitFor();
+    await page.getByRole('button', { name: 'A layer for each colour' }).click();
+    await settle(page);
+    assert.match(await page.locator('#layers').innerText(), /Colour 2[^]*Colour 1/);
+    assert.equal(await page.locator('#liquid-material').inputValue(), 'lacquer');
+    assert.equal((await said(page)).match(/µL of water/g).length, 2);
+    // A picture of one colour on white has no such layers.
+    await page.locator('#new').click();
+    await drop(page, 'disc.png', 'image/png', await discPicture(page, 'image/png'));
+    await page.locator('#import').waitFor();
+    assert.equal(await page.locator('#divide').isVisible(), false);
+    await page.getByRole('button', { name: 'Cancel' }).click();
 });
 
 /** Whether the project as it is now is in the browser's store. */

@@ -28,6 +28,8 @@ export const kGerman = new Map(Object.entries({
     'Footprint of the layer': 'Grundriss der Ebene',
     'To go on later': 'Zum Weiterarbeiten',
     'Project': 'Projekt',
+    'Page': 'Seite',
+    'Studio and this drawing in one page, for every browser': 'Studio und diese Zeichnung in einer Seite, für jeden Browser',
     'Object and droplets': 'Objekt und Tropfen',
     'Droplets alone': 'Nur Tropfen',
     'Table, CSV': 'Tabelle, CSV',
@@ -220,6 +222,8 @@ export const kGerman = new Map(Object.entries({
     'Threshold': 'Schwellenwert',
     'Exchange liquid and dry': 'Flüssig und trocken tauschen',
     'Use as footprint': 'Als Grundriss verwenden',
+    'A layer for each colour': 'Eine Ebene für jede Farbe',
+    'Colour {number}': 'Farbe {number}',
     'Lay below to trace': 'Zum Nachzeichnen darunterlegen',
     'Cancel': 'Abbrechen',
     // Messages.

@@ -29,6 +29,8 @@ export const kFrench = new Map(Object.entries({
     'Footprint of the layer': 'Empreinte du calque',
     'To go on later': 'Pour continuer plus tard',
     'Project': 'Projet',
+    'Page': 'Page',
+    'Studio and this drawing in one page, for every browser': 'Studio et ce dessin dans une seule page, pour tout navigateur',
     'Object and droplets': 'Objet et gouttes',
     'Droplets alone': 'Gouttes seules',
     'Table, CSV': 'Tableau, CSV',
@@ -221,6 +223,8 @@ export const kFrench = new Map(Object.entries({
     'Threshold': 'Seuil',
     'Exchange liquid and dry': 'Échanger liquide et sec',
     'Use as footprint': 'Utiliser comme empreinte',
+    'A layer for each colour': 'Un calque par couleur',
+    'Colour {number}': 'Couleur {number}',
     'Lay below to trace': 'Placer en dessous pour décalquer',
     'Cancel': 'Annuler',
     // Messages.

@@ -28,6 +28,8 @@ export const kJapanese = new Map(Object.entries({
     'Footprint of the layer': 'レイヤーの底面',
     'To go on later': '後で続ける',
     'Project': 'プロジェクト',
+    'Page': 'ページ',
+    'Studio and this drawing in one page, for every browser': 'Studio とこの絵を 1 つのページに。どのブラウザでも開けます',
     'Object and droplets': 'オブジェクトと液滴',
     'Droplets alone': '液滴のみ',
     'Table, CSV': '表（CSV）',
@@ -220,6 +222,8 @@ export const kJapanese = new Map(Object.entries({
     'Threshold': 'しきい値',
     'Exchange liquid and dry': '液体と乾燥を入れ替える',
     'Use as footprint': '底面として使う',
+    'A layer for each colour': '色ごとにレイヤーを作る',
+    'Colour {number}': '色 {number}',
     'Lay below to trace': '下絵として敷く',
     'Cancel': 'キャンセル',
     // Messages.

@@ -28,6 +28,8 @@ export const kChinese = new Map(Object.entries({
     'Footprint of the layer': '图层的底面',
     'To go on later': '以后继续',
     'Project': '项目',
+    'Page': '网页',
+    'Studio and this drawing in one page, for every browser': '将 Studio 和此绘图存为一个网页，任何浏览器都能打开',
     'Object and droplets': '物体和液滴',
     'Droplets alone': '仅液滴',
     'Table, CSV': '表格（CSV）',
@@ -220,6 +222,8 @@ export const kChinese = new Map(Object.entries({
     'Threshold': '阈值',
     'Exchange liquid and dry': '交换液体与干燥',
     'Use as footprint': '用作底面',
+    'A layer for each colour': '每种颜色一个图层',
+    'Colour {number}': '颜色 {number}',
     'Lay below to trace': '置于下方描摹',
     'Cancel': '取消',
     // Messages.
