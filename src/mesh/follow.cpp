@@ -605,21 +605,24 @@ std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last
         }
         rim.insert(rim.end(), moved->begin(), moved->end());
     }
-    const auto is_good = [&](const PlanarMesh& mesh) {
+    const auto is_good = [](const PlanarMesh& mesh, double angle) {
         return std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
                            [&](const Triangle& t) { return doubleArea(mesh, t) > 0.0; }) &&
-               minAngle(mesh) >= std::min(kMinAngle, angles * minAngle(first));
+               minAngle(mesh) >= angle;
     };
+    const double wanted = angles > 0.0 ? kMinAngle : 0.0;
+    const double first_angle = minAngle(first);
+    const double least_angle = first_angle >= kMinAngle ? wanted : angles * first_angle;
     PlanarMesh mesh = moveRim(first, rim);
-    if (is_good(mesh)) {
+    if (is_good(mesh, wanted)) {
         return mesh;
     }
     for (const PlanarMesh* from : {&first, &last}) {
         mesh = moveRim(*from, rim);
         // More than is needed, so that the angles beside a small one make room for it.
         constexpr double kRoom = 1.3;
-        raiseAngles(mesh, kRoom * std::min(kMinAngle, angles * minAngle(first)));
-        if (is_good(mesh)) {
+        raiseAngles(mesh, kRoom * wanted);
+        if (is_good(mesh, least_angle)) {
             return mesh;
         }
     }
