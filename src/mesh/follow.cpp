@@ -10,6 +10,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -27,8 +29,12 @@ constexpr double kMinAngle = 15.0 * kDegree;
 constexpr double kMaxStretch = 1.5;
 constexpr double kMaxSagitta = 0.2;
 
-/// Range of the spacing of rim vertices, relative to the old spacing; outside of it, places are evened out further.
-constexpr double kMinSpacing = 0.5;
+/// Range of the spacing of rim vertices, relative to that on the first loop; outside of it, places are evened out
+/// further. Triangles at short edges of a rim have small angles already: of 119 steps in which the word Water becomes a
+/// ring, with the linear model, 22 kept their vertices with 0.6 and 31 with 0.8. Sheets have triangles of their own,
+/// which follow worse where vertices slide along the rim: 36 with 0.5 for them, 31 with 0.8.
+constexpr double kMinSpacing = 0.8;
+constexpr double kMinSheetSpacing = 0.5;
 constexpr double kMaxSpacing = 2.0;
 
 Vec2 centroid(const std::vector<Vec2>& points)
@@ -59,13 +65,13 @@ double enclosed(const std::vector<Vec2>& points)
 /// Pairs of a corner of the loop and the bend of the rim that becomes it; each is the other's nearest.
 std::vector<std::pair<std::size_t, std::size_t>> cornerPairs(const Loop& loop, const std::vector<Vec2>& moved)
 {
-    constexpr double kBend = 25.0 * kDegree;  // corners of outlines turn by 35° or more
+    constexpr double kLeastBend = 25.0 * kDegree;  // corners of outlines turn by 35° or more
     const std::size_t count = moved.size();
     std::vector<std::size_t> bends;
     for (std::size_t v = 0; v < count; ++v) {
         const Vec2 in = moved[v] - moved[(v + count - 1) % count];
         const Vec2 out = moved[(v + 1) % count] - moved[v];
-        if (std::abs(std::atan2(cross(in, out), dot(in, out))) > kBend) {
+        if (std::abs(std::atan2(cross(in, out), dot(in, out))) > kLeastBend) {
             bends.push_back(v);
         }
     }
@@ -92,13 +98,9 @@ std::vector<std::pair<std::size_t, std::size_t>> cornerPairs(const Loop& loop, c
     return pairs;
 }
 
-/// Offset of every vertex on the new loop from its share of the length; a rigid motion gives one common offset.
-struct Offsets {
-    std::vector<double> values;
-    std::vector<std::uint8_t> fixed;  ///< 1 at vertices that become corners
-};
-
-Offsets offsetsOf(const Curve& before, const Curve& after, const Loop& loop, const std::vector<Vec2>& moved)
+/// Places on a loop that are nearest to points that were on the loop before it, in their order, from one lap to the
+/// next.
+std::vector<double> nearestPlaces(const Curve& before, const Curve& after, const std::vector<Vec2>& moved)
 {
     const std::size_t count = moved.size();
     const double ratio = after.length() / before.length();
@@ -124,67 +126,145 @@ Offsets offsetsOf(const Curve& before, const Curve& after, const Loop& loop, con
     }
     // The nearest place is searched an eighth of the loop to both sides of it.
     constexpr double kReach = 0.125;
-    Offsets offsets{std::vector<double>(count), std::vector<std::uint8_t>(count, 0)};
+    std::vector<double> places(count);
     for (std::size_t v = 0; v < count; ++v) {
         const double expected = ratio * before.arc(v) + common;
         const double from = expected - kReach * after.length();
         std::size_t pieces = after.pieceAt(expected + kReach * after.length()) + after.size() - after.pieceAt(from);
         pieces = pieces % after.size() + 1;
-        offsets.values[v] = after.nearest(moved[v], from, pieces) - ratio * before.arc(v);
+        places[v] = after.nearest(moved[v], from, pieces);
     }
-    for (const auto& [corner, v] : cornerPairs(loop, moved)) {
-        const double offset = after.arc(corner) - ratio * before.arc(v);
-        offsets.values[v] = common + std::remainder(offset - common, after.length());
-        offsets.fixed[v] = 1;
-    }
-    return offsets;
+    return places;
 }
 
-/// Whether the spacing of vertices is similar to the old one.
-bool evenlySpaced(const Curve& before, const Curve& after, const std::vector<double>& places)
+/// Places of all vertices on the new loop, and which of them become corners.
+struct Places {
+    std::vector<double> values;
+    std::vector<std::uint8_t> fixed;  ///< 0, kBend or kCorner
+};
+constexpr std::uint8_t kBend = 1;
+constexpr std::uint8_t kCorner = 2;
+
+/// Whether the spacing of vertices is similar to that on the first loop.
+bool evenlySpaced(const Curve& first, const Curve& after, double least, const std::vector<double>& places)
 {
-    const double ratio = after.length() / before.length();
+    const double ratio = after.length() / first.length();
     for (std::size_t v = 0; v < places.size(); ++v) {
         const double next = v + 1 < places.size() ? places[v + 1] : places[0] + after.length();
-        const double spacing = (next - places[v]) / (ratio * (before.arc(v + 1) - before.arc(v)));
-        if (!(spacing >= kMinSpacing && spacing <= kMaxSpacing)) {
+        const double spacing = (next - places[v]) / (ratio * (first.arc(v + 1) - first.arc(v)));
+        if (!(spacing >= least && spacing <= kMaxSpacing)) {
             return false;
         }
     }
     return true;
 }
 
-/// Places of all vertices on the new loop, and which of them become corners.
-struct Places {
-    std::vector<double> values;
-    std::vector<std::uint8_t> fixed;
-};
-
-Places placesOf(const Curve& before, const Curve& after, const Loop& loop, const std::vector<Vec2>& moved)
+/// Frees fixed vertices that leave too much or too little room for those between them and the next fixed ones.
+void freeCrowded(const Curve& first, const Curve& after, Places& places)
 {
-    const std::size_t count = moved.size();
-    const double ratio = after.length() / before.length();
-    Offsets offsets = offsetsOf(before, after, loop, moved);
-    Places places{std::vector<double>(count), offsets.fixed};
-    const std::size_t max_passes = 16 * count;
-    for (std::size_t done = 0, passes = 1;; passes *= 4) {
-        for (std::size_t v = 0; v < count; ++v) {
-            places.values[v] = ratio * before.arc(v) + offsets.values[v];
-        }
-        if (done > max_passes || evenlySpaced(before, after, places.values)) {
-            return places;
-        }
-        for (; done < passes; ++done) {
-            std::vector<double> evened = offsets.values;
-            for (std::size_t v = 0; v < count; ++v) {
-                if (offsets.fixed[v] == 0) {
-                    evened[v] = 0.25 * (offsets.values[(v + count - 1) % count] + offsets.values[(v + 1) % count]) +
-                                0.5 * offsets.values[v];
-                }
-            }
-            offsets.values = std::move(evened);
+    std::vector<std::size_t> fixed;
+    for (std::size_t v = 0; v < places.values.size(); ++v) {
+        if (places.fixed[v] != 0) {
+            fixed.push_back(v);
         }
     }
+    const double ratio = after.length() / first.length();
+    const auto are_apart = [&](std::size_t v, std::size_t w) {
+        const double lap = w > v ? 0.0 : 1.0;
+        const double room = places.values[w] - places.values[v] + lap * after.length();
+        const double spacing = room / (ratio * (first.arc(w) - first.arc(v) + lap * first.length()));
+        return spacing >= kMinSheetSpacing && spacing <= kMaxSpacing;
+    };
+    for (std::size_t k = 0; k < fixed.size() && fixed.size() > 1;) {
+        const std::size_t next = (k + 1) % fixed.size();
+        const bool next_is_corner = places.fixed[fixed[next]] == kCorner;
+        if (are_apart(fixed[k], fixed[next]) || (places.fixed[fixed[k]] == kCorner && next_is_corner)) {
+            ++k;
+            continue;
+        }
+        const std::size_t freed = next_is_corner ? k : next;
+        places.fixed[fixed[freed]] = 0;
+        fixed.erase(fixed.begin() + static_cast<std::ptrdiff_t>(freed));
+        k = 0;
+    }
+}
+
+/// Evens places out until the spacing is similar to that on the first loop. Fixed ones stay. If many passes over the
+/// loop are not enough, places between fixed ones get the spacing to which passes without end would lead: the same part
+/// of that on the first loop everywhere.
+void even(const Curve& first, const Curve& after, double least, Places& places)
+{
+    const std::size_t count = places.values.size();
+    const double ratio = after.length() / first.length();
+    std::vector<double> offsets(count);
+    for (std::size_t v = 0; v < count; ++v) {
+        offsets[v] = places.values[v] - ratio * first.arc(v);
+    }
+    const auto place = [&] {
+        for (std::size_t v = 0; v < count; ++v) {
+            places.values[v] = ratio * first.arc(v) + offsets[v];
+        }
+        return evenlySpaced(first, after, least, places.values);
+    };
+    std::vector<double> evened = offsets;
+    constexpr std::size_t kMaxPasses = 256;
+    for (std::size_t done = 0, passes = 1; passes <= kMaxPasses; passes *= 4) {
+        if (place()) {
+            return;
+        }
+        for (; done < passes; ++done) {
+            for (std::size_t v = 0; v < count; ++v) {
+                if (places.fixed[v] == 0) {
+                    const double below = offsets[v > 0 ? v - 1 : count - 1];
+                    const double above = offsets[v + 1 < count ? v + 1 : 0];
+                    evened[v] = 0.25 * (below + above) + 0.5 * offsets[v];
+                }
+            }
+            offsets = evened;
+        }
+    }
+    if (place()) {
+        return;
+    }
+    std::vector<std::size_t> fixed;
+    for (std::size_t v = 0; v < count; ++v) {
+        if (places.fixed[v] != 0) {
+            fixed.push_back(v);
+        }
+    }
+    if (fixed.empty()) {
+        const double mean = std::accumulate(offsets.begin(), offsets.end(), 0.0) / static_cast<double>(count);
+        std::fill(offsets.begin(), offsets.end(), mean);
+    }
+    for (std::size_t k = 0; k < fixed.size(); ++k) {
+        const std::size_t from = fixed[k];
+        const std::size_t to = fixed[(k + 1) % fixed.size()];
+        const std::size_t steps = to > from ? to - from : to + count - from;
+        // Relative to the length between them, as every edge of the first loop grows by the same part.
+        const double lap = to > from ? 0.0 : first.length();
+        for (std::size_t n = 1; n < steps; ++n) {
+            const std::size_t v = from + n < count ? from + n : from + n - count;
+            const double along = first.arc(v) - first.arc(from) + (v > from ? 0.0 : first.length());
+            const double part = along / (first.arc(to) - first.arc(from) + lap);
+            offsets[v] = offsets[from] + part * (offsets[to] - offsets[from]);
+        }
+    }
+    (void)place();
+}
+
+/// Places of vertices on the new loop: the nearest ones, evened out.
+/// @param moved  the vertices, brought to the new loop's centre and size
+Places placesOf(const Curve& first, const Curve& before, const Curve& after, const Loop& loop,
+                const std::vector<Vec2>& moved, double least)
+{
+    Places places{nearestPlaces(before, after, moved), std::vector<std::uint8_t>(moved.size(), 0)};
+    for (const auto& [corner, v] : cornerPairs(loop, moved)) {
+        places.values[v] += std::remainder(after.arc(corner) - places.values[v], after.length());
+        places.fixed[v] = kBend;
+    }
+    freeCrowded(first, after, places);
+    even(first, after, least, places);
+    return places;
 }
 
 /// Assigns the nearest vertex to every corner of the loop; false if two corners need the same.
@@ -212,10 +292,65 @@ bool assignCorners(const Loop& loop, const Curve& after, Places& places)
             return false;
         }
         taken[best] = 1;
-        places.fixed[best] = 1;
+        places.fixed[best] = kCorner;
         places.values[best] += move;
     }
     return true;
+}
+
+/// Calls work(place, point) for all points of a loop between two places.
+template <typename Work>
+void forPointsBetween(const Loop& loop, const Curve& after, double from, double to, const Work& work)
+{
+    double lap = from - after.wrapped(from);
+    for (std::size_t i = after.pieceAt(from) + 1;; ++i) {
+        if (i >= after.size()) {
+            i -= after.size();
+            lap += after.length();
+        }
+        if (lap + after.arc(i) >= to) {
+            break;
+        }
+        work(lap + after.arc(i), loop.points[i]);
+    }
+}
+
+/// Moves an end of every chord that is far from its piece of the loop to the point that is farthest from it.
+/// @return  whether any was moved
+bool assignBends(const Loop& loop, const Curve& after, Places& places)
+{
+    const std::size_t count = places.values.size();
+    bool is_any = false;
+    for (std::size_t v = 0; v < count; ++v) {
+        const std::size_t w = (v + 1) % count;
+        const double lap = w > 0 ? 0.0 : after.length();
+        const double from = places.values[v];
+        const double to = places.values[w] + lap;
+        if (!(to > from)) {
+            continue;
+        }
+        const Vec2 a = after.at(from);
+        const Vec2 chord = after.at(to) - a;
+        double most = kMaxSagitta * dot(chord, chord);
+        std::optional<double> bend;
+        forPointsBetween(loop, after, from, to, [&](double place, Vec2 p) {
+            if (const double away = std::abs(cross(chord, p - a)); away > most) {
+                most = away;
+                bend = place;
+            }
+        });
+        if (!bend) {
+            continue;
+        }
+        const bool is_first_nearer = *bend - from < to - *bend;
+        const bool takes_first = places.fixed[v] == 0 && (is_first_nearer || places.fixed[w] != 0);
+        if (takes_first || places.fixed[w] == 0) {
+            places.values[takes_first ? v : w] = takes_first ? *bend : *bend - lap;
+            places.fixed[takes_first ? v : w] = kBend;
+            is_any = true;
+        }
+    }
+    return is_any;
 }
 
 /// Moves all vertices except corners across the rim by the same distance, until the polygon has the loop's area.
@@ -255,18 +390,12 @@ bool chordsFit(const Loop& loop, const Curve& after, const std::vector<double>& 
         if (!(to > from && size > 0.0)) {
             return false;
         }
-        double lap = from - after.wrapped(from);
-        for (std::size_t i = after.pieceAt(from) + 1;; ++i) {
-            if (i >= after.size()) {
-                i -= after.size();
-                lap += after.length();
-            }
-            if (lap + after.arc(i) >= to) {
-                break;
-            }
-            if (std::abs(cross(chord, loop.points[i] - points[v])) > kMaxSagitta * size * size) {
-                return false;
-            }
+        bool fits = true;
+        forPointsBetween(loop, after, from, to, [&](double, Vec2 p) {
+            fits = fits && !(std::abs(cross(chord, p - points[v])) > kMaxSagitta * size * size);
+        });
+        if (!fits) {
+            return false;
         }
     }
     return true;
@@ -278,7 +407,10 @@ std::vector<Vec2> loopOf(const PlanarMesh& mesh, std::size_t loop)
 }
 
 /// New places of the vertices of one loop on another.
-std::optional<std::vector<Vec2>> moveLoop(const std::vector<Vec2>& points, const Loop& loop)
+/// @param first   the loop with which the run of frames began, as many vertices
+/// @param points  the loop at its present place
+std::optional<std::vector<Vec2>> moveLoop(const std::vector<Vec2>& first, const std::vector<Vec2>& points,
+                                          const Loop& loop, double least)
 {
     const double area_before = enclosed(points);
     const double area_after = enclosed(loop.points);
@@ -293,17 +425,103 @@ std::optional<std::vector<Vec2>> moveLoop(const std::vector<Vec2>& points, const
     for (const Vec2 p : points) {
         moved.push_back(to + scale * (p - from));
     }
-    const Curve before(points);
+    const Curve at_first(first);
     const Curve after(loop.points);
-    Places places = placesOf(before, after, loop, moved);
+    Places places = placesOf(at_first, Curve(points), after, loop, moved, least);
     if (!assignCorners(loop, after, places)) {
         return std::nullopt;
     }
+    constexpr int kRounds = 6;
+    for (int round = 0; round < kRounds; ++round) {
+        const bool has_bends = assignBends(loop, after, places);
+        if (!has_bends && evenlySpaced(at_first, after, least, places.values)) {
+            break;
+        }
+        freeCrowded(at_first, after, places);
+        even(at_first, after, least, places);
+    }
+    (void)assignBends(loop, after, places);
     for (std::size_t v = 0; v < points.size(); ++v) {
         moved[v] = after.at(places.values[v]);
     }
     keepArea(area_after, places.fixed, moved);
     return chordsFit(loop, after, places.values, moved) ? std::optional(moved) : std::nullopt;
+}
+
+/// Sine of a triangle's smallest angle; negative if the triangle is turned over.
+double smallestSine(const PlanarMesh& mesh, const Triangle& t)
+{
+    const auto squared = [&](std::uint32_t a, std::uint32_t b) {
+        const Vec2 along = mesh.vertices[b] - mesh.vertices[a];
+        return dot(along, along);
+    };
+    const double a = squared(t[0], t[1]);
+    const double b = squared(t[1], t[2]);
+    const double c = squared(t[2], t[0]);
+    // The two longest edges enclose it.
+    const double longest = std::max({a * b, b * c, c * a});
+    return longest > 0.0 ? doubleArea(mesh, t) / std::sqrt(longest) : 0.0;
+}
+
+/// Moves inner vertices at angles that are too small, by a pattern search for places at which the smallest angle around
+/// them is largest.
+/// @param wanted  angle from which a vertex stays [rad]
+void raiseAngles(PlanarMesh& mesh, double wanted)
+{
+    const double least = std::sin(wanted);
+    const std::uint32_t on_rim = mesh.rimVertexCount();
+    std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        for (const std::uint32_t v : mesh.triangles[t]) {
+            if (v >= on_rim) {
+                around[v].push_back(t);
+            }
+        }
+    }
+    const auto worst = [&](std::uint32_t v) {
+        double sine = 1.0;
+        for (const std::uint32_t t : around[v]) {
+            sine = std::min(sine, smallestSine(mesh, mesh.triangles[t]));
+        }
+        return sine;
+    };
+    // Neighbours make room for one another, so a few passes are needed; each begins with long moves.
+    constexpr int kPasses = 16;
+    constexpr int kHalvings = 4;
+    constexpr int kDirections = 8;
+    std::size_t last_count = mesh.vertices.size();
+    for (int pass = 0; pass < kPasses; ++pass) {
+        std::size_t count = 0;
+        for (std::uint32_t v = on_rim; v < mesh.vertices.size(); ++v) {
+            double best = worst(v);
+            if (best >= least) {
+                continue;
+            }
+            ++count;
+            double size = 0.0;
+            for (const std::uint32_t t : around[v]) {
+                size += std::abs(doubleArea(mesh, mesh.triangles[t]));
+            }
+            double step = 0.5 * std::sqrt(size / static_cast<double>(around[v].size()));
+            for (int halving = 0; halving < kHalvings; ++halving, step *= 0.5) {
+                const Vec2 from = mesh.vertices[v];
+                Vec2 found = from;
+                for (int k = 0; k < kDirections; ++k) {
+                    const double angle = 2.0 * std::numbers::pi * k / kDirections;
+                    mesh.vertices[v] = from + step * Vec2{std::cos(angle), std::sin(angle)};
+                    if (const double there = worst(v); there > best) {
+                        best = there;
+                        found = mesh.vertices[v];
+                    }
+                }
+                mesh.vertices[v] = found;
+            }
+        }
+        if (count == 0 || count >= last_count) {
+            break;
+        }
+        last_count = count;
+    }
 }
 
 /// Finds for every loop of the mesh the loop of the footprint that it becomes.
@@ -378,21 +596,37 @@ std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last
     if (!loops || !(stretch <= kMaxStretch && stretch >= 1.0 / kMaxStretch)) {
         return std::nullopt;
     }
+    const double least = angles > 0.0 ? kMinSpacing : kMinSheetSpacing;
     std::vector<Vec2> rim;
     for (std::size_t k = 0; k < loops->size(); ++k) {
-        const std::optional<std::vector<Vec2>> moved = moveLoop(loopOf(last, k), *(*loops)[k]);
+        const std::optional<std::vector<Vec2>> moved = moveLoop(loopOf(first, k), loopOf(last, k), *(*loops)[k], least);
         if (!moved) {
             return std::nullopt;
         }
         rim.insert(rim.end(), moved->begin(), moved->end());
     }
+    const auto is_good = [](const PlanarMesh& mesh, double angle) {
+        return std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
+                           [&](const Triangle& t) { return doubleArea(mesh, t) > 0.0; }) &&
+               minAngle(mesh) >= angle;
+    };
+    const double wanted = angles > 0.0 ? kMinAngle : 0.0;
+    const double first_angle = minAngle(first);
+    const double least_angle = first_angle >= kMinAngle ? wanted : angles * first_angle;
     PlanarMesh mesh = moveRim(first, rim);
-    const bool whole = std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
-                                   [&](const Triangle& t) { return doubleArea(mesh, t) > 0.0; });
-    if (!whole || minAngle(mesh) < std::min(kMinAngle, angles * minAngle(first))) {
-        return std::nullopt;
+    if (is_good(mesh, wanted)) {
+        return mesh;
     }
-    return mesh;
+    for (const PlanarMesh* from : {&first, &last}) {
+        mesh = moveRim(*from, rim);
+        // More than is needed, so that the angles beside a small one make room for it.
+        constexpr double kRoom = 1.3;
+        raiseAngles(mesh, kRoom * wanted);
+        if (is_good(mesh, least_angle)) {
+            return mesh;
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace droplet

@@ -118,6 +118,44 @@ TEST(Follow, CornersGetAVertex)
     EXPECT_NEAR(area(*moved), area(there), 1e-6);
 }
 
+/// Square of side 2 whose corners are arcs.
+Footprint roundedSquare(double radius)
+{
+    std::vector<Vec2> points;
+    for (int corner = 0; corner < 4; ++corner) {
+        const double begin = 0.5 * kPi * corner;
+        const Vec2 away{std::cos(begin + 0.25 * kPi), std::sin(begin + 0.25 * kPi)};
+        const Vec2 middle = (std::sqrt(2.0) * (1.0 - radius)) * away;
+        constexpr int kPieces = 32;
+        for (int k = 0; k <= kPieces; ++k) {
+            const double angle = begin + 0.5 * kPi * k / kPieces;
+            points.push_back(middle + radius * Vec2{std::cos(angle), std::sin(angle)});
+        }
+    }
+    return domainOf(testing::smoothLoop(std::move(points))).droplets[0];
+}
+
+TEST(Follow, FollowsCornersThatBecomeRoundAndSharp)
+{
+    // The footprint of letters that begin to flow: arcs much smaller than an edge, which are no corners any more.
+    const Footprint square = domainOf(polygonLoop({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})).droplets[0];
+    const PlanarMesh first = meshOf(square);
+    PlanarMesh last = first;
+    const auto follow_to = [&](const Footprint& there) {
+        const auto moved = follow(first, last, there);
+        ASSERT_TRUE(moved);
+        EXPECT_NO_THROW(moved->validate());
+        EXPECT_GE(minAngle(*moved), std::min(15 * kDegree, 0.75 * minAngle(first)));
+        EXPECT_NEAR(area(*moved), area(there), 1e-4);
+        last = *moved;
+    };
+    for (const double radius : {0.01, 0.02, 0.04, 0.08, 0.15, 0.08, 0.04, 0.02, 0.01}) {
+        SCOPED_TRACE(radius);
+        follow_to(roundedSquare(radius));
+    }
+    follow_to(square);
+}
+
 TEST(Follow, FollowsAShrinkingHoleWithoutDrift)
 {
     const auto ring = [](double hole) {

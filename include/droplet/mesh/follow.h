@@ -19,12 +19,14 @@ PlanarMesh moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim);
 /// Moves a mesh to a footprint that moved and changed little, so that vertices keep their identity.
 ///
 /// First, the old and new loops are brought to the same centre and size. Each rim vertex then goes to the nearest place
-/// on the new loop, and places that are too close or too far apart are evened out. Each corner of the new footprint
-/// gets a vertex. Finally the rim is widened or narrowed until its area is that of the footprint. Inner vertices move
-/// harmonically from their places in `first`, so errors do not add up over a run of frames.
+/// on the new loop, and places that are too close or too far apart are evened out, relative to those of `first`. Each
+/// corner of the new footprint gets a vertex, and so does each bend that an edge would cut off. Finally the rim is
+/// widened or narrowed until its area is that of the footprint. Inner vertices move harmonically from their places in
+/// `first`, so errors do not add up over a run of frames. Where angles would become too small, single vertices are
+/// moved until they are not; if that fails, all are moved from their places in `last`.
 ///
 /// Guarantees: connections are those of `first`; no triangle is turned over; angles are at least 15°, or a share of the
-/// smallest angle of `first` if that is less; the mean edge is between 2/3 and 3/2 as long; chords lie off their
+/// smallest angle of `first` if that is below 15°; the mean edge is between 2/3 and 3/2 as long; chords lie off their
 /// piece of the loop by less than a fifth of their length.
 /// @param first      mesh with which the run of frames began
 /// @param last       the same mesh at its present place, with the connections of `first`
