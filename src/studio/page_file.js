@@ -19,5 +19,5 @@ export function takeLoaded(document) {
 export function pageWith(source, text) {
     const element = Object.assign(document.createElement('script'), { id: kElement, type: 'application/json' });
     element.textContent = text.replaceAll('<', '\\u003c');
-    return source.replace(/<body[^>]*>/, (body) => `${body}\n${element.outerHTML}`);
+    return source.replace(/<body[^>]*>/, (body) => `${body}${element.outerHTML}`);
 }

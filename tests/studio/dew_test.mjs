@@ -101,6 +101,7 @@ if (DROPLET_SHAPE) {
 }
 
 studio('the object has its colours, and droplets are seen on it', kDesktop, async (page) => {
+    await page.evaluate(() => document.querySelector('#swatches [value=white]').click());  // the first ground is bluish
     await cover(page, ...blue);
     const colourful = async () => {
         await page.waitForFunction(() => document.documentElement.dataset.state === 'resting');

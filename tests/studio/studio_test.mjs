@@ -551,6 +551,7 @@ studio('the policy lets nothing else run', kDesktop, async (page) => {
 studio('rain is shown over the drawing until Escape, and keys are its own', kDesktop, async (page) => {
     const tool = () => page.locator('#tools input:checked').inputValue();
     await started(page);
+    await settle(page);  // of the example
     const before = [await tool(), await page.evaluate(() => document.documentElement.dataset.state)];
     await page.locator('#rain').click();
     await page.waitForFunction(() => document.querySelector('.rain.ready') !== null);
