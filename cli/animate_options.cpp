@@ -107,23 +107,22 @@ droplet::RevealSource revealSource(const Given& given)
 }
 
 /// Reads what becomes of the footprint of one picture.
-void readMotion(const CommandLine& line, const droplet::DripOptions& drips, AnimateOptions& options)
+void readMotion(const CommandLine& line, const std::optional<droplet::DripOptions>& drips, AnimateOptions& options)
 {
     const auto source = line.value("--reveal");
-    const bool drip = line.value("--drips").has_value();
-    if (line.value("--seed") && !drip) {
+    if (line.value("--seed") && !drips) {
         refuse("--seed needs --drips");
     }
-    if (source && drip) {
+    if (source && drips) {
         refuse("--reveal and --drips cannot be used together");
     }
-    if (!source && !drip) {
+    if (!source && !drips) {
         if (line.value("--frames")) {
             refuse("--frames needs --reveal or --drips; without them, the frames are those of INPUT");
         }
         return;
     }
-    options.motion = source ? FootprintMotion(revealSource(*source)) : FootprintMotion(drips);
+    options.motion = source ? FootprintMotion(revealSource(*source)) : FootprintMotion(*drips);
     if (options.inputs.size() > 1 || isStream(options.inputs.front()) || !isPicture(options.inputs.front())) {
         refuse(source ? "--reveal takes one picture as INPUT, into whose footprint liquid flows"
                       : "--drips takes one picture as INPUT, from whose footprint liquid drips");
@@ -220,13 +219,14 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
         "Let liquid flow into the footprint of one picture, from a side, from its middle or from a place (shares of "
         "width and height, from the top left), along its strokes, at the same contact angle; --volume-mode is fill "
         "then");
-    droplet::DripOptions drips;
+    std::optional<int> drips;
+    droplet::DripOptions dripping;
     line.add(
         "Sequence", "--drips", "N",
         "Let liquid drip from up to N lower edges of one picture's footprint, as paint runs down a wall, at the same "
         "contact angle; --volume-mode is fill then",
-        into(drips.count, {1, 1000, "1000"}));
-    line.add("Sequence", "--seed", "N", "Random seed of --drips", seedInto(drips.seed));
+        into(drips, CountRange{1, 1000, "1000"}));
+    line.add("Sequence", "--seed", "N", "Random seed of --drips", seedInto(dripping.seed));
     line.add("Sequence", "--frames", "N", "Number of frames of --reveal and --drips, up to 100k",
              into(options.frames, {1, 100'000, "100k"}));
     line.parse(argc, argv);
@@ -246,7 +246,8 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
         refuse("INPUT: - must stand alone: all frames are on standard input");
     }
     options.output = files.back().text;
-    readMotion(line, drips, options);
+    dripping.count = drips.value_or(dripping.count);
+    readMotion(line, drips ? std::optional(dripping) : std::nullopt, options);
     readAnimation(line, options);
     if (options.resume && (!options.files || isStream(options.inputs.front()))) {
         refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.glb, and INPUT in files");

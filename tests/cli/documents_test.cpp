@@ -248,7 +248,8 @@ TEST(Readme, FirstPictureShowsTheFirstCommand)
     ASSERT_TRUE(std::regex_match(command, match, std::regex("scripts/run data/(\\S+) droplet\\.glb\n"))) << command;
     const std::string mask = match.str(1);
     EXPECT_LT(readme.find("(data/pictures/hero.png)"), readme.find(command));
-    EXPECT_THAT(sourceFile("scripts/make-pictures"), HasSubstr("\npicture hero " + mask + "\n"));
+    EXPECT_THAT(sourceFile("scripts/make-pictures"),
+                HasSubstr("--mask \"$root/data/" + mask + "\" --around 1 --out \"$root/data/pictures/hero.png\""));
     testing::ScratchDirectory scratch;
     const auto run = runDroplet({inSource("data/" + mask).string(), (scratch.path() / "droplet.glb").string()});
     EXPECT_EQ(run.exit_code, 0) << run.error;

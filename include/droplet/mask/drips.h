@@ -9,6 +9,7 @@
 
 namespace droplet {
 
+/// How liquid drips from a footprint.
 struct DripOptions {
     int count = 5;           ///< largest number of drips, > 0; fewer where a footprint has no room for them
     std::uint64_t seed = 1;  ///< of their places, sizes and times
@@ -21,7 +22,8 @@ struct DripOptions {
 /// while, runs down and slows, since it leaves a trail. Down is toward the bottom of the picture.
 class Drips {
 public:
-    /// @param mask  valid, with liquid
+    /// @param mask     valid, with liquid
+    /// @param options  valid
     /// @throws Error InvalidArgument, InvalidInput without liquid
     Drips(Mask mask, const DripOptions& options);
 
