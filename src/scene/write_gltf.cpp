@@ -124,11 +124,12 @@ tinygltf::Material materialOf(const SceneMaterial& from, double side)
     }
     if (has_volume) {
         // The thickness is in the mesh's unit; the distance of attenuation is not.
-        Value::Object volume{{"thicknessFactor", Value(rounded(*from.thickness / side))}};
+        const double thickness = rounded(*from.thickness);
+        Value::Object volume{{"thicknessFactor", Value(thickness / side)}};
         if (look.tinted || from.absorption) {
-            const auto [colour, distance] = from.absorption ? *from.absorption : attenuationOf(look, *from.thickness);
+            const auto [colour, distance] = from.absorption ? *from.absorption : attenuationOf(look, thickness);
             volume["attenuationColor"] = Value(Value::Array{Value(colour.x), Value(colour.y), Value(colour.z)});
-            volume["attenuationDistance"] = Value(rounded(distance));
+            volume["attenuationDistance"] = Value(distance);
         }
         material.extensions["KHR_materials_volume"] = Value(std::move(volume));
     }
