@@ -120,7 +120,9 @@ export class View {
         const box = this.droplets.box();
         if (this.object || box.isEmpty()) {
             this.framed = undefined;
-            this.object || stage.part && stage.glideTo(undefined);
+            if (!this.object && stage.part) {
+                stage.glideTo(undefined);
+            }
             return;
         }
         // Small changes leave the view as it is.
