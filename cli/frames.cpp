@@ -135,7 +135,7 @@ Frames::Frames(std::istream& pictures, std::string name)
 {
 }
 
-Frames::Frames(std::string picture, FootprintMotion motion, std::size_t count) : motion_(std::move(motion))
+Frames::Frames(const std::string& picture, const FootprintMotion& motion, std::size_t count) : motion_(motion)
 {
     for (std::size_t k = 1; k <= count; ++k) {
         pictures_.emplace_back(k, picture);
@@ -150,8 +150,9 @@ FramePicture Frames::moved(const droplet::MaskOptions& options)
         droplet::MaskOptions wet = options;
         wet.allow_dry = false;
         droplet::Mask mask = droplet::readMask(frame.name, wet);
-        const auto moving = [&]<class Motion>(const Motion& motion) {
-            return [motion = std::make_shared<const Motion>(motion)](double time) { return motion->at(time); };
+        const auto moving = []<class Motion>(Motion motion) {
+            return
+                [shared = std::make_shared<const Motion>(std::move(motion))](double time) { return shared->at(time); };
         };
         try {
             if (const auto* options_of_drips = std::get_if<droplet::DripOptions>(&*motion_)) {

@@ -45,7 +45,7 @@ public:
     /// Frames of one picture whose footprint moves.
     /// @param picture  path
     /// @param count    of frames, at least 1
-    Frames(std::string picture, FootprintMotion motion, std::size_t count);
+    Frames(const std::string& picture, const FootprintMotion& motion, std::size_t count);
 
     /// Reads the next frame; returns nothing after the last one.
     /// @throws droplet::Error InvalidInput, naming the frame: unreadable, or not of the first frame's size

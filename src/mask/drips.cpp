@@ -78,15 +78,15 @@ std::vector<Vec2> rootsOf(const Mask& mask, const cv::Mat& inside, double room, 
     };
     std::vector<Candidate> candidates;
     const auto reach = std::max(static_cast<int>(std::lround(room)), 1);
-    const auto isLiquid = [&](int x, int y) {
+    const auto is_liquid = [&](int x, int y) {
         return x >= 0 && x < mask.width && y >= 0 && y < mask.height &&
                mask.coverage[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width) +
                              static_cast<std::size_t>(x)] >= kHalf;
     };
     // Bottom of the liquid beside a place, looked for a little above and below it.
-    const auto bottomBeside = [&](int x, int y) -> std::optional<int> {
+    const auto bottom_beside = [&](int x, int y) -> std::optional<int> {
         for (int k = y + reach; k >= y - reach; --k) {
-            if (isLiquid(x, k) && !isLiquid(x, k + 1)) {
+            if (is_liquid(x, k) && !is_liquid(x, k + 1)) {
                 return k;
             }
         }
@@ -94,15 +94,15 @@ std::vector<Vec2> rootsOf(const Mask& mask, const cv::Mat& inside, double room, 
     };
     for (int y = 0; y < mask.height; ++y) {
         for (int x = 0; x < mask.width; ++x) {
-            if (!isLiquid(x, y) || isLiquid(x, y + 1)) {
+            if (!is_liquid(x, y) || is_liquid(x, y + 1)) {
                 continue;
             }
             const int above = std::max(y - reach, 0);
             if (inside.at<float>(above, x) < 0.6F * static_cast<float>(room)) {
                 continue;  // a spike, or the edge of a thin stroke
             }
-            const std::optional<int> left = bottomBeside(x - reach / 2, y);
-            const std::optional<int> right = bottomBeside(x + reach / 2, y);
+            const std::optional<int> left = bottom_beside(x - reach / 2, y);
+            const std::optional<int> right = bottom_beside(x + reach / 2, y);
             if (!left || !right) {
                 continue;  // a corner
             }

@@ -71,8 +71,8 @@ auto quantizedAll(const std::vector<Float3>& vectors, const Quantize& quantize)
     return result;
 }
 
-/// Positive length with the seven digits that readers keep, as they read floats: the last bits of sums differ from processor
-/// to processor.
+/// Positive length with the seven digits that readers keep, as they read floats: the last bits of sums differ from
+/// processor to processor.
 double rounded(double length)
 {
     const double power = std::pow(10.0, 6.0 - std::floor(std::log10(length)));
