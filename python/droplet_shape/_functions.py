@@ -506,7 +506,7 @@ def animate(
         from its middle or from a place (shares of width and height, from the top left), along its strokes, at the
         same contact angle; volume_mode is fill then
       drips: Let liquid drip from up to N lower edges of one picture's footprint, as paint runs down a wall, at the
-        same contact angle; volume_mode is fill then (default: 5)
+        same contact angle; volume_mode is fill then
       seed: Random seed of drips (default: 1)
       frames: Number of frames of reveal and drips, up to 100k (default: 48)
 
