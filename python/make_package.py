@@ -215,7 +215,11 @@ frames: masks of one size, as of make_droplet(), one after another. A mask witho
 (3, 2)
 """,
         "_core.animate(masks_of(frames), {tokens})",
-        leave_out={"channel", "segment", "colour", "contact_sheet", "unit", "material", "onto", "advancing", "receding"},
+        # The last four are of the command's one picture; here, footprints that move are the frames.
+        leave_out={
+            "channel", "segment", "colour", "contact_sheet", "unit", "material", "onto", "advancing", "receding", "reveal", "drips", "seed",
+            "frames",
+        },
     ),
     Function(
         "compare",
@@ -591,6 +595,7 @@ def main():
     package = ROOT / "python/droplet_shape"
     differs = False
     for path, text in {package / "_functions.py": functions_text(program), package / "_reports.py": reports_text()}.items():
+        compile(text, path, "exec")  # two options, or an option and an input, may not have one name
         before = path.read_text() if path.exists() else ""
         if before == text:
             continue

@@ -409,10 +409,6 @@ def glyphs(
 _ANIMATE = {
     "volume_mode": "text",
     "fps": "number",
-    "reveal": "text",
-    "drips": "number",
-    "seed": "number",
-    "frames": "number",
     "width": "m",
     "pixel_size": "m",
     "threshold": "number",
@@ -451,10 +447,6 @@ def animate(
     *,
     volume_mode: Literal["total", "track", "fill"] | None = None,
     fps: float | None = None,
-    reveal: str | None = None,
-    drips: str | int | None = None,
-    seed: str | int | None = None,
-    frames: str | int | None = None,
     width: str | float | None = None,
     pixel_size: str | float | None = None,
     threshold: float | None = None,
@@ -502,13 +494,6 @@ def animate(
         track, of every droplet, through merging and splitting; fill, none, every frame has the contact_angle, volume
         or height (default: total)
       fps: Frames per second (default: 24, or the video's)
-      reveal: left, right, top, bottom, middle, X,Y: Let liquid flow into the footprint of one picture, from a side,
-        from its middle or from a place (shares of width and height, from the top left), along its strokes, at the
-        same contact angle; volume_mode is fill then
-      drips: Let liquid drip from up to N lower edges of one picture's footprint, as paint runs down a wall, at the
-        same contact angle; volume_mode is fill then
-      seed: Random seed of drips (default: 1)
-      frames: Number of frames of reveal and drips, up to 100k (default: 48)
 
     Footprint:
       width [m]: Width of the picture; an SVG may state its own (default: 20mm)
