@@ -414,7 +414,7 @@ class Files(unittest.TestCase):
         self.drop.save(str(self.folder / "metres.stl"), unit="m")
         self.drop.save(self.folder / "drop.glb", material="ink")
         self.assertIn(b"ink", (self.folder / "drop.glb").read_bytes())
-        for options in ({"unit": "inch"}, {"material": "gold"}):
+        for options in ({"unit": "inch"}, {"material": "brick"}):
             with self.assertRaisesRegex(ds.InvalidArgument, "^" + next(iter(options))):
                 self.drop.save(self.folder / "drop.obj", **options)
 

@@ -184,7 +184,7 @@ class Windshield(InFolder):
 
 class Dew(InFolder):
     def test_droplets_rest_on_a_mesh(self):
-        report = ds.dew(DATA / "can.glb", self.folder / "wet.obj", coverage=0.1, smallest="1mm", largest="2mm")
+        report = ds.dew(DATA / "can.glb", self.folder / "wet.obj", coverage=0.1, smallest="0.4mm", largest="1mm")
         self.assertGreater(report.droplets.count, 10)
         self.assertAlmostEqual(report.droplets.covered_m2 / report.droplets.area_m2, 0.1, delta=0.02)
         self.assertTrue((self.folder / "wet.obj").exists())

@@ -170,7 +170,7 @@ class FileObjects(unittest.TestCase):
             ("^format: a file object has no extension", lambda: drop.save(io.BytesIO())),
             ("^format: .*glb, gltf, obj", lambda: drop.to_bytes("dwg")),
             ("^unit: ", lambda: drop.to_bytes(unit="inch")),
-            ("^material: ", lambda: film().to_bytes(material="gold")),
+            ("^material: ", lambda: film().to_bytes(material="brick")),
             ("^format: obj holds single frames", lambda: film().to_bytes("obj")),
             ("^compress: usda files cannot", lambda: film().to_bytes("usda", compress="meshopt")),
             ("^nodes: ", lambda: drop.to_bytes(nodes="some")),
