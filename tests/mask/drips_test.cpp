@@ -6,32 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <numeric>
 #include <vector>
 
 #include "droplet/error.h"
+#include "support/masks.h"
 
 namespace droplet {
 namespace {
 
-Mask maskOf(int width, int height, const std::function<bool(int, int)>& inside)
-{
-    Mask mask;
-    mask.width = width;
-    mask.height = height;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            mask.coverage.push_back(inside(x, y) ? 65535 : 0);
-        }
-    }
-    return mask;
-}
-
 /// A bar, 240 px wide and 40 px high, with grey edges.
 Mask bar()
 {
-    Mask mask = maskOf(280, 80, [](int x, int y) { return x >= 20 && x < 260 && y >= 20 && y < 60; });
+    Mask mask = testing::hardMask(280, 80, testing::rectangle({140.0, 40.0}, {120.0, 20.0}, 0.0));
     for (std::size_t x = 20; x < 260; ++x) {
         mask.coverage[60 * 280 + x] = 20'000;
     }
@@ -106,9 +93,10 @@ TEST(Drips, LieApart)
 TEST(Drips, HangAtTheLowestPlaces)
 {
     // A V, whose only lower ends are its tip and no flank.
-    const Mask v = maskOf(300, 200, [](int x, int y) {
-        const int flank = std::abs(x - 150);
-        return y >= 30 && y < 170 && flank < (170 - y) / 2 + 22 && flank > (170 - y) / 2 - 22;
+    const Mask v = testing::hardMask(300, 200, [](Vec2 p) {
+        const double flank = std::abs(p.x - 150.5);
+        const double middle = (170.5 - p.y) / 2.0;
+        return p.y > 30.0 && p.y < 170.0 && std::abs(flank - middle) < 22.0;
     });
     const Drips drips(v, {.count = 1});
     ASSERT_EQ(drips.drips().size(), 1U);
@@ -126,11 +114,11 @@ TEST(Drips, AreThoseOfTheirSeed)
 
 TEST(Drips, RefuseWhatIsNotAllowed)
 {
-    EXPECT_THROW(Drips(maskOf(20, 20, [](int, int) { return false; }), {}), Error);
+    EXPECT_THROW(Drips(testing::hardMask(20, 20, [](Vec2 /*place*/) { return false; }), {}), Error);
     EXPECT_THROW(Drips(bar(), {.count = 0}), Error);
     EXPECT_THROW(static_cast<void>(Drips(bar(), {}).at(1.5)), Error);
     // A dot of one pixel has room for no drip, or for a tiny one.
-    const Mask dot = maskOf(9, 9, [](int x, int y) { return x == 4 && y == 4; });
+    const Mask dot = testing::hardMask(9, 9, testing::rectangle({4.5, 4.5}, {0.5, 0.5}, 0.0));
     EXPECT_LE(Drips(dot, {}).drips().size(), 1U);
 }
 

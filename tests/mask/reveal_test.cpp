@@ -6,28 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <vector>
 
 #include "droplet/error.h"
+#include "support/masks.h"
 
 namespace droplet {
 namespace {
-
-Mask maskOf(int width, int height, const std::function<bool(int, int)>& inside)
-{
-    Mask mask;
-    mask.width = width;
-    mask.height = height;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            mask.coverage.push_back(inside(x, y) ? 65535 : 0);
-        }
-    }
-    return mask;
-}
 
 double shareOf(const Mask& part, const Mask& whole)
 {
@@ -37,8 +24,8 @@ double shareOf(const Mask& part, const Mask& whole)
 
 Mask ring()
 {
-    return maskOf(120, 100, [](int x, int y) {
-        const double r = std::hypot(x - 60.0, y - 50.0);
+    return testing::hardMask(120, 100, [](Vec2 p) {
+        const double r = length(p - Vec2{60.5, 50.5});
         return r > 25.0 && r < 40.0;
     });
 }
@@ -69,7 +56,7 @@ TEST(Reveal, GrowsFromNothingToTheWholeMask)
 // In a straight stroke the front goes evenly: after half the time, half of it is wet.
 TEST(Reveal, GoesEvenlyAlongAStroke)
 {
-    const Mask stroke = maskOf(440, 60, [](int x, int y) { return x >= 20 && x < 420 && y >= 20 && y < 40; });
+    const Mask stroke = testing::hardMask(440, 60, testing::rectangle({220.0, 30.0}, {200.0, 10.0}, 0.0));
     EXPECT_NEAR(shareOf(Reveal(stroke, RevealFrom::Left).at(0.5), stroke), 0.5, 0.03);
     EXPECT_NEAR(shareOf(Reveal(stroke, RevealFrom::Right).at(0.25), stroke), 0.25, 0.03);
     EXPECT_NEAR(shareOf(Reveal(stroke, RevealFrom::Middle).at(0.5), stroke), 0.5, 0.03);
@@ -78,7 +65,7 @@ TEST(Reveal, GoesEvenlyAlongAStroke)
 // The middle is ahead of the rim: the front of a stroke is round.
 TEST(Reveal, FrontIsRound)
 {
-    const Mask stroke = maskOf(440, 60, [](int x, int y) { return x >= 20 && x < 420 && y >= 20 && y < 40; });
+    const Mask stroke = testing::hardMask(440, 60, testing::rectangle({220.0, 30.0}, {200.0, 10.0}, 0.0));
     const Mask half = Reveal(stroke, RevealFrom::Left).at(0.5);
     const auto reach = [&](int y) {
         int x = 0;
@@ -93,9 +80,9 @@ TEST(Reveal, FrontIsRound)
 // Liquid goes around, not across, what is dry: the last place of a C is its other end, though that is near.
 TEST(Reveal, FollowsStrokes)
 {
-    const Mask letter = maskOf(120, 100, [](int x, int y) {
-        const double r = std::hypot(x - 60.0, y - 50.0);
-        return r > 25.0 && r < 40.0 && !(x > 60 && std::abs(y - 50) < 6);
+    const Mask letter = testing::hardMask(120, 100, [](Vec2 p) {
+        const double r = length(p - Vec2{60.5, 50.5});
+        return r > 25.0 && r < 40.0 && !(p.x > 61.0 && std::abs(p.y - 50.5) < 6.0);
     });
     const Reveal reveal(letter, Vec2{92.0 / 120.0, 38.0 / 100.0});  // the upper end
     const Mask half = reveal.at(0.5);
@@ -107,7 +94,8 @@ TEST(Reveal, FollowsStrokes)
 
 TEST(Reveal, DropletsBeginInTheOrderOfTheFront)
 {
-    const Mask dots = maskOf(200, 40, [](int x, int y) { return std::hypot(x % 50 - 25.0, y - 20.0) < 8.0; });
+    const Mask dots =
+        testing::hardMask(200, 40, [](Vec2 p) { return std::hypot(std::fmod(p.x, 50.0) - 25.5, p.y - 20.5) < 8.0; });
     const Mask half = Reveal(dots, RevealFrom::Left).at(0.5);
     EXPECT_GT(half.at(25, 20), 60000);
     EXPECT_GT(half.at(75, 20), 60000);
@@ -119,7 +107,7 @@ TEST(Reveal, DropletsBeginInTheOrderOfTheFront)
 
 TEST(Reveal, KeepsPixelsThatAreLessThanHalfLiquid)
 {
-    Mask mask = maskOf(60, 60, [](int x, int y) { return x >= 20 && x < 40 && y >= 20 && y < 40; });
+    Mask mask = testing::hardMask(60, 60, testing::rectangle({30.0, 30.0}, {10.0, 10.0}, 0.0));
     for (int y = 20; y < 40; ++y) {
         mask.coverage[static_cast<std::size_t>(y * 60 + 40)] = 20000;
     }
@@ -131,8 +119,8 @@ TEST(Reveal, KeepsPixelsThatAreLessThanHalfLiquid)
 
 TEST(Reveal, RefusesWhatIsNot)
 {
-    EXPECT_THROW(Reveal(maskOf(8, 8, [](int, int) { return false; }), RevealFrom::Left), Error);
-    const Mask full = maskOf(8, 8, [](int, int) { return true; });
+    EXPECT_THROW(Reveal(testing::hardMask(8, 8, [](Vec2 /*place*/) { return false; }), RevealFrom::Left), Error);
+    const Mask full = testing::hardMask(8, 8, [](Vec2 /*place*/) { return true; });
     EXPECT_EQ(Reveal(full, RevealFrom::Left).at(1.0).coverage, full.coverage) << "without a rim";
     EXPECT_THROW(Reveal(full, Vec2{std::numeric_limits<double>::quiet_NaN(), 0.0}), Error);
     EXPECT_THROW(static_cast<void>(Reveal(full, RevealFrom::Left).at(1.1)), Error);
