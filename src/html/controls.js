@@ -46,7 +46,7 @@ function thumbnail(picture) {
 
 /**
  * Offers the grounds in #swatches, and the user's own picture in #picture.
- * @param chosen  key of the first ground; undefined: by the colour scheme
+ * @param chosen  key of the first ground; undefined: the first one offered
  * @param chose   called with the key when the user chooses; undefined for a picture
  */
 export function offerGrounds(stage, chosen, chose = () => {}) {

@@ -21,7 +21,9 @@ function frequent(data, counts = () => true) {
         }
         const key = ((data[i] >> (8 - kBits)) << (2 * kBits)) | ((data[i + 1] >> (8 - kBits)) << kBits) | (data[i + 2] >> (8 - kBits));
         const box = boxes.get(key) ?? { sum: [0, 0, 0], count: 0 };
-        box.sum = box.sum.map((sum, k) => sum + data[i + k]);
+        for (let k = 0; k < 3; ++k) {
+            box.sum[k] += data[i + k];
+        }
         ++box.count;
         boxes.set(key, box);
     }
@@ -42,6 +44,21 @@ function backgroundOf({ width, height, data }) {
     return first && first.count > border.length / 2 ? first.colour : undefined;
 }
 
+/** The nearest colour, and the one after it: two of {k: its index, distance}. */
+function twoNearest(colours, pixel) {
+    let first;
+    let second;
+    for (let k = 0; k < colours.length; ++k) {
+        const found = { k, distance: apart(colours[k], pixel) };
+        if (!first || found.distance < first.distance) {
+            [first, second] = [found, first];
+        } else if (!second || found.distance < second.distance) {
+            second = found;
+        }
+    }
+    return [first, second];
+}
+
 /**
  * Divides a picture by its colours. Pixels at an edge between two have a share of both.
  * @param image  {width, height, data}: RGBA
@@ -51,37 +68,42 @@ export function coloursOf(image) {
     const { width, height, data } = image;
     const background = backgroundOf(image);
     const colours = background ? [background] : [];
+    const dry = colours.length;
     // Pixels at edges have mixed colours.
-    const at = (i) => data.subarray(4 * i, 4 * i + 4);
-    const alike = (i, k) => apart(at(i), at(k)) < kFlat && Math.abs(at(i)[3] - at(k)[3]) < kFlat;
+    const alike = (i, k) => {
+        for (let channel = 0; channel < 4; ++channel) {
+            if (Math.abs(data[4 * i + channel] - data[4 * k + channel]) >= kFlat) {
+                return false;
+            }
+        }
+        return true;
+    };
     const isFlat = (i) => i % width > 0 && i % width + 1 < width && i >= width && i + width < width * height &&
-        [i - 1, i + 1, i - width, i + width].every((k) => alike(i, k));
-    const found = frequent(data, isFlat);
+        alike(i, i - 1) && alike(i, i + 1) && alike(i, i - width) && alike(i, i + width);
     const least = kLeast * width * height;
-    for (const { colour, count } of found) {
-        if (count >= least && colours.length < kMost + (background ? 1 : 0) && colours.every((other) => apart(colour, other) >= kApart)) {
+    for (const { colour, count } of frequent(data, isFlat)) {
+        if (count >= least && colours.length < kMost + dry && colours.every((other) => apart(colour, other) >= kApart)) {
             colours.push(colour);
         }
+    }
+    if (colours.length < dry + 2) {
+        return [];
     }
     let [opaque, plain] = [0, 0];
     const masks = colours.map(() => blank(width, height));
     for (let i = 0; i < width * height; ++i) {
         const alpha = data[4 * i + 3];
-        if (alpha === 0 || colours.length === 0) {
+        if (alpha === 0) {
             continue;
         }
-        const pixel = data.subarray(4 * i, 4 * i + 3);
-        const [first, second] = colours.map((colour, k) => ({ k, distance: apart(colour, pixel) })).sort((a, b) => a.distance - b.distance);
+        const [first, second] = twoNearest(colours, data.subarray(4 * i, 4 * i + 3));
         opaque += 1;
         plain += first.distance < kApart / 2 ? 1 : 0;
-        const share = second && apart(colours[first.k], colours[second.k]) > 0 ? second.distance / (first.distance + second.distance) : 1;
+        const share = second.distance / (first.distance + second.distance);
         masks[first.k].data[i] = Math.round(alpha * share);
-        if (second) {
-            masks[second.k].data[i] = Math.round(alpha * (1 - share));
-        }
+        masks[second.k].data[i] = Math.round(alpha * (1 - share));
     }
-    const layers = colours.map((colour, k) => ({ colour, mask: masks[k] })).slice(background ? 1 : 0);
-    return layers.length > 1 && plain > kPlain * opaque ? layers : [];
+    return plain > kPlain * opaque ? colours.map((colour, k) => ({ colour, mask: masks[k] })).slice(dry) : [];
 }
 
 // Looks that have their own colour on every ground.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Drawings to begin with, each in a look that suits it.
-import { blank } from './coverage.js';
+import { blank, drawShape, whole } from './coverage.js';
 
 const kSide = 100;  // of the square that the paths are on
 
@@ -38,20 +38,18 @@ export const kDrawings = [
 
 /** A drawing's coverage of a sheet, in whose middle it stands. */
 export function coverageOf({ path, stroke, solid }, width, height) {
-    const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
-    const scale = Math.min(width, height) / kSide;
-    context.setTransform(scale, 0, 0, scale, (width - scale * kSide) / 2, (height - scale * kSide) / 2);
-    if (stroke) {
-        Object.assign(context, { lineWidth: stroke, lineCap: 'round', lineJoin: 'round' });
-        context.stroke(new Path2D(path));
-    } else {
-        context.fill(new Path2D(path), solid ? 'nonzero' : 'evenodd');
-    }
-    const { data } = context.getImageData(0, 0, width, height);
     const mask = blank(width, height);
-    for (let i = 0; i < mask.data.length; ++i) {
-        mask.data[i] = data[4 * i + 3];
-    }
+    const scale = Math.min(width, height) / kSide;
+    drawShape(mask, whole(mask), (canvas) => {
+        canvas.translate((width - scale * kSide) / 2, (height - scale * kSide) / 2);
+        canvas.scale(scale, scale);
+        if (stroke) {
+            Object.assign(canvas, { lineWidth: stroke, lineCap: 'round', lineJoin: 'round' });
+            canvas.stroke(new Path2D(path));
+        } else {
+            canvas.fill(new Path2D(path), solid ? 'nonzero' : 'evenodd');
+        }
+    }, false);
     return mask;
 }
 

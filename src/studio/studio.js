@@ -212,7 +212,12 @@ class Studio {
         const layer = selectedLayer(project);
         const mask = coverageOf(drawing, project.width, project.height);
         this.view?.rise(layer.id);
-        this.#change({ ...withLayer(project, { mask, liquid: { ...layer.liquid, ...liquidOf(look) } }), name: project.name === kName ? say(name) : project.name });
+        this.#change({ ...withLayer(project, { mask, liquid: { ...layer.liquid, ...liquidOf(look) } }), name: this.#nameAfter(say(name)) });
+    }
+
+    /** The project's name, or that of what it begins with if it has none of its own. */
+    #nameAfter(name) {
+        return this.project.name === kName ? name.replace(/\.\w+$/, '') || kName : this.project.name;
     }
 
     #want(layer, mask, time) {
@@ -628,7 +633,7 @@ class Studio {
         const added = colours.map(({ colour, mask }, k) => newLayer(1, 1, say('Colour {number}', { number: k + 1 }), {
             mask: fitted(mask, width, height), liquid: { ...selectedLayer(project).liquid, ...liquidOf(lookNear(colour)) },
         }));
-        const name = kept.length === 0 && project.name === 'Droplet' ? file_name.replace(/\.\w+$/, '') || 'Droplet' : project.name;
+        const name = kept.length === 0 ? this.#nameAfter(file_name) : project.name;
         this.#change({ ...project, name, width, height, layers: [...kept, ...added], selected: kept.length });
     }
 
@@ -644,7 +649,7 @@ class Studio {
         const { project } = this;
         if (project.layers.every(({ mask }) => isDry(mask))) {
             const { width, height } = mask;
-            const name = project.name === kName ? file_name.replace(/\.\w+$/, '') || kName : project.name;
+            const name = this.#nameAfter(file_name);
             const layers = project.layers.map((layer, k) => ({ ...layer, mask: k === project.selected ? mask : blank(width, height) }));
             this.#change({ ...project, name, width, height, layers });
         } else {
