@@ -8,6 +8,7 @@
 
 #include "blocks.h"
 #include "windshield/runoff_cells.h"
+#include "windshield_view/runoff_relief.h"
 
 namespace droplet {
 namespace {
@@ -72,6 +73,9 @@ std::vector<WaterPixel> filmOn(const WaterRaster& raster, const Runoff& film)
     const std::vector<Taps> across = tapsOf(film.columns, width, pixel.x / film.cell, film.cell);
     const std::vector<Taps> up = tapsOf(film.rows, height, pixel.y / film.cell, film.cell);
     std::vector<WaterPixel> water(width * height);
+    const RunoffRelief relief(film.drift);
+    const auto wide = static_cast<float>(pixel.x);
+    const auto high = static_cast<float>(pixel.y);
     constexpr std::size_t kRows = 16;  // that a thread takes
     forBlocks(
         height,
@@ -107,8 +111,13 @@ std::vector<WaterPixel> filmOn(const WaterRaster& raster, const Runoff& film)
                     constexpr auto kWhole = static_cast<float>(1.0 / WaterPixel::kShare);
                     constexpr double kUnits = Runoff::kThickness / WaterPixel::kThickness;
                     to.thickness = static_cast<std::int64_t>(kUnits * static_cast<double>(mean));
-                    const float x = -kUnit * slope.x;
-                    const float y = -kUnit * slope.y;
+                    const Vec2f place{(static_cast<float>(column) + 0.5F) * wide,
+                                      (static_cast<float>(height - 1 - row) + 0.5F) * high};
+                    const RunoffRelief::Surface surface =
+                        relief.at(place, {kUnit * mean, {kUnit * slope.x, kUnit * slope.y}}, wide);
+                    const float steep = std::max(surface.cover, 0.0F);  // beside its rim the mean is flat
+                    const float x = -steep * surface.slope.x;
+                    const float y = -steep * surface.slope.y;
                     const float cover = kWhole * std::min(mean * kUnit / static_cast<float>(kWetFilm), 1.0F);
                     const float scale = cover / std::sqrt(1.0F + x * x + y * y);
                     to.cover = static_cast<std::int32_t>(cover);

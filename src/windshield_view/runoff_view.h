@@ -8,12 +8,12 @@
 
 #include "droplet/windshield/runoff.h"
 #include "windshield_view/film_optics.h"
-#include "windshield_view/smooth_noise.h"
+#include "windshield_view/runoff_relief.h"
 #include "windshield_view/view_context.h"
 
 namespace droplet {
 
-/// Film of heavy rain: sheets with irregular rims, rivulets, and waves that run over them. rain.glsl draws the same.
+/// Film of heavy rain: sheets and rivulets, with the relief of RunoffRelief.
 class RunoffView {
 public:
     /// @param scene  must outlive this
@@ -28,23 +28,15 @@ public:
     void add(std::size_t tile, WaterLeft& left) const;
 
 private:
-    /// Value and its slopes along the glass's x and y.
-    struct Sloped {
-        float value = 0.0F;
-        Vec2f slope;
-    };
     [[nodiscard]] Sloped thicknessAt(Vec2f place) const;
-    [[nodiscard]] Sloped distanceFromRim(Vec2f place, const Sloped& thickness) const;
-    [[nodiscard]] Sloped wavesAt(Vec2f place) const;
 
     const ViewContext& scene_;
     float cell_ = 0.0F;
+    float per_metre_ = 0.0F;
     int columns_ = 0;
     int rows_ = 0;
-    Vec2f long_run_;  ///< of the waves, in their lengths
-    Vec2f short_run_;
+    std::optional<RunoffRelief> relief_;
     std::vector<float> thickness_;  ///< [m], with a border of two cells as thick as those at the edge
-    std::optional<SmoothNoise> noise_;
     std::vector<std::uint8_t> reach_;
     std::vector<std::optional<FilmOptics>> optics_;
 };

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hashed_number.h"
-#include "render/optics.h"
+#include "windshield_view/backdrop.h"
 
 namespace droplet {
 

@@ -70,11 +70,18 @@ using TileLight = std::array<Float4, kTilePixels>;
 
 /// Levels and alpha of a pixel, not premultiplied.
 struct StraightPixel {
-    std::uint8_t red = 0;
-    std::uint8_t green = 0;
-    std::uint8_t blue = 0;
+    std::uint32_t levels = 0;  ///< from the lowest byte: red, green, blue; in one word, which fits a register
     std::uint32_t alpha = 0;
+
+    [[nodiscard]] std::uint8_t red() const { return static_cast<std::uint8_t>(levels); }
+    [[nodiscard]] std::uint8_t green() const { return static_cast<std::uint8_t>(levels >> 8U); }
+    [[nodiscard]] std::uint8_t blue() const { return static_cast<std::uint8_t>(levels >> 16U); }
 };
+
+inline std::uint32_t packed(std::uint32_t red, std::uint32_t green, std::uint32_t blue)
+{
+    return red | green << 8U | blue << 16U;
+}
 
 /// @param light  premultiplied
 [[gnu::always_inline]] inline StraightPixel straightOf(const Float4& light,
@@ -87,7 +94,7 @@ struct StraightPixel {
     // What is brighter than white keeps its hue.
     const float max = std::max(std::max(light[0], light[1]), std::max(light[2], light[3]));
     const Float4 straight = float4(1.0F / max) * light;
-    return {encoded(straight[0], levels), encoded(straight[1], levels), encoded(straight[2], levels), alpha};
+    return {packed(encoded(straight[0], levels), encoded(straight[1], levels), encoded(straight[2], levels)), alpha};
 }
 
 using Int4 = std::int32_t __attribute__((vector_size(16)));
@@ -115,22 +122,22 @@ public:
     {
         std::uint8_t* const to = frame_.rgb.data() + 3 * pixel;
         if (seen.alpha == 255) {
-            to[0] = seen.red;
-            to[1] = seen.green;
-            to[2] = seen.blue;
+            to[0] = seen.red();
+            to[1] = seen.green();
+            to[2] = seen.blue();
             return;
         }
-        to[0] = mixedLevel(seen.red, to[0], seen.alpha);
-        to[1] = mixedLevel(seen.green, to[1], seen.alpha);
-        to[2] = mixedLevel(seen.blue, to[2], seen.alpha);
+        to[0] = mixedLevel(seen.red(), to[0], seen.alpha);
+        to[1] = mixedLevel(seen.green(), to[1], seen.alpha);
+        to[2] = mixedLevel(seen.blue(), to[2], seen.alpha);
     }
 
     /// Light of the pixel below droplets; a blurred pixel has the mean of such light.
     [[nodiscard]] Float4 light(std::size_t pixel, const StraightPixel& seen) const
     {
         const std::uint8_t* const below = frame_.rgb.data() + 3 * pixel;
-        return lightOf(mixedLevel(seen.red, below[0], seen.alpha), mixedLevel(seen.green, below[1], seen.alpha),
-                       mixedLevel(seen.blue, below[2], seen.alpha));
+        return lightOf(mixedLevel(seen.red(), below[0], seen.alpha), mixedLevel(seen.green(), below[1], seen.alpha),
+                       mixedLevel(seen.blue(), below[2], seen.alpha));
     }
 
     void writeMean(std::size_t pixel, const Float4& mean)
@@ -152,15 +159,15 @@ public:
     void take(std::size_t pixel, const StraightPixel& seen)
     {
         std::uint8_t* const to = layer_.rgba.data() + 4 * pixel;
-        to[0] = seen.red;
-        to[1] = seen.green;
-        to[2] = seen.blue;
+        to[0] = seen.red();
+        to[1] = seen.green();
+        to[2] = seen.blue();
         to[3] = static_cast<std::uint8_t>(seen.alpha);
     }
 
     [[nodiscard]] Float4 light(std::size_t /*pixel*/, const StraightPixel& seen) const
     {
-        return float4(static_cast<float>(seen.alpha) / 255.0F) * lightOf(seen.red, seen.green, seen.blue);
+        return float4(static_cast<float>(seen.alpha) / 255.0F) * lightOf(seen.red(), seen.green(), seen.blue());
     }
 
     void writeMean(std::size_t pixel, const Float4& mean) { take(pixel, straightOf(mean)); }
@@ -362,30 +369,42 @@ struct DriversView::Content {
         return float4(water.cover) * seen(outside, 1.0F - out.reflected);
     }
 
+    /// Pixel of the bare picture, and a place between it, the next one and the row below.
+    struct PlaceBetween {
+        std::int32_t pixel = 0;  ///< upper left one
+        std::int32_t below = 0;  ///< from its row to the next, in kParts
+        float across = 0.0F;     ///< from it to the next
+    };
+    static constexpr std::int32_t kParts = 256;  // weights of rows have 8 bits, as levels
+
+    /// @param x, y  within the picture [px]
+    [[nodiscard]] PlaceBetween placeBetween(float x, float y) const
+    {
+        const auto rows = static_cast<std::int32_t>(static_cast<float>(kParts) * y);
+        const std::int32_t left = std::min(static_cast<std::int32_t>(x), scene.eye.width() - 2);
+        const std::int32_t top = std::min(rows / kParts, scene.eye.height() - 2);
+        return {top * scene.eye.width() + left, rows - kParts * top, x - static_cast<float>(left)};
+    }
+
     /// Levels of a place in the bare picture. Levels, not light, are interpolated: a part of a pixel makes no
     /// difference that is seen.
-    /// @param x, y  within the picture [px]
-    [[nodiscard]] Int4 levelsAt(float x, float y) const
+    [[nodiscard]] Int4 levelsAt(const PlaceBetween& place) const
     {
-        constexpr float kParts = 256.0F;  // weights of rows have 8 bits, as levels
-        const auto rows = static_cast<std::int32_t>(kParts * y);
-        const int left = std::min(static_cast<int>(x), scene.eye.width() - 2);
-        const int top = std::min(rows / 256, scene.eye.height() - 2);
-        const std::uint8_t* const above = bare.rgb.data() + 3 * scene.eye.at(left, top);
-        const std::uint8_t* const under = above + 3 * static_cast<std::size_t>(scene.eye.width());
+        const std::uint8_t* const above = bare.rgb.data() + 3 * std::ptrdiff_t{place.pixel};
+        const std::uint8_t* const under = above + 3 * std::ptrdiff_t{scene.eye.width()};
         // Words of eight bytes have two pixels, and two bytes of pixels that follow or precede them.
         std::uint64_t upper = 0;
         std::uint64_t lower = 0;
         std::memcpy(&upper, above, sizeof(upper));
         std::memcpy(&lower, under - 2, sizeof(lower));
-        const auto below = static_cast<std::uint16_t>(rows - 256 * top);
+        const auto below = static_cast<std::uint16_t>(place.below);
         const Short8 across =
-            shortsOf(upper) * static_cast<std::uint16_t>(256 - below) + shortsOf(lower >> 16U) * below;
+            shortsOf(upper) * static_cast<std::uint16_t>(kParts - below) + shortsOf(lower >> 16U) * below;
         const Short8 none{};
         const Float4 one = floatsOf(across);
         const Float4 other = floatsOf(__builtin_shufflevector(across, none, 3, 4, 5, 6, 7, 8, 9, 10));
-        const Float4 sum = one + float4(x - static_cast<float>(left)) * (other - one);
-        return __builtin_convertvector(float4(1.0F / kParts) * sum + float4(0.5F), Int4);
+        const Float4 sum = one + float4(place.across) * (other - one);
+        return __builtin_convertvector(float4(1.0F / static_cast<float>(kParts)) * sum + float4(0.5F), Int4);
     }
 
     static Short8 shortsOf(std::uint64_t bytes)
@@ -454,15 +473,19 @@ struct DriversView::Content {
             }
         }
         // Places of the picture that all pixels show.
-        std::array<float, kTilePixels> xs;
-        std::array<float, kTilePixels> ys;
+        std::array<std::int32_t, kTilePixels> pixels;
+        std::array<std::int32_t, kTilePixels> belows;
+        std::array<float, kTilePixels> acrosses;
         const auto max_x = static_cast<float>(scene.eye.width() - 1);
         const auto max_y = static_cast<float>(scene.eye.height() - 1);
         for (std::size_t k = 0; k < kTilePixels; ++k) {
             const float x = static_cast<float>(places.left + static_cast<int>(k % kTile)) + left.shift_x[k];
             const float y = static_cast<float>(places.top + static_cast<int>(k / kTile)) + left.shift_y[k];
-            xs[k] = std::min(std::max(x, 0.0F), max_x);
-            ys[k] = std::min(std::max(y, 0.0F), max_y);
+            const PlaceBetween place =
+                placeBetween(std::min(std::max(x, 0.0F), max_x), std::min(std::max(y, 0.0F), max_y));
+            pixels[k] = place.pixel;
+            belows[k] = place.below;
+            acrosses[k] = place.across;
         }
         std::size_t count = 0;
         std::array<std::uint8_t, kTilePixels> wet;
@@ -470,19 +493,20 @@ struct DriversView::Content {
             wet[count] = static_cast<std::uint8_t>(k);
             count += left.cover[k] > 0.0F ? 1 : 0;  // without a branch, which would be guessed wrong
         }
-        std::array<std::array<std::uint8_t, kTilePixels>, 3> seen;
+        std::array<std::uint32_t, kTilePixels> seen;
         for (std::size_t j = 0; j < count; ++j) {
-            const Int4 behind = levelsAt(xs[wet[j]], ys[wet[j]]);
-            for (std::size_t c = 0; c < 3; ++c) {
-                seen[c][j] = through.levels[c][static_cast<std::size_t>(behind[static_cast<int>(c)])];
-            }
+            const Int4 behind = levelsAt({pixels[wet[j]], belows[wet[j]], acrosses[wet[j]]});
+            const auto level = [&](int c) {
+                return through.levels[static_cast<std::size_t>(c)][static_cast<std::size_t>(behind[c])];
+            };
+            seen[j] = packed(level(0), level(1), level(2));
         }
         for (std::size_t j = 0; j < count; ++j) {
             const std::size_t k = wet[j];
-            const StraightPixel straight{seen[0][j], seen[1][j], seen[2][j], level8(left.cover[k])};
+            const StraightPixel straight{seen[j], level8(left.cover[k])};
             if (is_lit[k]) {
-                light[k] +=
-                    float4((1.0F - light[k][3]) * left.cover[k]) * lightOf(straight.red, straight.green, straight.blue);
+                light[k] += float4((1.0F - light[k][3]) * left.cover[k]) *
+                            lightOf(straight.red(), straight.green(), straight.blue());
             } else {
                 writer.take(
                     scene.eye.at(places.left + static_cast<int>(k % kTile), places.top + static_cast<int>(k / kTile)),
