@@ -43,7 +43,7 @@ namespace {
 constexpr double kCell = 2.0;
 
 /// Longest way in a step, in spacings, if none is asked for.
-constexpr double kCourant = 4.0;
+constexpr double kCourant = 2.5;
 
 /// One liquid particle in so many may go farther, by this factor at most: few fast ones would shorten the steps of all.
 constexpr std::size_t kFastOnes = 100;
