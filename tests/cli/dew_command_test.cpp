@@ -135,15 +135,19 @@ TEST_F(DewCommand, PreviewsShowDropletsOnTheObjectsOwnColours)
                   .exit_code,
               0);
     EXPECT_NE(readPicture(path("turn-001.png")), readPicture(path("turn-002.png")));
+    expectRefused("c.glb", {"--view", "top"}, 2, "--view needs --preview");
+    expectRefused("c.glb", {"--turntable", "3"}, 2, "--turntable needs --preview");
+    expectRefused("c.glb", {"--preview", path("c.jpg")}, 2, "a file that ends in .png");
+    expectRefused("c.glb", {"--preview", path("c.mp4")}, 2, "needs --turntable");
+}
+
+TEST_F(DewCommand, TurntableIsAVideo)
+{
     EXPECT_EQ(dew("b.stl",
                   {"--coverage", "0.1", "--preview-size", "32x24", "--preview", path("turn.mp4"), "--turntable", "2"})
                   .exit_code,
               0);
     EXPECT_EQ(readFile(path("turn.mp4")).substr(4, 4), "ftyp");
-    expectRefused("c.glb", {"--view", "top"}, 2, "--view needs --preview");
-    expectRefused("c.glb", {"--turntable", "3"}, 2, "--turntable needs --preview");
-    expectRefused("c.glb", {"--preview", path("c.jpg")}, 2, "a file that ends in .png");
-    expectRefused("c.glb", {"--preview", path("c.mp4")}, 2, "needs --turntable");
 }
 
 TEST_F(DewCommand, DropletsAreWhereTheMaskIs)
