@@ -145,10 +145,9 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
 /// Subject of the preview.
 PreviewSubject subjectOf(const MadeShape& made, const Extras& extras, const Surroundings& around)
 {
-    // A plate makes one solid of all droplets.
     PreviewSubject subject{extras.shown ? *extras.shown : made.droplet.surface,
                            droplet::lookOf(made.settings.material),
-                           extras.shown ? std::vector<droplet::Look>{} : droplet::looksOf(extras.droplets),
+                           droplet::looksOf(extras.droplets),
                            made.colour_map,
                            made.droplet.domain.extent,
                            around.below,
@@ -272,9 +271,15 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
     droplet::Report& report = described.report;
     Extras extras{std::move(described.droplets), {}, {}, {}, textureOf(made), {}};
     if (const auto base = made.settings.base) {
-        extras.in_file = droplet::onPlate(made.droplet.solution.droplets, {*base, made.droplet.domain.extent});
-        if (made.settings.droplet.mesh.quads) {
-            droplet::joinTriangles(*extras.in_file);
+        const droplet::PlateOptions plate{*base, made.droplet.domain.extent};
+        if (extras.droplets.empty()) {
+            extras.in_file = droplet::onPlate(made.droplet.solution.droplets, plate);
+            if (made.settings.droplet.mesh.quads) {
+                droplet::joinTriangles(*extras.in_file);
+            }
+        } else {
+            extras.in_file = droplet::withPlate(made.droplet.surface, extras.droplets.size(), plate);
+            extras.droplets.push_back({"plate", droplet::lookOf(made.settings.material)});
         }
         extras.shown = lowered(*extras.in_file, -*base);
         // Pictures take what copies of the rim lead to for ground; here that is the underside alone.

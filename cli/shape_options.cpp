@@ -210,12 +210,13 @@ void declareDroplets(CommandLine& line, ShapeOptions& options)
         "Lower the droplet into the ground by LENGTH in its file, so that a ground at height 0 cuts it: a base just "
         "above the ground leaves a film of air, which mirrors the sky",
         withoutDefault(into(settings.sink, kLength)));
-    line.add("Surface", "--base", "LENGTH",
-             "Put all droplets on a plate of this thickness, as one closed solid for printing: 1mm. The plate is a "
-             "rectangle with rounded corners, wider than the liquid by two thicknesses on every side",
-             into(settings.base, kLength));
-    for (const char* other : {"--open", "--surface", "--onto", "--by-colour", "--materials", "--fill-range", "--sink",
-                              "--no-penetration"}) {
+    line.add(
+        "Surface", "--base", "LENGTH",
+        "Put all droplets on a plate of this thickness, for printing: 1mm. All is one closed solid; with --by-colour, "
+        "--materials or --nodes each, every part and the plate is one. The plate is a rectangle with rounded "
+        "corners, wider than the liquid by two thicknesses on every side",
+        into(settings.base, kLength));
+    for (const char* other : {"--open", "--surface", "--onto", "--fill-range", "--sink", "--no-penetration"}) {
         if (line.knows(other)) {
             line.exclude({"--base", other});
         }
@@ -287,9 +288,6 @@ void readDroplets(const CommandLine& line, ShapeOptions& options, const std::str
         options.format = formatOf(options.output, subject);
     }
     warnOfFormat(line, options.format, options.html || options.preview, options.settings);
-    if (options.settings.base && options.settings.nodes == droplet::Nodes::Each) {
-        refuse("--base and --nodes each exclude each other: the plate makes all droplets one");
-    }
     readLevels(line, options);
     if (options.settings.weld && !inGltf(options.format)) {
         options.settings.warnings.push_back(std::string("--weld has no effect: ") + droplet::name(options.format) +

@@ -80,6 +80,16 @@ std::vector<OutlinePoint> outlineAround(const std::vector<Vec3>& liquid, double 
     return outline;
 }
 
+PlanarMesh loopOf(const std::vector<OutlinePoint>& outline)
+{
+    PlanarMesh loop;
+    for (const OutlinePoint& point : outline) {
+        loop.vertices.push_back(point.place);
+    }
+    loop.loop_starts = {0, static_cast<std::uint32_t>(outline.size())};
+    return loop;
+}
+
 /// Surface to which a plate is added.
 class PlateBuilder {
 public:
@@ -93,7 +103,9 @@ public:
         surface_.vertices.push_back(place);
         surface_.normals.push_back(normal);
         surface_.uvs.push_back({0.5 + place.x / options_.extent.x, 0.5 - place.y / options_.extent.y});
-        surface_.contact_angle.push_back(0.0F);
+        if (!surface_.contact_angle.empty()) {
+            surface_.contact_angle.push_back(0.0F);
+        }
         surface_.weld.push_back(same ? surface_.weld[*same] : index);
         return index;
     }
@@ -159,21 +171,15 @@ Surface onPlate(const std::vector<CapillarySurface>& surfaces, const PlateOption
     options.validate();
     Surface surface = loft(surfaces, {.open = true, .extent = options.extent});
     const std::vector<OutlinePoint> outline = outlineAround(surface.vertices, kMargin * options.thickness);
-    PlanarMesh loops;
-    loops.loop_starts = {0};
-    const auto close_loop = [&] { loops.loop_starts.push_back(static_cast<std::uint32_t>(loops.vertices.size())); };
-    for (const OutlinePoint& point : outline) {
-        loops.vertices.push_back(point.place);
-    }
-    close_loop();
-    const PlanarMesh plate = loops;
+    const PlanarMesh plate = loopOf(outline);
+    PlanarMesh loops = plate;
     std::vector<std::uint32_t> rim(outline.size(), kNone);
     for (const std::vector<std::uint32_t>& loop : dryLoops(surface)) {
         for (const std::uint32_t v : loop) {
             loops.vertices.push_back({surface.vertices[v].x, surface.vertices[v].y});
             rim.push_back(v);
         }
-        close_loop();
+        loops.loop_starts.push_back(static_cast<std::uint32_t>(loops.vertices.size()));
     }
     PlateBuilder builder(surface, options);
     const std::uint32_t top = builder.addCover(loops, 0.0, true, rim);
@@ -186,6 +192,27 @@ Surface onPlate(const std::vector<CapillarySurface>& surfaces, const PlateOption
     }
     surface.parts = {whole};
     return surface;
+}
+
+Surface withPlate(Surface droplets, std::size_t number, const PlateOptions& options)
+{
+    options.validate();
+    if (droplets.parts.empty()) {
+        throw Error(ErrorCode::InvalidArgument, "droplets must have parts, to get a plate as another one");
+    }
+    SurfacePart plate{
+        .droplet = number, .first_vertex = droplets.vertices.size(), .first_triangle = droplets.triangles.size()};
+    const std::vector<OutlinePoint> outline = outlineAround(droplets.vertices, kMargin * options.thickness);
+    const PlanarMesh loop = loopOf(outline);
+    PlateBuilder builder(droplets, options);
+    const std::uint32_t top = builder.addCover(loop, 0.0, true, {});
+    const std::uint32_t bottom = builder.addCover(loop, -options.thickness, false, {});
+    builder.addSide(outline, top, bottom);
+    plate.vertices = droplets.vertices.size() - plate.first_vertex;
+    plate.triangles = droplets.triangles.size() - plate.first_triangle;
+    plate.area = area(cover(loop));
+    droplets.parts.push_back(plate);
+    return droplets;
 }
 
 std::optional<std::string> thinWarning(const std::vector<ShapeFigures>& droplets, double thickness)

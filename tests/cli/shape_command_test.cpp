@@ -831,8 +831,6 @@ TEST_F(ShapeCommandTest, BaseMakesOneSolidOfAllDroplets)
     EXPECT_EQ(bytesOf("one.stl"), bytesOf("other.stl"));
     for (const std::vector<std::string>& other : {std::vector<std::string>{"--open"},
                                                   {"--surface", "sphere:R=40mm"},
-                                                  {"--by-colour"},
-                                                  {"--nodes", "each"},
                                                   {"--sink", "1mm"},
                                                   {"--no-penetration"}}) {
         std::vector<std::string> options{"two.pgm", "a.3mf", "--base", "1mm"};
@@ -841,6 +839,30 @@ TEST_F(ShapeCommandTest, BaseMakesOneSolidOfAllDroplets)
         EXPECT_EQ(refused.exit_code, 2) << other.front();
         EXPECT_THAT(refused.error, HasSubstr("--base"));
     }
+}
+
+TEST_F(ShapeCommandTest, BaseIsABodyBelowDropletsOfSeveralLooks)
+{
+    const json each = report({"two.pgm", "each.gltf", "--nodes", "each", "--base", "1mm"});
+    EXPECT_EQ(each["output"]["components"], 3);
+    EXPECT_EQ(each["output"]["closed"], true);
+    const json file = json::parse(bytesOf("each.gltf"));
+    std::vector<std::string> names;
+    for (const json& node : file["nodes"]) {
+        names.push_back(node["name"]);
+    }
+    EXPECT_THAT(names, ElementsAre("droplet_1", "droplet_2", "plate"));
+    // Colours keep their filaments, and the plate has the liquid's.
+    std::string pixels;
+    for (int k = 0; k < 64 * 64; ++k) {
+        const bool is_wet = std::abs(k % 64 - 32) < 24 && std::abs(k / 64 - 32) < 24;
+        pixels += !is_wet ? "\xff\xff\xff" : k % 64 < 32 ? "\xff\x20\x20" : "\x20\x20\xff";
+    }
+    writeFile(directory() / "two.ppm", "P6 64 64 255 " + pixels);
+    make({"two.ppm", "colours.gltf", "--by-colour", "--base", "1mm", "--width", "40mm", "--material", "milk"});
+    const json materials = json::parse(bytesOf("colours.gltf"))["materials"];
+    ASSERT_THAT(materials, SizeIs(3));
+    EXPECT_EQ(materials.back()["name"], "milk");
 }
 
 TEST_F(ShapeCommandTest, WeldMakesOneVertexOfEachPlace)

@@ -77,6 +77,30 @@ TEST(Plate, MakesOneBallOfAllDroplets)
     }
 }
 
+// As a part of its own, it changes nothing of the droplets.
+TEST(Plate, CanBeABodyBelowDroplets)
+{
+    for (const auto& [name, domain] : testing::zoo()) {
+        SCOPED_TRACE(name);
+        const std::vector<CapillarySurface> surfaces = solved(domain, 1e-3);
+        const Surface droplets = loft(surfaces, {.extent = domain.extent});
+        const double thickness = 0.05 * domain.extent.x;
+        const Surface both = withPlate(droplets, 7, {thickness, domain.extent});
+        ASSERT_NO_THROW(both.validate());
+        const Topology before = topology(droplets);
+        const Topology after = topology(both);
+        EXPECT_TRUE(after.closed);
+        EXPECT_EQ(after.components, before.components + 1);
+        EXPECT_EQ(after.euler, before.euler + 2);
+        EXPECT_EQ(both.parts.back().droplet, 7U);
+        const double plate = thickness * plateArea(droplets, 2.0 * thickness);
+        EXPECT_NEAR(enclosedVolume(extract(both, {both.parts.size() - 1})), plate, 1e-9 * plate);
+        EXPECT_TRUE(std::equal(droplets.triangles.begin(), droplets.triangles.end(), both.triangles.begin()));
+        EXPECT_TRUE(std::equal(droplets.vertices.begin(), droplets.vertices.end(), both.vertices.begin()));
+        EXPECT_EQ(both.parts.back().first_vertex, droplets.vertices.size());
+    }
+}
+
 // A sheet leans out over its rim; the plate is wider than that.
 TEST(Plate, CarriesWhatLeansOut)
 {
@@ -102,6 +126,8 @@ TEST(Plate, RefusesWhatCannotLieOnIt)
     std::vector<CapillarySurface> surfaces = solved(domain, 0.1);
     EXPECT_THROW(onPlate(surfaces, {0.0, {2, 2}}), Error);
     EXPECT_THROW(onPlate(surfaces, {0.1, {0, 2}}), Error);
+    EXPECT_THROW(withPlate(loft(surfaces, {.extent = {2, 2}}), 1, {0.0, {2, 2}}), Error);
+    EXPECT_THROW(withPlate(Surface(), 0, {0.1, {2, 2}}), Error);
     surfaces.push_back(surfaces.front());  // their rims are the same
     EXPECT_THROW(onPlate(surfaces, {0.1, {2, 2}}), Error);
     for (Vec3& p : surfaces.front().vertices) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,16 @@ struct PlateOptions {
 /// @param options   thickness and extent
 /// @throws Error    InvalidArgument: options or surfaces; rims touch or are not at z = 0
 Surface onPlate(const std::vector<CapillarySurface>& surfaces, const PlateOptions& options);
+
+/// Adds a plate below droplets, as a part of its own: so every droplet stays a body of its look, for prints of several
+/// filaments. The plate is that of onPlate(), but closed by itself.
+///
+/// Guarantees: the droplets stay as they are, and come first.
+/// @param droplets  valid, closed, with parts, on flat ground, without a refill
+/// @param number    of the plate's part, as SurfacePart::droplet
+/// @param options   thickness and extent
+/// @throws Error    InvalidArgument: options, or a surface without parts
+Surface withPlate(Surface droplets, std::size_t number, const PlateOptions& options);
 
 /// Warning about parts that are too thin for a printer with a usual nozzle of 0.4 mm and layers of 0.2 mm: a plate of
 /// less than two layers, droplets lower than one, and droplets that are narrower than the nozzle, by twice their area
