@@ -53,6 +53,20 @@ bool takesOwnSize(const droplet::Mask& mask, const DropletSettings& settings, co
     return mask.physical_width && !footprint.sized && !settings.onto;
 }
 
+droplet::MaskOptions readMaskOptions(const FootprintOptions& footprint)
+{
+    droplet::MaskOptions options = footprint.mask;
+    if (footprint.seeds) {
+        options.seeds = droplet::readSeeds(*footprint.seeds);
+    }
+    return options;
+}
+
+droplet::Mask tracedMask(const droplet::Mask& mask, const droplet::TraceOptions& options)
+{
+    return droplet::clean(mask, options.clean, droplet::pixelSize(mask, options), options.threshold);
+}
+
 void invert(droplet::Mask& mask)
 {
     for (std::uint16_t& coverage : mask.coverage) {

@@ -29,6 +29,13 @@ double coveredArea(const droplet::Mask& mask, const droplet::TraceOptions& optio
 /// Whether the picture's size is the one that its file states.
 bool takesOwnSize(const droplet::Mask& mask, const DropletSettings& settings, const FootprintOptions& footprint);
 
+/// Rules that turn the picture into a mask, with the strokes that --seeds names.
+/// @throws droplet::Error  InvalidInput: the strokes' file
+droplet::MaskOptions readMaskOptions(const FootprintOptions& footprint);
+
+/// The mask as it is traced: without spots and holes that the options drop.
+droplet::Mask tracedMask(const droplet::Mask& mask, const droplet::TraceOptions& options);
+
 /// Exchanges liquid and dry.
 void invert(droplet::Mask& mask);
 

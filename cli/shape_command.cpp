@@ -89,10 +89,9 @@ std::optional<int> finerSide(const droplet::Mask& mask, const droplet::DropletOp
     return static_cast<int>(std::min<double>(kLongest, std::ceil(side * kPixelsPerEdge / edge)));
 }
 
-/// Writes the mask as it was traced.
 void writeMask(std::ostream& out, const droplet::Mask& mask, const droplet::TraceOptions& trace)
 {
-    const droplet::Mask used = droplet::clean(mask, trace.clean, droplet::pixelSize(mask, trace), trace.threshold);
+    const droplet::Mask used = tracedMask(mask, trace);
     droplet::writeShortestPng({used.width, used.height, 1, used.coverage}, out);
 }
 
@@ -328,10 +327,7 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
 MadeShape makeFromMask(const ShapeOptions& options, const Surroundings& around, std::vector<std::byte> picture,
                        Stages& stages)
 {
-    droplet::MaskOptions mask_options = options.footprint.mask;
-    if (options.footprint.seeds) {
-        mask_options.seeds = droplet::readSeeds(*options.footprint.seeds);
-    }
+    droplet::MaskOptions mask_options = readMaskOptions(options.footprint);
     const auto decode = [&] { return droplet::decodeMask(picture, mask_options); };
     droplet::Mask mask = forInput(options, decode);
     DropletSettings settings = forInput(options, [&] { return completeSettings(mask, around, options); });

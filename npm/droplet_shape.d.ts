@@ -8,7 +8,14 @@ export type Mask =
     | Uint8Array
     | { width: number; height: number; data: Uint8Array | Uint8ClampedArray | Uint16Array };
 
-/** The command's options. Texts have units, such as '30uL'; numbers are SI. */
+/** Coverage of every pixel, 0 dry and 65535 liquid, as the command's --mask-out writes it. Rows go from the top. */
+export interface Coverage {
+    width: number;
+    height: number;
+    data: Uint16Array;
+}
+
+/** The command's options. Texts have units, such as '30uL'; numbers are SI. Seeds are a picture's bytes, or RGBA. */
 export interface Options {
     /** Width of the picture; an SVG may state its own; a number is in m [20mm] */
     width?: string | number;
@@ -80,6 +87,8 @@ export interface Options {
     quads?: boolean;
     /** Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; takes the linear model unless model exact is given */
     fillRange?: string | [number, number];
+    /** Strokes on the picture, in a picture of its size: light ones on liquid, dark ones on dry ground, the rest transparent or grey; for clear droplets, whose rims are then found between them */
+    seeds?: Uint8Array | { width: number; height: number; data: Uint8Array | Uint8ClampedArray };
     /** Solver of the linear system: llt is Eigen's factorisation, multigrid iterates; auto takes llt for linear models of up to 25,000 unknowns and for small or irregular meshes [auto] */
     solver?: 'auto' | 'llt' | 'multigrid';
 }
@@ -226,6 +235,7 @@ export interface Option {
 
 export interface Solver {
     readonly options: Option[];
+    readMask(picture: Mask, options?: Options): Coverage;
     makeDroplet(mask: Mask, options?: Options): Droplet;
     readonly dewOptions: Option[];
     dew(object: DewObject, options?: DewOptions): Dew;
@@ -241,6 +251,9 @@ export function loadSolver(wasm: BufferSource | WebAssembly.Module): Promise<Sol
 
 /** Options, with the texts and defaults of the command's help. */
 export const options: Option[];
+
+/** Reads a mask as makeDroplet does, such as by the strokes of `seeds` on a photograph. */
+export function readMask(picture: Mask, options?: Options): Coverage;
 
 /** Makes the droplet of a mask: the bytes of a GLB. */
 export function makeDroplet(mask: Mask, options?: Options): Uint8Array;

@@ -6,7 +6,7 @@ import { pngOf } from './png.js';
 
 // As in src/module.cpp.
 const kMask = { png: 0, bytes: 1, words: 2 };
-const kArray = { positions: 0, normals: 1, uvs: 2, contactAngles: 3, triangles: 4, report: 5, file: 6, message: 7, code: 8 };
+const kArray = { positions: 0, normals: 1, uvs: 2, contactAngles: 3, triangles: 4, report: 5, file: 6, message: 7, code: 8, coverage: 9 };
 
 export { DropletError };
 
@@ -97,23 +97,29 @@ function filesOf(object, mask) {
             refuse(`beside: '${path}' must have the bytes of a file`);
         }
     }
-    if (mask instanceof Uint8Array && !(mask instanceof Uint8ClampedArray)) {
-        files.set('mask', mask);
-    } else if (mask) {
-        const { kind, bytes } = describe(mask);
-        files.set('mask', kind === kMask.png ? bytes : refuse('mask: must be the bytes of a picture, or pixels of RGBA'));
+    if (mask) {
+        files.set('mask', pictureOf(mask, 'mask'));
     }
     return files;
 }
 
+/** Bytes of a picture that is an option. */
+function pictureOf(picture, name) {
+    const { kind, bytes } = describe(picture, name);
+    if (kind !== kMask.png) {
+        throw new DropletError('InvalidArgument', `${name}: must be the bytes of a picture, or pixels of RGBA`);
+    }
+    return bytes;
+}
+
 /** Bytes of a mask and their kind. */
-function describe(mask) {
+function describe(mask, subject = 'mask') {
     if (mask instanceof Uint8Array && !(mask instanceof Uint8ClampedArray)) {
         return { kind: kMask.png, bytes: mask, width: 0, height: 0 };
     }
     const { width, height, data } = mask ?? {};
     const refuse = (what) => {
-        throw new DropletError('InvalidArgument', `mask: ${what}`);
+        throw new DropletError('InvalidArgument', `${subject}: ${what}`);
     };
     if (typeof mask === 'string') {
         refuse(`'${mask}' must be the bytes of a picture, not its path; in node readFileSync() reads them`);
@@ -304,19 +310,33 @@ export async function loadSolver(wasm) {
         }
     }
 
+    /** Gives the module a mask, with strokes if there are some, and keeps what it makes of it. */
+    const ofMask = (mask, options_given, make, wrap) => {
+        const { seeds, ...given } = options_given ?? {};
+        const words = [...argumentsOf(given, known), ...seeds ? ['--seeds=seeds'] : []];
+        const { kind, bytes, width, height } = describe(mask);
+        const strokes = seeds ? pictureOf(seeds, 'seeds') : undefined;
+        const pixels = put(bytes);
+        if (strokes) {
+            files.set('seeds', strokes);
+        }
+        try {
+            return made(words, (at, length) => make(at, length, pixels, bytes.length, width, height, kind), wrap);
+        } finally {
+            files.clear();
+            solver.free(pixels);
+        }
+    };
+
     return {
         options,
-        makeDroplet(mask, given = {}) {
-            const words = argumentsOf(given, known);
-            const { kind, bytes, width, height } = describe(mask);
-            const pixels = put(bytes);
-            try {
-                return made(words, (at, length) => solver.droplet_make(at, length, pixels, bytes.length, width, height, kind),
-                    (result) => new Droplet(result));
-            } finally {
-                solver.free(pixels);
-            }
-        },
+        readMask: (picture, given) => ofMask(picture, given, solver.droplet_mask, (result) => {
+            const width = solver.droplet_mask_width(result);
+            const data = take(result, kArray.coverage, Uint16Array);
+            solver.droplet_delete(result);
+            return { width, height: data.length / width, data };
+        }),
+        makeDroplet: (mask, given) => ofMask(mask, given, solver.droplet_make, (result) => new Droplet(result)),
         dewOptions,
         dew(object, { mask, ...given } = {}) {
             const inputs = filesOf(object, mask);

@@ -7,6 +7,9 @@ const solver = await loadSolver(await bytesOf(new URL('./droplet_shape.wasm', im
 /** Options of makeDroplet and shapeDroplet: the command's, with the texts and defaults of its help. */
 export const options = solver.options;
 
+/** Reads a mask as makeDroplet does, such as by the strokes of `seeds` on a photograph. */
+export const readMask = (picture, given) => solver.readMask(picture, given);
+
 /** Makes the droplet of a mask: its surface, its report, and its files. */
 export const shapeDroplet = (mask, given) => solver.makeDroplet(mask, given);
 

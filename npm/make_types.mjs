@@ -32,7 +32,14 @@ export type Mask =
     | Uint8Array
     | { width: number; height: number; data: Uint8Array | Uint8ClampedArray | Uint16Array };
 
-/** The command's options. Texts have units, such as '30uL'; numbers are SI. */
+/** Coverage of every pixel, 0 dry and 65535 liquid, as the command's --mask-out writes it. Rows go from the top. */
+export interface Coverage {
+    width: number;
+    height: number;
+    data: Uint16Array;
+}
+
+/** The command's options. Texts have units, such as '30uL'; numbers are SI. Seeds are a picture's bytes, or RGBA. */
 export interface Options {
 ${linesOf(options)}
 }
@@ -110,6 +117,7 @@ export interface Option {
 
 export interface Solver {
     readonly options: Option[];
+    readMask(picture: Mask, options?: Options): Coverage;
     makeDroplet(mask: Mask, options?: Options): Droplet;
     readonly dewOptions: Option[];
     dew(object: DewObject, options?: DewOptions): Dew;
@@ -125,6 +133,9 @@ export function loadSolver(wasm: BufferSource | WebAssembly.Module): Promise<Sol
 
 /** Options, with the texts and defaults of the command's help. */
 export const options: Option[];
+
+/** Reads a mask as makeDroplet does, such as by the strokes of \`seeds\` on a photograph. */
+export function readMask(picture: Mask, options?: Options): Coverage;
 
 /** Makes the droplet of a mask: the bytes of a GLB. */
 export function makeDroplet(mask: Mask, options?: Options): Uint8Array;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The functions that droplet_shape.js calls: makes a droplet from a mask by the command's options, or covers an object
-// with droplets, and hands out arrays of the result.
+// The functions that droplet_shape.js calls: reads a mask, makes a droplet of it by the command's options, or covers an
+// object with droplets, and hands out arrays of the result.
 #include <emscripten/emscripten.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ using droplet::ErrorCode;
 enum class MaskKind : int { Png = 0, Bytes = 1, Words = 2 };
 
 /// Arrays of a result; known to solver.js.
-enum class Array : int { Positions, Normals, Uvs, ContactAngles, Triangles, Report, File, Message, Code };
+enum class Array : int { Positions, Normals, Uvs, ContactAngles, Triangles, Report, File, Message, Code, Coverage };
 
 /// Covered object and how its files are wanted.
 struct MadeDew {
@@ -50,10 +50,11 @@ struct MadeDew {
     cli::Dew dew;
 };
 
-/// A droplet or a covered object, or the error that prevented it.
+/// A mask, a droplet or a covered object, or the error that prevented it.
 struct Result {
     bool is_dew = false;  ///< whether an object is to be covered
     std::optional<MadeDew> dew;
+    droplet::Mask mask;        ///< of droplet_mask
     droplet::Surface surface;  ///< of all droplets
     droplet::Report report;
     droplet::Material material = droplet::Material::Water;
@@ -78,6 +79,7 @@ struct Given {
 void declare(cli::CommandLine& line, cli::ShapeOptions& options)
 {
     cli::declareShapes(line, options);
+    cli::declareSeeds(line, options.footprint);
     cli::declareRun(line);
 }
 
@@ -113,10 +115,14 @@ std::variant<cli::DewCommandOptions, std::string> parseDew(const std::vector<std
     return cli::parseDew(static_cast<int>(words.size()), words.data());
 }
 
-droplet::Mask maskOf(const Given& given, const droplet::MaskOptions& options)
+/// Reads a picture, or takes coverage as it is.
+droplet::Mask maskOf(const Given& given, const cli::FootprintOptions& footprint)
 {
     if (given.kind == MaskKind::Png) {
-        return droplet::decodeMask(given.bytes, options);
+        return droplet::decodeMask(given.bytes, cli::readMaskOptions(footprint));
+    }
+    if (footprint.seeds) {
+        throw Error(ErrorCode::InvalidArgument, "--seeds needs a picture, not coverage");
     }
     droplet::Mask mask;
     mask.width = given.width;
@@ -135,7 +141,7 @@ droplet::Mask maskOf(const Given& given, const droplet::MaskOptions& options)
             return static_cast<std::uint16_t>(level == both->second ? 0xFFFF : 0);
         });
     }
-    if (options.invert) {
+    if (footprint.mask.invert) {
         cli::invert(mask);
     }
     return mask;
@@ -151,7 +157,7 @@ void make(Result& result, const std::vector<std::string>& arguments, const Given
     cli::StageClock clock;
     clock.begin(droplet::Stage::Read);
     const cli::ShapeOptions options = parse(arguments);
-    const droplet::Mask mask = maskOf(given, options.footprint.mask);
+    const droplet::Mask mask = maskOf(given, options.footprint);
     cli::DropletSettings settings = cli::completeSettings(mask, {}, options);
     cli::MaskShape made = cli::makeOfMask(mask, settings, options,
                                           [&](droplet::Stage stage, double share) { clock.begin(stage, share); });
@@ -169,6 +175,13 @@ void make(Result& result, const std::vector<std::string>& arguments, const Given
     result.report.time = clock.times();
     result.report.time_total = clock.total();
     result.report.peak_memory = memory();
+}
+
+void makeMask(Result& result, const std::vector<std::string>& arguments, const Given& given)
+{
+    const cli::ShapeOptions options = parse(arguments);
+    const droplet::Mask mask = maskOf(given, options.footprint);
+    result.mask = cli::tracedMask(mask, cli::completeSettings(mask, {}, options).droplet.trace);
 }
 
 void makeDew(Result& result, const std::vector<std::string>& arguments)
@@ -271,6 +284,8 @@ std::span<const std::byte> arrayOf(Result& result, Array array)
             return std::as_bytes(std::span(result.file));
         case Array::Message:
             return std::as_bytes(std::span(result.message));
+        case Array::Coverage:
+            return std::as_bytes(std::span(result.mask.coverage));
         case Array::Code:
             break;
     }
@@ -303,6 +318,25 @@ EMSCRIPTEN_KEEPALIVE Result* droplet_make(const char* arguments, std::size_t arg
              {{mask, mask_bytes}, width, height, static_cast<MaskKind>(kind)});
     });
     return result.release();
+}
+
+/// Reads the mask that droplet_make would take.
+/// @param arguments  as of droplet_make
+EMSCRIPTEN_KEEPALIVE Result* droplet_mask(const char* arguments, std::size_t argument_bytes, const std::byte* mask,
+                                          std::size_t mask_bytes, int width, int height, int kind)
+{
+    auto result = std::make_unique<Result>();
+    guarded(*result, [&] {
+        makeMask(*result, wordsOf(arguments, argument_bytes),
+                 {{mask, mask_bytes}, width, height, static_cast<MaskKind>(kind)});
+    });
+    return result.release();
+}
+
+/// Width of the result of droplet_mask [px].
+EMSCRIPTEN_KEEPALIVE int droplet_mask_width(const Result* result)
+{
+    return result->mask.width;
 }
 
 /// Covers an object with droplets.

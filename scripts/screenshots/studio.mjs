@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws in Studio and takes the pictures of docs/cli/studio.md: node studio.mjs CHROMIUM PLAYWRIGHT_FOLDER STUDIO_HTML DESKTOP_PNG
-// PHONE_PNG DEW_PNG
+// PHONE_PNG DEW_PNG PHOTOGRAPH_PNG RAINDROPS_JPG
 import { pathToFileURL } from 'node:url';
 import { choose, setValue, settle, stateOfDew } from '../../tests/studio/controls.mjs';
 
-const [executablePath, playwright, studio, desktop, phone, dew] = process.argv.slice(2);
+const [executablePath, playwright, studio, desktop, phone, dew, photograph, raindrops] = process.argv.slice(2);
 const { chromium } = await import(pathToFileURL(`${playwright}/index.mjs`));
 const browser = await chromium.launch({
     executablePath,
@@ -24,9 +24,9 @@ async function opened(options) {
 /** Points of a curve, for t from 0 to 1. */
 const curve = (count, at) => Array.from({ length: count + 1 }, (_, k) => at(k / count));
 
-/** Moves a pen through points, as parts of the sheet's sides, and takes it away; no cursor stays on the sheet. */
-async function stroke(page, points) {
-    const box = await page.locator('#sheet').boundingBox();
+/** Moves a pen through points, as parts of a sheet's sides, and takes it away; no cursor stays on the sheet. */
+async function stroke(page, points, sheet = '#sheet') {
+    const box = await page.locator(sheet).boundingBox();
     const pen = await page.context().newCDPSession(page);
     const touch = (type, ...at) => pen.send('Input.dispatchTouchEvent',
         { type, touchPoints: at.map(([x, y]) => ({ x: box.x + x * box.width, y: box.y + y * box.height })) });
@@ -72,6 +72,23 @@ await stroke(loops, curve(160, (t) => {
     return [0.19 + 0.62 * t - 0.12 * Math.sin(angle), 0.5 + 0.26 * Math.cos(angle)];
 }));
 await take(loops, phone);
+
+// Drops on a leaf.
+const leaf = await opened({ viewport: { width: 1000, height: 700 }, colorScheme: 'light', hasTouch: true });
+await leaf.locator('#file').setInputFiles(raindrops);
+await leaf.locator('#marks').waitFor();
+for (const [x, y] of [[0.18, 0.32], [0.565, 0.35], [0.785, 0.54], [0.675, 0.545], [0.537, 0.555], [0.574, 0.47], [0.25, 0.89], [0.605, 0.9]]) {
+    await stroke(leaf, [[x, y], [x + 0.004, y]], '#mark-sheet');
+}
+await leaf.locator('#marks [value=dry]').check({ force: true });
+for (const line of [[[0.03, 0.22], [0.37, 0.2], [0.37, 0.64], [0.04, 0.79]], [[0.28, 0.4], [0.77, 0.4], [0.93, 0.22]], [[0.07, 0.4], [0.28, 0.4], [0.28, 0.24]],
+    [[0.44, 0.74], [0.96, 0.63]], [[0.42, 0.52], [0.46, 0.63], [0.74, 0.62]], [[0.42, 0.95], [0.45, 0.81], [0.77, 0.8], [0.71, 0.96]],
+    [[0.13, 0.95], [0.13, 0.82], [0.39, 0.82]], [[0.615, 0.45], [0.615, 0.58]], [[0.73, 0.48], [0.73, 0.6]], [[0.5, 0.28], [0.66, 0.28], [0.66, 0.42]]]) {
+    await stroke(leaf, line, '#mark-sheet');
+}
+await leaf.waitForFunction(() => !document.getElementById('take').disabled);
+await leaf.screenshot({ path: photograph });
+await leaf.close();
 
 // A cold bottle.
 const bottle = await opened({ viewport: { width: 1280, height: 760 }, colorScheme: 'light' });

@@ -14,6 +14,7 @@ import { History } from './history.js';
 import { NoObject } from './no_object.js';
 import { hasObject, readObject, sizeOf } from './object_files.js';
 import { buildForm } from './physics_form.js';
+import { sentence } from './sentence.js';
 import { Servant } from './solver.js';
 
 const kRest = 250;          // without a change, droplets are made [ms]
@@ -27,7 +28,6 @@ const kBottle = { objectSize: 90, coverage: 45, smallest: 0.4, largest: 1.4 };
 const root = document.documentElement;
 
 const counted = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, '\u2009');
-const sentence = ({ message }) => message.charAt(0).toUpperCase() + message.slice(1).replaceAll('\n', ' ');
 
 /** Bytes of the objects that states hold. */
 const bytesIn = (states) => [...new Set(states.map(({ object }) => object))].reduce((sum, object) => sum + (object ? sizeOf(object) : 0), 0);

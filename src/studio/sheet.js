@@ -88,6 +88,7 @@ export class Sheet {
         const left = (table.clientWidth - width * place.zoom) / 2 + place.x;
         const top = (table.clientHeight - height * place.zoom) / 2 + place.y;
         paper.style.transform = `translate(${left}px, ${top}px) scale(${place.zoom})`;
+        paper.style.setProperty('--zoom', place.zoom);
         const step = this.step * width;
         paper.style.backgroundSize = `${step}px ${step}px`;
         paper.style.backgroundPosition = `${(width / 2) % step}px ${(height / 2) % step}px`;

@@ -148,6 +148,11 @@ const acts = {
         return [{ id: job.id, shape, report, solve_ms: performance.now() - began },
             [shape.positions.buffer, shape.normals.buffer, shape.triangles.buffer]];
     },
+    mask({ picture, seeds }) {
+        const { width, height, data } = solver.readMask(picture, { seeds });
+        const coverage = Uint8Array.from(data, (level) => level >> 8);
+        return [{ mask: { width, height, data: coverage } }, [coverage.buffer]];
+    },
     file({ id, format }) {
         const bytes = droplets.get(id).file(format);
         return [{ bytes }, [bytes.buffer]];

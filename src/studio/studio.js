@@ -10,7 +10,7 @@ import { Dew } from './dew.js';
 import { lookNear } from './colours.js';
 import { buildGallery, coverageOf, kDrawings } from './gallery.js';
 import { History } from './history.js';
-import { askPicture } from './import_dialog.js';
+import { ImportDialog } from './import_dialog.js';
 import { beginLanguage, offerLanguages } from './language.js';
 import { buildLayers } from './layers.js';
 import { kLiveParts, showLive } from './live_parts.js';
@@ -21,6 +21,7 @@ import { buildForm } from './physics_form.js';
 import { fitted, levelsOf, maskOfLevels } from './pictures.js';
 import { kName, newLayer, newProject, projectOf, selectedLayer, shownName, withLayer } from './project.js';
 import { save } from './save.js';
+import { sentence } from './sentence.js';
 import { Sheet } from './sheet.js';
 import { Solver } from './solver.js';
 import { Times } from './times.js';
@@ -74,6 +75,7 @@ class Studio {
         this.#offerFiles();
         this.#offerKeys();
         this.#offerView();
+        this.import_dialog = new ImportDialog({ wasm, worker_url });
         this.dew = new Dew({ parts: { wasm, worker_url }, view: this.view, say: (text) => this.#say(text), keeper });
         this.#offerBeginning();
         this.#offerLanguages();
@@ -353,7 +355,7 @@ class Studio {
 
     #words() {
         const errors = this.project.layers.filter(({ id, visible }) => visible && this.known.get(id)?.error)
-            .map(({ id, name }) => `${this.project.layers.length > 1 ? `${shownName(name)}: ` : ''}${plainly(this.known.get(id).error)}`);
+            .map(({ id, name }) => `${this.project.layers.length > 1 ? `${shownName(name)}: ` : ''}${sentence(this.known.get(id).error)}`);
         const liquids = this.#drops().map(({ id }) => {
             const { report: { liquid, shape } } = this.known.get(id);
             return say('{volume} of {liquid}, {height} high', { volume: volume(shape.volume_m3), liquid: say(liquid.name), height: length(shape.height_max_m) });
@@ -535,7 +537,7 @@ class Studio {
             find('trouble').hidden = true;
             this.#say(say('{file} saved', { file: name }));
         } catch (error) {
-            complain(say('Nothing was saved. {reason}.', { reason: plainly(error) }));
+            complain(say('Nothing was saved. {reason}.', { reason: sentence(error) }));
         }
     }
 
@@ -609,13 +611,13 @@ class Studio {
                 await this.#import(await readPicture(file, kDrawnSide), file.name);
             }
         } catch (error) {
-            const reason = error instanceof DOMException ? say('It is no picture that this browser can read') : plainly(error);
+            const reason = error instanceof DOMException ? say('It is no picture that this browser can read') : sentence(error);
             complain(say('{file} cannot be opened. {reason}.', { file: file.name, reason }));
         }
     }
 
     async #import(canvas, file_name) {
-        const { use, mask, photo, colours } = await askPicture(canvas, inkOf(lookOf(selectedLayer(this.project).liquid)));
+        const { use, mask, photo, colours } = await this.import_dialog.ask(canvas, inkOf(lookOf(selectedLayer(this.project).liquid)));
         if (use === 'footprint') {
             this.#take(mask, file_name);
         } else if (use === 'colours') {
@@ -758,11 +760,6 @@ class Studio {
         find('reset').addEventListener('click', () => stage.reset());
         find('times').addEventListener('toggle', () => this.#showTimes());
     }
-}
-
-/** An error's message as a sentence on one line. */
-function plainly({ message }) {
-    return message.charAt(0).toUpperCase() + message.slice(1).replaceAll('\n', ' ');
 }
 
 /**

@@ -16,7 +16,7 @@ after(() => rmSync(folder, { recursive: true }));
 
 const { pngOf } = await import(join(process.env.PACKAGE, 'png.js'));
 const { dashed } = await import(join(process.env.PACKAGE, 'droplet_shape.js'));
-const { DropletError, dew, dewOptions, makeDroplet, options, shapeDroplet } = await import(join(process.env.PACKAGE, 'index.js'));
+const { DropletError, dew, dewOptions, makeDroplet, options, readMask, shapeDroplet } = await import(join(process.env.PACKAGE, 'index.js'));
 
 /** Report and bytes of the command for the same options. */
 function command(name, given) {
@@ -91,6 +91,45 @@ test('a JPEG, a WebP and a TIFF are read, too', () => {
     for (const name of ['handprint.jpg', 'shamrock.webp', 'sakura.tif']) {
         compareWithCommand(name, { model: 'linear' }, 1e-9);
     }
+});
+
+test('strokes on a photograph give the command’s mask', () => {
+    const file = join(folder, 'mask.png');
+    const given = { smooth: '0.1mm', fillHoles: '1mm2', invert: true };
+    command('raindrops.jpg', { seeds: data('raindrops_seeds.png'), maskOut: file, ...given });
+    // With its levels as they are.
+    const expected = readMask(new Uint8Array(readFileSync(file)), { channel: 'luma' });
+    const made = readMask(png('raindrops.jpg'), { seeds: png('raindrops_seeds.png'), ...given });
+    assert.deepEqual([made.width, made.height, made.data.length], [750, 800, 750 * 800]);
+    // The last bits of exponentials differ between C libraries.
+    assert.ok(made.data.every((level, k) => Math.abs(level - expected.data[k]) <= 16));
+});
+test('a droplet of marked drops has the command’s figures', () => {
+    const expected = command('raindrops.jpg', { seeds: data('raindrops_seeds.png'), model: 'linear' }).report;
+    const made = shapeDroplet(png('raindrops.jpg'), { seeds: png('raindrops_seeds.png'), model: 'linear' }).report;
+    assert.equal(made.input.segment, 'seeds');
+    assert.equal(made.droplets.length, expected.droplets.length);
+    assert.ok(near(made.shape.volume_m3, expected.shape.volume_m3, 1e-6), `${made.shape.volume_m3}, not ${expected.shape.volume_m3}`);
+});
+test('strokes are refused that are no picture, have another size or lack a kind', () => {
+    const photo = png('raindrops.jpg');
+    const strokes = (size, ...greys) => {
+        const rgba = new Uint8ClampedArray(4 * size ** 2);
+        greys.forEach((grey, k) => rgba.set([grey, grey, grey, 255], 4 * k));
+        return { width: size, height: size, data: rgba };
+    };
+    const square = { width: 8, height: 8, data: Uint8ClampedArray.from({ length: 256 }, (_, k) => (k % 4 === 3 ? 255 : k)) };
+    for (const [picture, seeds, code, message] of [
+        [photo, 'strokes.png', 'InvalidArgument', /^seeds: 'strokes\.png' must be the bytes of a picture/],
+        [photo, disc(8, 3), 'InvalidArgument', /^seeds: must be the bytes of a picture, or pixels of RGBA/],
+        [photo, strokes(8, 0, 255), 'InvalidInput', /the seeds have 8 x 8 pixels, must be 750 x 800/],
+        [square, strokes(8, 0), 'InvalidInput', /must have a light stroke/],
+        [square, strokes(8, 255), 'InvalidInput', /must have a dark stroke/],
+        [disc(8, 3), strokes(8, 0, 255), 'InvalidArgument', /^seeds needs a picture, not coverage/],
+    ]) {
+        assert.throws(() => readMask(picture, { seeds }), (error) => error instanceof DropletError && error.code === code && message.test(error.message));
+    }
+    assert.throws(() => readMask(photo, { seeds: strokes(8, 0, 255), colour: 'red' }), { code: 'InvalidArgument' });
 });
 
 // The stairs of a mask without grey are faired until the change is small, by logarithms, whose last bits differ between C

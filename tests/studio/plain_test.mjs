@@ -10,10 +10,12 @@ import { kTables, wordsOfCalls, wordsOfMarkup, wordsOfReports } from './words.mj
 const { SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
 const module = (path) => import(pathToFileURL(resolve(SOURCES, path)).href);
 const { blank, drawPiece, flood, isDry, overlap, shifted } = await module('studio/coverage.js');
+const { rimPath } = await module('studio/contour.js');
 const { coloursOf, lookNear } = await module('studio/colours.js');
 const { History } = await module('studio/history.js');
 const { kLooks } = await module('studio/looks.js');
 const { commandOf, kLayerFields, kSceneFields, optionsOf, settingsOf } = await module('studio/physics.js');
+const { seedsOf } = await module('studio/mask_finder.js');
 const { levelsOf, maskOfLevels } = await module('studio/pictures.js');
 const { kTools } = await module('studio/tools.js');
 const { decimal, say, speak } = await module('html/words.js');
@@ -197,4 +199,43 @@ test('a logo is divided into its flat colours, with what edges share', () => {
     const bare = paintedBy((x) => (x < 20 ? red : x > 80 ? white : [0, 0, 0, 0]));
     assert.equal(coloursOf(bare).length, 2);
     assert.deepEqual(coloursOf(paintedBy((x) => (x > 30 && x < 60 ? red : white))), []);
+});
+
+/** Area within the loops of a path: with liquid on the right, positive around liquid and negative around a hole. */
+const loopsOf = (path) => path.split('Z').filter((loop) => loop !== '').map((loop) => {
+    const points = loop.slice(1).split('L').map((point) => point.split(' ').map(Number));
+    return points.reduce((sum, [x, y], k) => {
+        const [nextX, nextY] = points[(k + 1) % points.length];
+        return sum + (x * nextY - nextX * y) / 2;
+    }, 0);
+});
+
+test('the rim of a mask runs around its liquid and its holes, also at the border', () => {
+    const mask = blank(80, 60);
+    const disc = (x, y, radius, removes) => drawPiece(mask, { x, y, radius }, { x, y, radius }, removes);
+    disc(30, 30, 20, false);
+    disc(30, 30, 8, true);
+    disc(80, 60, 15, false);
+    const areas = loopsOf(rimPath(mask)).sort((a, b) => a - b);
+    for (const [k, exact] of [-64 * Math.PI, 225 / 4 * Math.PI, 400 * Math.PI].entries()) {
+        assert.ok(Math.abs(areas[k] / exact - 1) < 0.02, `${areas}`);
+    }
+    assert.equal(areas.length, 3);
+    assert.equal(rimPath(blank(5, 5)), '');
+    // Pixels that touch at a corner, and a sheet that is all liquid.
+    const corners = { width: 2, height: 2, data: Uint8Array.of(255, 0, 0, 255) };
+    assert.equal(loopsOf(rimPath(corners)).length, 2);
+    assert.deepEqual(loopsOf(rimPath({ width: 3, height: 2, data: new Uint8Array(6).fill(255) })).map(Math.round), [6]);
+});
+
+test('strokes stay on a smaller picture: white on liquid, black on dry ground', () => {
+    const [liquid, dry] = [blank(100, 40), blank(100, 40)];
+    liquid.data[0] = 255;
+    dry.data[40 * 100 - 1] = 255;
+    dry.data[50] = 100;  // the stroke's soft edge
+    const { width, height, data } = seedsOf({ liquid, dry }, 10, 4);
+    assert.deepEqual([width, height, data.length], [10, 4, 160]);
+    assert.deepEqual([...data.slice(0, 4)], [255, 255, 255, 255]);
+    assert.deepEqual([...data.slice(-4)], [0, 0, 0, 255]);
+    assert.equal(data.filter((value, i) => i % 4 === 3 && value > 0).length, 2);
 });

@@ -16,9 +16,9 @@ const { DROPLET_SHAPE, PAGE, SOURCES = resolve(import.meta.dirname, '../../src')
 const said = (page) => page.locator('#said').textContent();
 const result = (page) => page.locator('#result').textContent();
 
-/** Draws through points, as parts of the sheet's width and height. */
-async function stroke(page, ...points) {
-    const box = await page.locator('#sheet').boundingBox();
+/** Draws through points, as parts of a sheet's width and height. */
+async function strokeOn(page, sheet, ...points) {
+    const box = await page.locator(sheet).boundingBox();
     const at = ([x, y]) => [box.x + x * box.width, box.y + y * box.height];
     await page.mouse.move(...at(points[0]));
     await page.mouse.down();
@@ -27,6 +27,7 @@ async function stroke(page, ...points) {
     }
     await page.mouse.up();
 }
+const stroke = (page, ...points) => strokeOn(page, '#sheet', ...points);
 
 /** What is drawn in a part of the sheet, {left, top, width, height} as parts of its sides: RGBA. */
 const pixels = (page, part) => page.locator('#sheet').evaluateHandle((canvas, { left = 0, top = 0, width, height }) => {
@@ -313,6 +314,116 @@ studio('a logo in colours becomes a layer for each', kDesktop, async (page) => {
     await page.locator('#import').waitFor();
     assert.equal(await page.locator('#divide').isVisible(), false);
     await page.getByRole('button', { name: 'Cancel' }).click();
+});
+
+const data = (name) => readFileSync(resolve(SOURCES, '../data', name));
+const kDrops = [[0.181, 0.327], [0.564, 0.352]];  // two of the drops on the leaf
+const kGround = [[0.05, 0.24], [0.36, 0.2], [0.36, 0.65], [0.05, 0.8], [0.7, 0.9]];
+
+/** Drops a photograph of clear drops, and waits until the dialog asks for strokes. */
+async function dropDrops(page) {
+    await drop(page, 'drops.jpg', 'image/jpeg', data('raindrops.jpg'));
+    await page.locator('#marks').waitFor();
+    assert.match(await page.locator('#advice').textContent(), /^No clear edge of liquid was found\. Draw over some liquid/);
+}
+
+const kind = (page, name) => page.locator(`#marks [value=${name}]`).check({ force: true });
+const rim = (page) => page.locator('#mark-rim path').first().getAttribute('d');
+const rimFound = (page) => page.waitForFunction(() => !document.getElementById('take').disabled);
+
+studio('where no rim is clear on a photograph, strokes find it', kDesktop, async (page) => {
+    await dropDrops(page);
+    assert.equal(await page.locator('#take').isDisabled(), true);
+    assert.equal(await page.locator('#marks [value=liquid]').isChecked(), true);
+    for (const each of kDrops) {
+        await strokeOn(page, '#mark-sheet', each, [each[0] + 0.005, each[1]]);
+    }
+    assert.match(await page.locator('#advice').textContent(), /choose Dry/);
+    assert.equal(await rim(page), '');
+    await kind(page, 'dry');
+    await strokeOn(page, '#mark-sheet', ...kGround);
+    await rimFound(page);
+    assert.match(await page.locator('#advice').textContent(), /line is the rim/);
+    const found = await rim(page);
+    assert.equal(found.match(/Z/g).length, 2);
+    // What is undone and done again is not looked for again.
+    await page.keyboard.press('Control+z');
+    assert.equal(await rim(page), '');
+    assert.equal(await page.locator('#take').isDisabled(), true);
+    await page.locator('#mark-redo').click();
+    assert.equal(await rim(page), found);
+    await page.locator('#mark-clear').click();
+    assert.equal(await rim(page), '');
+    assert.equal(await page.locator('#mark-clear').isDisabled(), true);
+    await page.locator('#mark-undo').click();
+    assert.equal(await rim(page), found);
+    // A stroke of the other kind replaces what it covers.
+    await kind(page, 'dry');
+    await strokeOn(page, '#mark-sheet', ...kDrops.slice(1).map(([x, y]) => [x - 0.01, y]), [0.58, 0.352]);
+    await rimFound(page);
+    assert.equal((await rim(page)).match(/Z/g).length, 1);
+    await page.keyboard.press('Control+z');
+    // Other ways do not lose it.
+    await page.locator('#finding [value=brightness]').check({ force: true });
+    assert.equal(await page.locator('#preview').isVisible(), true);
+    await page.locator('#finding [value=strokes]').check({ force: true });
+    await rimFound(page);
+    await page.getByRole('button', { name: 'Use as footprint' }).click();
+    await settle(page);
+    assert.deepEqual(await page.locator('#sheet').evaluate(({ width, height }) => [width, height]), [750, 800]);
+    for (const [x, y] of kDrops) {
+        assert.ok(await opacity(page, x, y) > 200);
+    }
+    assert.equal(await opacity(page, 0.3, 0.6), 0);
+    assert.match(await page.locator('#figures table').innerText(), /Droplets\s+2/);
+});
+
+studio('fingers and a pen mark a photograph, and zoom it', kPhone, async (page) => {
+    await dropDrops(page);
+    const touch = await page.context().newCDPSession(page);
+    const box = await page.locator('#mark-sheet').boundingBox();
+    const at = ([x, y]) => ({ x: box.x + x * box.width, y: box.y + y * box.height });
+    const fingers = (type, ...points) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points.map((point, id) => ({ ...at(point), id })) });
+    await fingers('touchStart', kDrops[0]);
+    await fingers('touchEnd');
+    assert.match(await page.locator('#advice').textContent(), /choose Dry/);
+    await page.locator('#marks [value=dry]').tap({ force: true });
+    await fingers('touchStart', kGround[0]);
+    for (const point of kGround.slice(1)) {
+        await fingers('touchMove', point);
+    }
+    await fingers('touchEnd');
+    await rimFound(page);
+    const found = await rim(page);
+    // Two fingers leave the strokes and the rim as they are.
+    await fingers('touchStart', [0.4, 0.3]);
+    await fingers('touchStart', [0.4, 0.3], [0.6, 0.3]);
+    for (let i = 1; i < 6; ++i) {
+        await fingers('touchMove', [0.4 - 0.05 * i, 0.3], [0.6 + 0.05 * i, 0.3]);
+    }
+    await fingers('touchEnd');
+    await page.locator('#mark-fit').tap();
+    assert.equal(await rim(page), found);
+    assert.equal(await page.locator('#take').isDisabled(), false);
+    // A pen.
+    await page.locator('#mark-clear').tap();
+    const pen = (type, point) => touch.send('Input.dispatchMouseEvent', { type, ...at(point), button: 'left', buttons: 1, clickCount: 1, pointerType: 'pen', force: 0.5 });
+    await pen('mousePressed', kGround[0]);
+    await pen('mouseMoved', kGround[1]);
+    await pen('mouseReleased', kGround[1]);
+    assert.match(await page.locator('#advice').textContent(), /choose Liquid/);
+    const [dialog, act] = await Promise.all([page.locator('#import').boundingBox(), page.getByRole('button', { name: 'Cancel' }).boundingBox()]);
+    assert.ok(act.y + act.height < dialog.y + dialog.height && dialog.y >= 0 && dialog.y + dialog.height <= kPhone.viewport.height);
+});
+
+studio('a photograph with clear rims is divided as by the command', kDesktop, async (page) => {
+    await drop(page, 'hand.jpg', 'image/jpeg', data('handprint.jpg'));
+    await page.locator('#automatic').waitFor();
+    await rimFound(page);
+    assert.equal(await page.locator('#finding [value=automatic]').isChecked(), true);
+    await page.locator('#take').click();
+    await settle(page);
+    assert.match(await said(page), /µL of water/);
 });
 
 /** Whether the project as it is now is in the browser's store. */
