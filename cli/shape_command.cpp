@@ -416,7 +416,7 @@ MadeShape make(const ShapeOptions& options, const Surroundings& around, std::vec
 {
     return placed(options.footprint.by_colour ? makeByColour(options, around, picture, stages)
                                               : makeFromMask(options, around, std::move(picture), stages),
-                  around, options);
+                  around);
 }
 
 /// Calls a function at once and whenever a picture is saved, until a signal ends the program. A picture may be half
@@ -435,11 +435,10 @@ MadeShape make(const ShapeOptions& options, const Surroundings& around, std::vec
 
 }  // namespace
 
-MadeShape placed(MadeShape made, const Surroundings& around, const ShapeOptions& options)
+MadeShape placed(MadeShape made, const Surroundings& around)
 {
     if (around.object) {
-        made.droplet.surface = lowered(std::move(made.droplet.surface), made.settings.sink);
-        made.onto = placeOnObject(made.droplet, *around.object, *options.settings.onto);
+        made.onto = placeOnObject(made.droplet, *around.object, made.settings);
     }
     return made;
 }
@@ -504,7 +503,7 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
         return long_side ? droplet::drawColours(drawn.drawing, *long_side) : droplet::drawColours(drawn.drawing);
     };
     MadeShape made = makeByColour(options, around, {draw, drawn.speck_size, drawn.input.type}, stages);
-    return finish(placed(std::move(made), around, options), around, options, stages);
+    return finish(placed(std::move(made), around), around, options, stages);
 }
 
 droplet::Report makeShape(const ShapeOptions& options, const Surroundings& around, DrawnFootprint footprint,
@@ -519,7 +518,7 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
     Droplet droplet = droplet::makeDroplet(std::move(footprint.outline), settings.droplet,
                                            [&](Stage stage, double share) { stages.begin(stage, share); });
     MadeShape made{.droplet = std::move(droplet), .settings = std::move(settings), .input = std::move(footprint.input)};
-    return finish(placed(std::move(made), around, options), around, options, stages);
+    return finish(placed(std::move(made), around), around, options, stages);
 }
 
 void addSettings(RunFiles& files, const DropletSettings& settings, const RunOptions& run)

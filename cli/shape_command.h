@@ -33,7 +33,7 @@ struct MadeShape {
 };
 
 /// Places droplets on their object, if there is one.
-MadeShape placed(MadeShape made, const Surroundings& around, const ShapeOptions& options);
+MadeShape placed(MadeShape made, const Surroundings& around);
 
 /// Makes droplets from the bytes of a picture.
 /// @param around          result of readSurroundings

@@ -8,6 +8,7 @@
 #include "droplet/render/object_stand.h"
 #include "droplet/surface/onto.h"
 #include "option_values.h"
+#include "surface_files.h"
 
 namespace cli {
 
@@ -60,8 +61,10 @@ droplet::BaseSurface groundOf(const DropletSettings& settings, const Surrounding
 }
 
 droplet::ObjectReport placeOnObject(droplet::Droplet& droplet, const droplet::ObjectStand& object,
-                                    const std::string& path)
+                                    const DropletSettings& settings)
 {
+    const std::string& path = settings.onto.value();
+    droplet.surface = lowered(std::move(droplet.surface), settings.sink);
     droplet::OntoOptions options{droplet.domain.extent};
     if (!object.looks.empty()) {
         options.is_there = [&](std::uint32_t triangle, droplet::Vec2 uv) { return object.isThere(triangle, uv); };

@@ -34,10 +34,10 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
 /// @throws droplet::Error InvalidArgument
 droplet::BaseSurface groundOf(const DropletSettings& settings, const Surroundings& around, droplet::Vec2 extent);
 
-/// Places the droplets on the object, and warns of what pictures of it do not show.
-/// @param path            path of the object, for the report
+/// Sinks the droplets and places them on the object, and warns of what pictures of it do not show.
+/// @param settings        with the depth to sink, and the object's path for the report
 /// @throws droplet::Error InvalidInput if the object has no area in uv; NoSuchDroplet if no droplet fits on it
 droplet::ObjectReport placeOnObject(droplet::Droplet& droplet, const droplet::ObjectStand& object,
-                                    const std::string& path);
+                                    const DropletSettings& settings);
 
 }  // namespace cli

@@ -12,6 +12,8 @@ export type Mask =
 export interface Coverage {
     width: number;
     height: number;
+    /** edge of a pixel [m] */
+    pixelSize: number;
     data: Uint16Array;
 }
 
@@ -67,6 +69,8 @@ export interface Options {
     surface?: string;
     /** Keep the liquid above the ground; where it would sink in, the ground stays dry */
     noPenetration?: boolean;
+    /** Lay the droplets on the object in a .glb or .gltf file by its texture coordinates */
+    onto?: DewObject;
     /** Advancing contact angle; with receding the report says whether droplets slide; a number is in rad */
     advancing?: string | number;
     /** Receding contact angle, at most advancing; a number is in rad */

@@ -23,7 +23,7 @@ const withDegrees = (message) => message.replace(/'(-?[\d.e+-]+)rad' must be .*/
 /** Options of files, of the terminal and of the threads. */
 const kNotHere = ['format', 'config', 'help', 'version', 'quiet', 'verbose', 'progress', 'threads', 'no-clobber'];
 /** Those of a droplet, and those of colours, which are not a mask's. */
-const kNotOfDroplets = new Set([...kNotHere, 'onto', 'surface-depth', 'by-colour', 'colours', 'gap', 'colour-map', 'nodes', 'materials',
+const kNotOfDroplets = new Set([...kNotHere, 'surface-depth', 'by-colour', 'colours', 'gap', 'colour-map', 'nodes', 'materials',
     'compress', 'sink', 'base', 'lod', 'weld']);
 // The module draws no pictures.
 const kNotOfDew = new Set([...kNotHere, 'droplets', 'json', 'preview', 'view', 'camera', 'look-at', 'preview-size', 'environment',
@@ -82,23 +82,20 @@ function argumentsOf(options, known) {
     return list;
 }
 
-/** Files of an object and of the mask that lies over it, by their names: the object is the first. */
-function filesOf(object, mask) {
+/** Files of an object, by their names: the object is the first. */
+function filesOf(object, subject = 'object') {
     const refuse = (what) => {
         throw new DropletError('InvalidArgument', what);
     };
     const { name, data, beside = {} } = object instanceof Uint8Array ? { name: 'object.glb', data: object } : object ?? {};
     if (typeof name !== 'string' || /^$|[\0/\\]/.test(name) || !(data instanceof Uint8Array)) {
-        refuse('object: must be the bytes of a .glb, or have the name of a file, without its folder, and its bytes in data');
+        refuse(subject + ': must be the bytes of a .glb, or have the name of a file, without its folder, and its bytes in data');
     }
     const files = new Map([[name, data], ...Object.entries(beside)]);
     for (const [path, bytes] of files) {
         if (!(bytes instanceof Uint8Array)) {
             refuse(`beside: '${path}' must have the bytes of a file`);
         }
-    }
-    if (mask) {
-        files.set('mask', pictureOf(mask, 'mask'));
     }
     return files;
 }
@@ -310,20 +307,27 @@ export async function loadSolver(wasm) {
         }
     }
 
-    /** Gives the module a mask, with strokes if there are some, and keeps what it makes of it. */
-    const ofMask = (mask, options_given, make, wrap) => {
-        const { seeds, ...given } = options_given ?? {};
-        const words = [...argumentsOf(given, known), ...seeds ? ['--seeds=seeds'] : []];
-        const { kind, bytes, width, height } = describe(mask);
-        const strokes = seeds ? pictureOf(seeds, 'seeds') : undefined;
-        const pixels = put(bytes);
-        if (strokes) {
-            files.set('seeds', strokes);
-        }
+    /** Lets the module read files while it works. */
+    const withFiles = (given, work) => {
+        given.forEach((bytes, path) => void files.set(path, bytes));
         try {
-            return made(words, (at, length) => make(at, length, pixels, bytes.length, width, height, kind), wrap);
+            return work();
         } finally {
             files.clear();
+        }
+    };
+    /** Gives the module a mask, with the files that its options name, and keeps what it makes of it. */
+    const ofMask = (mask, options_given, make, wrap) => {
+        const { seeds, onto, ...given } = options_given ?? {};
+        const object = onto ? filesOf(onto, 'onto') : new Map();
+        const [name] = object.keys();
+        const words = [...argumentsOf(given, known), ...seeds ? ['--seeds=seeds'] : [], ...onto ? [`--onto=${name}`] : []];
+        const { kind, bytes, width, height } = describe(mask);
+        const inputs = new Map([...object, ...seeds ? [['seeds', pictureOf(seeds, 'seeds')]] : []]);
+        const pixels = put(bytes);
+        try {
+            return withFiles(inputs, () => made(words, (at, length) => make(at, length, pixels, bytes.length, width, height, kind), wrap));
+        } finally {
             solver.free(pixels);
         }
     };
@@ -332,23 +336,22 @@ export async function loadSolver(wasm) {
         options,
         readMask: (picture, given) => ofMask(picture, given, solver.droplet_mask, (result) => {
             const width = solver.droplet_mask_width(result);
+            const pixelSize = solver.droplet_mask_pixel_size(result);
             const data = take(result, kArray.coverage, Uint16Array);
             solver.droplet_delete(result);
-            return { width, height: data.length / width, data };
+            return { width, height: data.length / width, pixelSize, data };
         }),
         makeDroplet: (mask, given) => ofMask(mask, given, solver.droplet_make, (result) => new Droplet(result)),
         dewOptions,
         dew(object, { mask, ...given } = {}) {
-            const inputs = filesOf(object, mask);
+            const inputs = filesOf(object);
             const [name] = inputs.keys();
+            if (mask) {
+                inputs.set('mask', pictureOf(mask, 'mask'));
+            }
             const words = (form) => [...argumentsOf({ ...given, ...form }, knownOfDew), ...mask ? ['--mask=mask'] : [], '--', name, 'droplets.glb'];
             const first = words();
-            inputs.forEach((bytes, path) => void files.set(path, bytes));
-            try {
-                return made(first, solver.droplet_dew, (result) => new Dew(result, words));
-            } finally {
-                files.clear();
-            }
+            return withFiles(inputs, () => made(first, solver.droplet_dew, (result) => new Dew(result, words)));
         },
     };
 }

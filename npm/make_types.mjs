@@ -9,7 +9,10 @@ const kPicture = 'Uint8Array | { width: number; height: number; data: Uint8Array
 const kTypes = { flag: 'boolean', count: 'string | number', number: 'number', range: 'string | [number, number]', path: kPicture,
     vector: 'string | [number, number, number]' };
 
-function typeOf({ kind, unit, words }) {
+function typeOf({ name, kind, unit, words }) {
+    if (name === 'onto') {
+        return 'DewObject';
+    }
     if (kind === 'words') {
         return words.map((word) => /^\d/.test(word) ? word : `'${word}'`).join(' | ');
     }
@@ -36,6 +39,8 @@ export type Mask =
 export interface Coverage {
     width: number;
     height: number;
+    /** edge of a pixel [m] */
+    pixelSize: number;
     data: Uint16Array;
 }
 

@@ -55,6 +55,7 @@ struct Result {
     bool is_dew = false;  ///< whether an object is to be covered
     std::optional<MadeDew> dew;
     droplet::Mask mask;        ///< of droplet_mask
+    double pixel_size = 0.0;   ///< of this mask [m]
     droplet::Surface surface;  ///< of all droplets
     droplet::Report report;
     droplet::Material material = droplet::Material::Water;
@@ -97,10 +98,9 @@ cli::ShapeOptions parse(const std::vector<std::string>& arguments)
     options.input = "mask";
     options.output = "droplet.glb";
     cli::readShapes(line, options, "OUTPUT");
-    if (options.run.config || options.settings.ground.path || options.settings.onto) {
+    if (options.run.config || options.settings.ground.path) {
         throw Error(ErrorCode::InvalidArgument,
-                    "--config, --onto and height maps of --surface need files, which the "
-                    "module cannot read");
+                    "--config and height maps of --surface need files, which the module cannot read");
     }
     return options;
 }
@@ -157,15 +157,21 @@ void make(Result& result, const std::vector<std::string>& arguments, const Given
     cli::StageClock clock;
     clock.begin(droplet::Stage::Read);
     const cli::ShapeOptions options = parse(arguments);
+    const cli::Surroundings around = cli::readSurroundings(options.settings);
     const droplet::Mask mask = maskOf(given, options.footprint);
-    cli::DropletSettings settings = cli::completeSettings(mask, {}, options);
+    cli::DropletSettings settings = cli::completeSettings(mask, around, options);
     cli::MaskShape made = cli::makeOfMask(mask, settings, options,
                                           [&](droplet::Stage stage, double share) { clock.begin(stage, share); });
+    std::optional<droplet::ObjectReport> onto;
+    if (around.object) {
+        onto = cli::placeOnObject(made.droplet, *around.object, settings);
+    }
     if (auto warning = cli::maskWarning(mask, "look at it")) {
         settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
     }
     clock.begin(droplet::Stage::Write);
     result.report = cli::describe(made.droplet, settings);
+    result.report.onto = std::move(onto);
     result.report.fill_range = settings.droplet.fill_range;
     result.report.input = std::move(made.input);
     result.report.output = cli::describeOutput(made.droplet.surface, "", droplet::Format::Glb);
@@ -181,7 +187,10 @@ void makeMask(Result& result, const std::vector<std::string>& arguments, const G
 {
     const cli::ShapeOptions options = parse(arguments);
     const droplet::Mask mask = maskOf(given, options.footprint);
-    result.mask = cli::tracedMask(mask, cli::completeSettings(mask, {}, options).droplet.trace);
+    const cli::Surroundings around = cli::readSurroundings(options.settings);
+    const droplet::TraceOptions trace = cli::completeSettings(mask, around, options).droplet.trace;
+    result.mask = cli::tracedMask(mask, trace);
+    result.pixel_size = droplet::pixelSize(mask, trace);
 }
 
 void makeDew(Result& result, const std::vector<std::string>& arguments)
@@ -337,6 +346,12 @@ EMSCRIPTEN_KEEPALIVE Result* droplet_mask(const char* arguments, std::size_t arg
 EMSCRIPTEN_KEEPALIVE int droplet_mask_width(const Result* result)
 {
     return result->mask.width;
+}
+
+/// Size of its pixels [m].
+EMSCRIPTEN_KEEPALIVE double droplet_mask_pixel_size(const Result* result)
+{
+    return result->pixel_size;
 }
 
 /// Covers an object with droplets.

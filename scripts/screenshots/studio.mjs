@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws in Studio and takes the pictures of docs/cli/studio.md: node studio.mjs CHROMIUM PLAYWRIGHT_FOLDER STUDIO_HTML DESKTOP_PNG
-// PHONE_PNG DEW_PNG PHOTOGRAPH_PNG RAINDROPS_JPG
+// PHONE_PNG DEW_PNG PHOTOGRAPH_PNG ONTO_PNG RAINDROPS_JPG CAN_GLB
 import { pathToFileURL } from 'node:url';
 import { choose, setValue, settle, stateOfDew } from '../../tests/studio/controls.mjs';
 
-const [executablePath, playwright, studio, desktop, phone, dew, photograph, raindrops] = process.argv.slice(2);
+const [executablePath, playwright, studio, desktop, phone, dew, photograph, onto, raindrops, can] = process.argv.slice(2);
 const { chromium } = await import(pathToFileURL(`${playwright}/index.mjs`));
 const browser = await chromium.launch({
     executablePath,
@@ -89,6 +89,24 @@ for (const line of [[[0.03, 0.22], [0.37, 0.2], [0.37, 0.64], [0.04, 0.79]], [[0
 await leaf.waitForFunction(() => !document.getElementById('take').disabled);
 await leaf.screenshot({ path: photograph });
 await leaf.close();
+
+// Letters of milk on a can.
+const letters = await opened({ viewport: { width: 1280, height: 760 }, colorScheme: 'light', hasTouch: true });
+await letters.locator('#lay-file').setInputFiles(can);
+await letters.locator('#laid').waitFor();
+await setValue(letters, 'liquid-material', 'milk');
+await choose(letters, 'text');
+await letters.locator('#text').fill('Aqua');
+await setValue(letters, 'text-size', 150);
+await stroke(letters, [[0.55, 0.29]]);
+await choose(letters, 'brush');
+await settle(letters);
+await letters.locator('#view').focus();
+for (const key of ['ArrowRight', 'ArrowRight', '+', '+']) {
+    await letters.keyboard.press(key);
+}
+await letters.locator('#view').blur();
+await take(letters, onto);
 
 // A cold bottle.
 const bottle = await opened({ viewport: { width: 1280, height: 760 }, colorScheme: 'light' });

@@ -44,6 +44,7 @@ export class CoveredObject {
         const { min } = this.space;
         const centre = this.space.getCenter(new Vector3());
         const shift = new Vector3(-centre.x, -min.y, -centre.z);
+        this.shift = shift;
         scene.position.add(shift);
         this.space.translate(shift);
     }

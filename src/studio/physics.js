@@ -56,16 +56,16 @@ export const kLayerFields = [
     { name: 'receding', label: 'Receding angle', value: '', ...quantity('receding', '°'), optional: true, empty: 'none', more: true },
 ];
 
-const curved = ({ ground }) => ground !== 'flat';
+const curved = ({ ground }) => ground !== 'flat' && ground !== 'object';
 
 export const kSceneFields = [
-    { name: 'width', label: 'Sheet width', value: usual('width'), ...quantity('width', 'mm') },
+    { name: 'width', label: 'Sheet width', value: usual('width'), ...quantity('width', 'mm'), when: ({ ground }) => ground !== 'object' },
     { name: 'gravity', label: 'Gravity', value: usual('gravity'), ...quantity('gravity', 'm/s²') },
     { name: 'tilt', label: 'Tilt', value: usual('tilt'), ...quantity('tilt', '°', 1), slider: true },
     { name: 'tiltDirection', label: 'Downhill', value: usual('tilt-direction'), unit: '°', range: [-180, 180, 5], slider: true, when: ({ tilt }) => Number(tilt) > 0 },
     {
         name: 'ground', label: 'Surface', value: 'flat',
-        choices: { flat: 'Flat', sphere: 'Sphere', bowl: 'Bowl', cylinder: 'Cylinder', gutter: 'Gutter' },
+        choices: { flat: 'Flat', sphere: 'Sphere', bowl: 'Bowl', cylinder: 'Cylinder', gutter: 'Gutter', object: 'Object' },
     },
     { name: 'radius', label: 'Radius', value: 40, unit: 'mm', range: [0.01, 1e6, 'any'], when: curved },
     {
@@ -93,7 +93,7 @@ export function settingsOf(fields, given = {}) {
 const kAmounts = { contactAngle: 'deg', volume: 'uL', height: 'mm' };
 const kUnits = { surfaceTension: 'mN/m', density: 'kg/m3', advancing: 'deg', receding: 'deg' };
 
-/** Options of the command for a layer, without those that are its defaults. */
+/** Options of the command for a layer, without those that are its defaults, and without the object that it lies on. */
 export function optionsOf({ liquid }, scene) {
     const options = { width: `${scene.width}mm` };
     if (liquid.liquid !== kOptions.liquid.default) {
@@ -124,7 +124,7 @@ export function optionsOf({ liquid }, scene) {
     if (scene.tilt > 0) {
         Object.assign(options, { tilt: `${scene.tilt}deg`, tiltDirection: `${scene.tiltDirection}deg` });
     }
-    if (scene.ground !== 'flat') {
+    if (curved(scene)) {
         const round = ['cylinder', 'gutter'].includes(scene.ground);
         const sign = ['bowl', 'gutter'].includes(scene.ground) ? '-' : '';
         options.surface = `${round ? 'cylinder' : 'sphere'}:R=${sign}${scene.radius}mm${round ? `,axis=${scene.axis}deg` : ''}`;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A project: a sheet with layers of liquid, and the physics. A plain value that is never written to; it is saved as JSON
 // with masks as PNG.
+import { decodeBase64 } from '../html/model.js';
 import { say } from '../html/words.js';
 import { blank } from './coverage.js';
 import { kLayerFields, kSceneFields, settingsOf } from './physics.js';
@@ -23,10 +24,13 @@ export function newLayer(width, height, name, more = {}) {
 
 export function newProject({ width = 1024, height = 1024, name = kName } = {}) {
     return {
-        name, width, height, scene: settingsOf(kSceneFields), ground: undefined, underlay: undefined,
+        name, width, height, scene: settingsOf(kSceneFields), ground: undefined, underlay: undefined, object: undefined,
         layers: [newLayer(width, height, 'Layer 1')], selected: 0,
     };
 }
+
+/** The object that the droplets lie on: {name, data, beside}, as of the solver; or undefined. */
+export const objectBelow = ({ scene, object }) => (scene.ground === 'object' ? object : undefined);
 
 export const selectedLayer = (project) => project.layers[project.selected];
 
@@ -82,8 +86,27 @@ async function maskOf(url, width, height) {
     return mask;
 }
 
+const saved_objects = new WeakMap();  // of bytes, which a project keeps through all its changes
+
+/** An object as it is saved. */
+async function textOfObject({ name, data }) {
+    if (!saved_objects.has(data)) {
+        saved_objects.set(data, await dataUrl(new Blob([data], { type: 'model/gltf-binary' })));
+    }
+    return { name, data: saved_objects.get(data) };
+}
+
+function objectOf({ name, data }) {
+    const [, text] = /^data:model\/gltf-binary;base64,(.*)$/.exec(String(data)) ?? [];
+    if (text === undefined) {
+        throw new Error(say('its object is damaged'));
+    }
+    return { name: String(name), data: decodeBase64(text), beside: {} };
+}
+
 export async function textOf(project) {
-    const { layers, ...rest } = project;
+    const { layers, object, ...given } = project;
+    const rest = { ...given, ...object && { object: await textOfObject(object) } };
     const saved = await Promise.all(layers.map(async ({ id, mask, ...layer }) => ({ ...layer, mask: await dataUrl(await pictureOf(mask)) })));
     return JSON.stringify({ format: kFormat, version: kVersion, ...rest, layers: saved }, null, 1);
 }
@@ -112,8 +135,11 @@ export async function projectOf(text) {
     if (underlay) {
         await imageOf(underlay.picture);
     }
+    const object = json.object && objectOf(json.object);
+    const scene = settingsOf(kSceneFields, json.scene);
     return {
-        name: String(json.name ?? kName), width, height, scene: settingsOf(kSceneFields, json.scene),
+        name: String(json.name ?? kName), width, height, object,
+        scene: scene.ground === 'object' && !object ? { ...scene, ground: 'flat' } : scene,
         ground: json.ground === undefined ? undefined : String(json.ground), underlay,
         layers: await Promise.all(layers.map(async (layer, k) => newLayer(1, 1, String(layer.name ?? `Layer ${k + 1}`), {
             visible: layer.visible !== false, liquid: settingsOf(kLayerFields, layer.liquid),

@@ -37,6 +37,10 @@ export class Servant {
 
     async solve(job, draft) {
         await this.ready;
+        if (this.object !== job.object) {
+            this.object = job.object;
+            await this.ask('layOn', { object: job.object });
+        }
         const data = job.mask.data.slice();
         return this.ask('solve', {
             id: job.id, options: job.options, stroke: job.stroke, draft, mask: { width: job.mask.width, height: job.mask.height, data },
@@ -177,6 +181,12 @@ export class Solver {
             this.showed(job, outcome.answer, false);
         }
         return true;
+    }
+
+    /** Width of a sheet of these sides if it is the texture of an object [m]; throws if it cannot be. */
+    async widthOn(object, width, height) {
+        await this.drafter.ready;
+        return (await this.drafter.ask('widthOn', { object, width, height })).width;
     }
 
     /** Whether the newest of a layer is shown, or refused, as a whole mesh. */

@@ -9,6 +9,7 @@ const kPatience = 16;    // a draft of the exact model that takes longer is the 
 const kWarmUps = 12;     // drafts until a browser has compiled the solver for speed
 
 let solver;
+let below;       // object that droplets lie on
 let tried = {};  // models that may do for the stroke
 const droplets = new Map();  // by layer, for its files
 
@@ -53,7 +54,7 @@ function shapeOf({ surface, report }) {
         }
     }
     return {
-        positions: turned[0], normals: turned[1], triangles: drawnOf(triangles, positions, report.ground.kind === 'flat'), box,
+        positions: turned[0], normals: turned[1], triangles: drawnOf(triangles, positions, report.ground.kind === 'flat' && !report.onto), box,
         thickness: report.shape.volume_m3 / report.mesh.footprint_area_m2,
     };
 }
@@ -137,7 +138,8 @@ const acts = {
         const began = performance.now();
         droplets.get(job.id)?.free();
         droplets.delete(job.id);
-        const droplet = job.draft ? draftOf(job) : solver.makeDroplet(job.mask, job.options);
+        const given = { ...job, options: { ...job.options, onto: below } };
+        const droplet = job.draft ? draftOf(given) : solver.makeDroplet(job.mask, given.options);
         const shape = shapeOf(droplet);
         const { report } = droplet;
         if (job.draft) {
@@ -152,6 +154,14 @@ const acts = {
         const { width, height, data } = solver.readMask(picture, { seeds });
         const coverage = Uint8Array.from(data, (level) => level >> 8);
         return [{ mask: { width, height, data: coverage } }, [coverage.buffer]];
+    },
+    layOn({ object }) {
+        below = object;
+        return {};
+    },
+    widthOn({ object, width, height }) {
+        const sheet = { width, height, data: new Uint8Array(width * height) };
+        return { width: width * solver.readMask(sheet, { onto: object }).pixelSize };
     },
     file({ id, format }) {
         const bytes = droplets.get(id).file(format);

@@ -13,13 +13,15 @@ import { History } from './history.js';
 import { ImportDialog } from './import_dialog.js';
 import { beginLanguage, offerLanguages } from './language.js';
 import { buildLayers } from './layers.js';
+import { carriesDrawings, layoutOf, loadObject } from './laid_object.js';
 import { kLiveParts, showLive } from './live_parts.js';
 import markup from './markup.html';
 import { inkOf, lookOf } from './looks.js';
 import { commandOf, kLayerFields, kSceneFields, liquidOf, optionsOf } from './physics.js';
 import { buildForm } from './physics_form.js';
+import { readObject } from './object_files.js';
 import { fitted, levelsOf, maskOfLevels } from './pictures.js';
-import { kName, newLayer, newProject, projectOf, selectedLayer, shownName, withLayer } from './project.js';
+import { kName, newLayer, newProject, objectBelow, projectOf, selectedLayer, shownName, withLayer } from './project.js';
 import { save } from './save.js';
 import { sentence } from './sentence.js';
 import { Sheet } from './sheet.js';
@@ -46,6 +48,7 @@ class Studio {
         this.keeper = keeper;
         this.source = source;
         this.unsaved = kept;
+        this.objects = new WeakMap();  // objects as the view shows them, before it does
         this.known = new Map();    // layer → {job, report, draft, error}: what is known of its droplet
         this.strokes = 0;
         this.tool = 'brush';
@@ -127,6 +130,7 @@ class Studio {
         const { width, height, scene, layers } = project;
         if (!before || width !== before.width || height !== before.height || scene.width !== before.scene.width) {
             this.sheet.resize(width, height, roundLength(scene.width / 12) / scene.width);
+            this.#resize(this.setting.size);
             this.view?.fit(this.#extent());
         }
         if (!before || layers !== before.layers || project.selected !== before.selected || width !== before.width) {
@@ -145,6 +149,10 @@ class Studio {
             find('name').value = shownName(project.name);
         }
         document.title = `${shownName(project.name)} – Droplet Studio`;
+        find('laid').hidden = !objectBelow(project);
+        find('paper').classList.toggle('laid', objectBelow(project) !== undefined);
+        find('laid-name').textContent = project.object?.name ?? '';
+        this.#showObject(objectBelow(project));
         this.show_layers(project);
         this.show_liquid(selectedLayer(project).liquid);
         this.show_scene(scene);
@@ -176,7 +184,7 @@ class Studio {
         for (const layer of layers) {
             const { job } = this.known.get(layer.id) ?? {};
             const options = optionsOf(layer, scene);
-            const same = job && job.mask === layer.mask && JSON.stringify(job.options) === JSON.stringify(options);
+            const same = job && job.mask === layer.mask && job.object === objectBelow(this.project) && JSON.stringify(job.options) === JSON.stringify(options);
             this.view?.setVisible(layer.id, layer.visible);
             if (same) {
                 continue;
@@ -192,7 +200,7 @@ class Studio {
     /** Whether nothing is drawn and nothing lies below. */
     get #is_empty() {
         const { layers, underlay } = this.project;
-        return !this.stroke && !underlay && layers.every(({ mask }) => isDry(mask));
+        return !this.stroke && !underlay && !objectBelow(this.project) && layers.every(({ mask }) => isDry(mask));
     }
 
     /** Offers drawings to begin with; on the first empty sheet, one of them is shown. */
@@ -229,6 +237,7 @@ class Studio {
         const waiting = known.job && !known.job.begun ? known.job.input : time;
         const job = {
             id: layer.id, mask, options: optionsOf(layer, scene), look: lookOf(layer.liquid), flat: scene.ground === 'flat',
+            object: objectBelow(this.project),
             input: Math.min(waiting, time), stroke: `${layer.id} ${this.strokes}`,
         };
         this.known.set(layer.id, { ...known, job });
@@ -353,9 +362,15 @@ class Studio {
         return this.project.layers.filter((layer) => layer.visible && this.known.get(layer.id)?.report);
     }
 
+    /** Why a layer has no droplet. */
+    #refusal({ job, error }) {
+        return job.object && error.code === 'NoSuchDroplet' && error.message.includes(job.object.name) ?
+            say('No droplet lies on the object. Draw within the lines of its layout, and across no gap between them.') : sentence(error);
+    }
+
     #words() {
         const errors = this.project.layers.filter(({ id, visible }) => visible && this.known.get(id)?.error)
-            .map(({ id, name }) => `${this.project.layers.length > 1 ? `${shownName(name)}: ` : ''}${sentence(this.known.get(id).error)}`);
+            .map(({ id, name }) => `${this.project.layers.length > 1 ? `${shownName(name)}: ` : ''}${this.#refusal(this.known.get(id))}`);
         const liquids = this.#drops().map(({ id }) => {
             const { report: { liquid, shape } } = this.known.get(id);
             return say('{volume} of {liquid}, {height} high', { volume: volume(shape.volume_m3), liquid: say(liquid.name), height: length(shape.height_max_m) });
@@ -385,7 +400,10 @@ class Studio {
             .map((warning) => Object.assign(document.createElement('li'), { textContent: warning })));
         find('command-line').hidden = !report;
         if (report) {
-            find('command').textContent = commandOf(shownName(this.project.name).replaceAll('\'', ''), optionsOf(selectedLayer(this.project), this.project.scene));
+            const { project } = this;
+            const onto = objectBelow(project)?.name;
+            find('command').textContent = commandOf(shownName(project.name).replaceAll('\'', ''),
+                { ...optionsOf(selectedLayer(project), project.scene), ...onto && { onto } });
         }
     }
 
@@ -449,13 +467,57 @@ class Studio {
             this.#change(withLayer(this.project, { liquid: { ...layer.liquid, [name]: value } }), `${layer.id} ${name}`);
         });
         this.show_scene = buildForm(kSceneFields, { plain: find('scene') }, 'scene', (name, value) => {
+            if (value === 'object' && !this.project.object) {
+                this.show_scene(this.project.scene);  // until there is one
+                find('lay-file').click();
+                return;
+            }
             this.#change({ ...this.project, scene: { ...this.project.scene, [name]: value } }, name);
-            this.#resize(this.setting.size);
         });
         find('name').addEventListener('input', () => this.#change({ ...this.project, name: find('name').value.trim() || kName }, 'name'));
         find('opacity').addEventListener('input', () =>
             this.#change({ ...this.project, underlay: { ...this.project.underlay, opacity: Number(find('opacity').value) } }, 'opacity'));
         find('untrace').addEventListener('click', () => this.#change({ ...this.project, underlay: undefined }));
+        find('lay').addEventListener('click', () => find('lay-file').click());
+        find('lay-file').addEventListener('change', (event) => {
+            const files = [...event.target.files];
+            event.target.value = '';
+            this.#lay(files);
+        });
+    }
+
+    /** Lays the sheet on an object, whose texture it becomes. */
+    async #lay(files) {
+        const [{ name }] = files;
+        find('trouble').hidden = true;
+        try {
+            if (!carriesDrawings(files[0])) {
+                throw new Error(say('only a .glb with texture coordinates can carry drawings'));
+            }
+            const [object, { width, height, scene }] = [await readObject(files), this.project];
+            const [shown, metres] = await Promise.all([loadObject(object), this.solver.widthOn(object, width, height)]);
+            this.objects.set(object, shown);
+            this.#change({
+                ...this.project, object, scene: { ...scene, ground: 'object', width: Number((metres * 1e3).toPrecision(6)) },
+                underlay: { picture: layoutOf(shown, width, height), opacity: 0.7 },
+            });
+            this.#say(say('The drawing lies on {file}', { file: name }));
+        } catch (error) {
+            complain(say('{file} cannot be opened. {reason}.', { file: name, reason: sentence(error) }));
+        }
+    }
+
+    /** Shows the object that the droplets lie on. */
+    async #showObject(object) {
+        if (object === this.object_shown) {
+            return;
+        }
+        this.object_shown = object;
+        const shown = object && (this.objects.get(object) ?? await loadObject(object).catch(() => undefined));
+        this.objects.delete(object);  // the view gives its memory back when it shows another
+        if (object === this.object_shown) {
+            this.view?.lay(shown);
+        }
     }
 
     #offerLayers() {
@@ -595,6 +657,10 @@ class Studio {
             return;
         }
         if (this.dew.takes(files)) {
+            const use = this.dew.is_shown || this.#is_empty || !carriesDrawings(file) ? 'dew' : await this.#askObject(file.name);
+            if (use !== 'dew') {
+                return use === 'lay' ? this.#lay([file]) : undefined;
+            }
             this.#show('dew');
             this.dew.open(files);
             return;
@@ -616,6 +682,16 @@ class Studio {
         }
     }
 
+    /** Asks what an object is for: dew, lay or empty. */
+    async #askObject(name) {
+        const dialog = find('object');
+        find('object-title').textContent = name;
+        dialog.returnValue = '';
+        dialog.showModal();
+        await new Promise((done) => { dialog.addEventListener('close', done, { once: true }); });
+        return dialog.returnValue;
+    }
+
     async #import(canvas, file_name) {
         const { use, mask, photo, colours } = await this.import_dialog.ask(canvas, inkOf(lookOf(selectedLayer(this.project).liquid)));
         if (use === 'footprint') {
@@ -631,7 +707,7 @@ class Studio {
     #divide(colours, file_name) {
         const { project } = this;
         const kept = project.layers.filter(({ mask }) => !isDry(mask));
-        const { width, height } = kept.length === 0 ? colours[0].mask : project;
+        const { width, height } = kept.length === 0 && !objectBelow(project) ? colours[0].mask : project;
         const added = colours.map(({ colour, mask }, k) => newLayer(1, 1, say('Colour {number}', { number: k + 1 }), {
             mask: fitted(mask, width, height), liquid: { ...selectedLayer(project).liquid, ...liquidOf(lookNear(colour)) },
         }));
@@ -649,7 +725,7 @@ class Studio {
     /** Takes a mask for the selected layer. An empty sheet gets its size and its name. */
     #take(mask, file_name) {
         const { project } = this;
-        if (project.layers.every(({ mask }) => isDry(mask))) {
+        if (project.layers.every(({ mask }) => isDry(mask)) && !objectBelow(project)) {
             const { width, height } = mask;
             const name = this.#nameAfter(file_name);
             const layers = project.layers.map((layer, k) => ({ ...layer, mask: k === project.selected ? mask : blank(width, height) }));
@@ -664,7 +740,7 @@ class Studio {
         find('redo').addEventListener('click', () => this.#undo('redo'));
         addEventListener('keydown', (event) => {
             const key = event.key.toLowerCase();
-            if (find('import').open || event.altKey) {
+            if (find('import').open || find('object').open || event.altKey) {
                 return;
             }
             if (event.ctrlKey || event.metaKey) {

@@ -1,22 +1,44 @@
 // SPDX-License-Identifier: MIT
 // The droplets of all layers on the page's stage.
 import { Box3, BufferAttribute, BufferGeometry, Group, Mesh, Vector3 } from 'three';
-import { Stage } from '../html/stage.js';
+import { kUnlit, Stage } from '../html/stage.js';
 import { materialOf, thicken } from './materials.js';
 
 /** Meshes of layers, as the stage wants a droplet (model.js). */
 class Droplets {
     constructor() {
         this.scene = new Group();
+        this.liquid = new Group();
+        this.scene.add(this.liquid);
         this.layers = new Map();
     }
 
-    get meshes() {
+    /** Lays them on an object, a CoveredObject; undefined: on the ground. */
+    lay(object) {
+        if (this.object) {
+            this.scene.remove(this.object.scene);
+            this.object.dispose();
+        }
+        this.object = object;
+        this.tilt = object?.tilt;
+        this.casters = object?.casters;  // its liquid casts no light
+        this.liquid.position.copy(object?.shift ?? new Vector3());
+        this.layers.forEach((mesh) => mesh.layers.set(object ? kUnlit : 0));
+        if (object) {
+            this.scene.add(object.scene);
+        }
+    }
+
+    get #shown() {
         return [...this.layers.values()].filter(({ visible }) => visible);
     }
 
+    get meshes() {
+        return [...this.object?.meshes ?? [], ...this.#shown];
+    }
+
     box() {
-        return this.meshes.reduce((box, { userData }) => box.union(userData.box), new Box3());
+        return this.object?.box() ?? this.#shown.reduce((box, { userData }) => box.union(userData.box), new Box3());
     }
 
     show(id, look, { positions, normals, triangles, box, thickness }) {
@@ -29,8 +51,9 @@ class Droplets {
         mesh.userData.box = new Box3(new Vector3(...box.slice(0, 3)), new Vector3(...box.slice(3)));
         mesh.userData.thickness = thickness;
         mesh.frustumCulled = false;  // no bounding sphere is computed for every draft
+        mesh.layers.set(this.object ? kUnlit : 0);
         this.layers.set(id, mesh);
-        this.scene.add(mesh);
+        this.liquid.add(mesh);
         this.look(id, look);
     }
 
@@ -82,9 +105,27 @@ export class View {
     fit(extent) {
         this.extent = extent;
         this.framed = undefined;
-        if (!this.object) {
+        if (!this.object && !this.droplets.object) {
             this.stage.move(spaceOf(extent), extent);
         }
+    }
+
+    /** Lays the droplets on an object, a CoveredObject; undefined: on the sheet's ground. */
+    lay(object) {
+        this.droplets.lay(object);
+        this.flat &&= !object;
+        if (!this.object) {
+            this.#showDroplets();
+        }
+    }
+
+    #showDroplets() {
+        const { stage, droplets, extent } = this;
+        const { object } = droplets;
+        stage.swap(droplets, object ? false : this.flat, object?.box() ?? spaceOf(extent), object ? undefined : extent);
+        this.framed = undefined;
+        this.frame();
+        stage.ground.outline(!object);
     }
 
     show(id, look, shape, flat) {
@@ -102,7 +143,7 @@ export class View {
 
     /** Lets a layer's droplet rise from the ground when it is shown next. */
     rise(id) {
-        this.rising = this.stage.still || this.stage.sketchy ? undefined : id;
+        this.rising = this.stage.still || this.stage.sketchy || this.droplets.object ? undefined : id;
     }
 
     #rise(mesh, began) {
@@ -118,7 +159,7 @@ export class View {
     frame() {
         const { stage, extent: [width, depth] } = this;
         const box = this.droplets.box();
-        if (this.object || box.isEmpty()) {
+        if (this.object || this.droplets.object || box.isEmpty()) {
             this.framed = undefined;
             if (!this.object && stage.part) {
                 stage.glideTo(undefined);
@@ -164,10 +205,7 @@ export class View {
             stage.swap(object, false, object.box());
             stage.ground.outline(false);
         } else {
-            stage.swap(this.droplets, this.flat, spaceOf(this.extent), this.extent);
-            this.framed = undefined;
-            this.frame();
-            stage.ground.outline();
+            this.#showDroplets();
         }
     }
 

@@ -132,6 +132,33 @@ test('strokes are refused that are no picture, have another size or lack a kind'
     assert.throws(() => readMask(photo, { seeds: strokes(8, 0, 255), colour: 'red' }), { code: 'InvalidArgument' });
 });
 
+test('droplets are laid on an object as by the command', () => {
+    const size = 400;
+    const rgba = new Uint8ClampedArray(4 * size ** 2);
+    for (let k = 0; k < size ** 2; ++k) {
+        const [x, y] = [k % size, Math.floor(k / size)];
+        rgba[4 * k + 3] = Math.hypot(x - 120, y - 110) < 30 || Math.hypot(x - 300, y - 110) < 20 || Math.hypot(x - 200, y - 230) < 15 ? 255 : 0;
+    }
+    const name = join(folder, 'dots.png');
+    writeFileSync(name, pngOf({ width: size, height: size, data: rgba }));
+    const { report: expected } = command(name, { onto: data('can.glb') });
+    const can = { name: 'can.glb', data: png('can.glb') };
+    const made = shapeDroplet({ width: size, height: size, data: rgba }, { onto: can });
+    assert.equal(expected.onto.droplets_laid, 2);
+    for (const [key, value] of Object.entries(expected.onto).filter(([, figure]) => typeof figure === 'number')) {
+        assert.ok(near(made.report.onto[key], value, 1e-6), `${key}: ${made.report.onto[key]}, not ${value}`);
+    }
+    assert.ok(near(made.report.input.pixel_size_m, expected.input.pixel_size_m, 1e-12));
+    assert.ok(near(made.report.shape.volume_m3, expected.shape.volume_m3, 6e-3));
+    assert.equal(readMask({ width: size, height: size, data: rgba }, { onto: png('can.glb') }).pixelSize, made.report.input.pixel_size_m);
+    // The droplets are at the can, which stands on the ground and is 12 cm high.
+    const [low, high] = [0, 1].map((end) => made.surface.positions.reduce((most, value, k) => (k % 3 === 2 ? (end ? Math.max : Math.min)(most, value) : most), end ? -1 : 1));
+    assert.ok(low > 0 && high < 0.13 && high - low > 0.01, `${low} to ${high}`);
+    assert.throws(() => shapeDroplet(disc(64, 30), { onto: can }), { code: 'NoSuchDroplet' });
+    assert.throws(() => shapeDroplet(disc(64, 8), { onto: { name: 'can.obj', data: can.data } }), { code: 'InvalidArgument' });
+    assert.throws(() => shapeDroplet(disc(64, 8), { onto: 'can.glb' }), { code: 'InvalidArgument', message: /^onto: must be the bytes of a \.glb/ });
+});
+
 // The stairs of a mask without grey are faired until the change is small, by logarithms, whose last bits differ between C
 // libraries.
 for (const name of ['closing/0001.png', 'closing/0006.png', 'closing/0012.png', 'letter_g_1bit.png']) {

@@ -426,6 +426,74 @@ studio('a photograph with clear rims is divided as by the command', kDesktop, as
     assert.match(await said(page), /µL of water/);
 });
 
+studio('a drawing is laid on an object', kDesktop, async (page) => {
+    await page.getByRole('button', { name: 'Star', exact: true }).click();
+    await settle(page);
+    await drop(page, 'can.glb', 'model/gltf-binary', data('can.glb'));
+    await page.locator('#object').waitFor();
+    await page.getByRole('button', { name: 'Lay the drawing on it' }).click();
+    await page.locator('#laid').waitFor();
+    await settle(page);
+    // The layout of the can's texture is below; the star goes over its border.
+    assert.match(await result(page), /^No droplet lies on the object\. Draw within the lines/);
+    assert.equal(await page.locator('#underlay').isVisible(), true);
+    assert.equal(await page.locator('#scene-width').isVisible(), false);
+    assert.equal(await page.locator('#scene-ground').inputValue(), 'object');
+    await page.locator('#layer-clear').click();
+    await stroke(page, [0.6, 0.2], [0.75, 0.35], [0.9, 0.2]);
+    await settle(page);
+    assert.match(await said(page), /of water/);
+    assert.match(await page.locator('#figures table').innerText(), /Laid on\s+can\.glb/);
+    assert.match(await page.locator('#command').textContent(), /--onto can\.glb$/);
+    const words = await said(page);
+    // The same by the command.
+    const footprint = await saved(page, 'footprint');
+    const [, width] = /--width (\S+)/.exec(await page.locator('#command').textContent());
+    const report = JSON.parse(execFileSync(DROPLET_SHAPE, [footprint.path, join(folder, 'laid.glb'), '--quiet', '--json', '-',
+        '--material', 'gold', '--width', width, '--onto', resolve(SOURCES, '../data/can.glb')]));
+    const positions = ({ accessors, meshes }) => accessors[meshes[0].primitives[0].attributes.POSITION];
+    const [ours, command] = [jsonOf((await saved(page, 'glb')).bytes), jsonOf(readFileSync(join(folder, 'laid.glb')))].map(positions);
+    for (let k = 0; k < 3; ++k) {
+        assert.ok(Math.abs(ours.min[k] - command.min[k]) < 2e-4 && Math.abs(ours.max[k] - command.max[k]) < 2e-4, `${ours.min} ${command.min}`);
+    }
+    assert.equal(report.onto.droplets_laid, 1);
+    // A project holds its object.
+    const project = await saved(page, 'project');
+    await page.locator('#new').click();
+    await settle(page);
+    assert.equal(await page.locator('#laid').isVisible(), false);
+    await drop(page, project.name, 'application/json', project.bytes);
+    await page.locator('#laid').waitFor();
+    await settle(page);
+    assert.equal(await said(page), words);
+    // Flat ground again, then the object as it was.
+    await setValue(page, 'scene-ground', 'flat');
+    await settle(page);
+    assert.equal(await page.locator('#laid').isVisible(), false);
+    await page.keyboard.press('Control+z');
+    await settle(page);
+    assert.equal(await said(page), words);
+});
+
+studio('what cannot carry a drawing is refused, and a choice can be left', kDesktop, async (page) => {
+    await stroke(page, [0.3, 0.5], [0.6, 0.5]);
+    await settle(page);
+    const before = await result(page);
+    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), setValue(page, 'scene-ground', 'object')]);
+    assert.equal(await page.locator('#scene-ground').inputValue(), 'flat');
+    await chooser.setFiles({ name: 'plate.obj', mimeType: 'model/obj', buffer: Buffer.from('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n') });
+    await page.waitForFunction(() => !document.getElementById('trouble').hidden);
+    assert.match(await page.locator('#trouble').textContent(), /^plate\.obj cannot be opened\. Only a \.glb with texture coordinates/);
+    await drop(page, 'drop.glb', 'model/gltf-binary', data('can.glb'));
+    await page.locator('#object').waitFor();
+    await page.keyboard.press('Escape');
+    await page.locator('#object').waitFor({ state: 'hidden' });
+    assert.equal(await result(page), before);
+    await drop(page, 'can.glb', 'model/gltf-binary', data('can.glb'));
+    await page.getByRole('button', { name: 'Cover it with dew' }).click();
+    await page.waitForFunction(() => document.documentElement.dataset.dew === 'ready');
+});
+
 /** Whether the project as it is now is in the browser's store. */
 const kept = (page) => page.waitForFunction(() => document.documentElement.dataset.kept === 'yes');
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// The object that the sheet's droplets lie on: as the view shows it, and how its texture is laid out on the sheet.
+import { BufferAttribute, MeshStandardMaterial } from 'three';
+import { CoveredObject } from '../html/covered_object.js';
+import { loadGlb } from '../html/model.js';
+import { say } from '../html/words.js';
+
+/** Whether a file can carry drawings: one file, with texture coordinates and their pictures. */
+export const carriesDrawings = ({ name }) => /\.glb$/i.test(name);
+
+/** Gives a mesh what the view needs: an index, normals, and a material that light falls on. */
+function complete(mesh) {
+    const { geometry, material } = mesh;
+    if (!geometry.index) {
+        geometry.setIndex(new BufferAttribute(Uint32Array.from({ length: geometry.attributes.position.count }, (_, k) => k), 1));
+    }
+    if (!geometry.attributes.normal) {
+        geometry.computeVertexNormals();
+    }
+    if (!material.isMeshStandardMaterial) {
+        const { map, color, side } = material;
+        mesh.material = new MeshStandardMaterial({ map, color, side });
+    }
+}
+
+/** The object for the view. */
+export async function loadObject({ name, data }) {
+    try {
+        const { scene } = await loadGlb(data);
+        scene.traverse((node) => node.isMesh && complete(node));
+        return new CoveredObject(scene, () => true);
+    } catch (error) {
+        console.error(error);
+        throw new Error(say('{file} has no mesh that this browser can show', { file: name }));
+    }
+}
+
+/** The layout of an object's texture on a sheet, with its picture, as a data URL. */
+export function layoutOf({ meshes }, width, height) {
+    const canvas = Object.assign(document.createElement('canvas'), { width, height });
+    const context = canvas.getContext('2d');
+    for (const { geometry, material } of meshes) {
+        const { index, attributes: { uv } } = geometry;
+        if (!uv) {
+            continue;
+        }
+        if (material.map?.image) {
+            context.drawImage(material.map.image, 0, 0, width, height);
+        }
+        context.beginPath();
+        for (let i = 0; i < index.count; i += 3) {
+            for (const [k, act] of [[0, 'moveTo'], [1, 'lineTo'], [2, 'lineTo']]) {
+                const vertex = index.getX(i + k);
+                context[act](uv.getX(vertex) * width, uv.getY(vertex) * height);
+            }
+            context.closePath();
+        }
+        context.strokeStyle = '#5b7f95';
+        context.lineWidth = Math.max(width, height) / 1500;
+        context.stroke();
+    }
+    return canvas.toDataURL('image/png');
+}
