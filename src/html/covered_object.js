@@ -12,8 +12,7 @@ export class CoveredObject {
     /** Reads a file of `droplet-shape dew`, whose first mesh is the object. */
     static async load(bytes) {
         const { scene, parser } = await loadGlb(bytes);
-        return new CoveredObject(scene, (mesh) => parser.associations.get(mesh)?.meshes === 0 ||
-            parser.associations.get(mesh.parent)?.meshes === 0);
+        return new CoveredObject(scene, (mesh) => parser.associations.get(mesh)?.meshes === 0);
     }
 
     /**

@@ -382,7 +382,8 @@ export class Dew {
                 hasObject(files) ? this.open(files) : complain(say('{file} is no mesh; .glb, .gltf, .obj, .ply and .stl are.', { file: files[0].name }));
             }
         });
-        find('dew-bottle').addEventListener('click', () => {
+        find('dew-bottle').addEventListener('click', async () => {
+            await this.#start();
             this.#change({ object: bottle(), settings: { ...withPreset(this.#known, newSettings(this.#known), 'bottle'), ...kBottle } });
             find('dew-open').focus();  // this button goes
         });

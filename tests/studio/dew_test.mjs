@@ -100,6 +100,33 @@ if (DROPLET_SHAPE) {
     });
 }
 
+/** Brightness of the darkest part of the ground, right of the object and below: 0 to 255. */
+async function darkestGround(page) {
+    const shown = (await page.locator('#view').screenshot()).toString('base64');
+    return page.evaluate(async (png) => {
+        const picture = await createImageBitmap(new Blob([Uint8Array.from(atob(png), (c) => c.charCodeAt(0))]));
+        const { width, height } = picture;
+        const context = new OffscreenCanvas(16, 16).getContext('2d');
+        context.imageSmoothingQuality = 'high';
+        context.drawImage(picture, 0.62 * width, 0.75 * height, 0.3 * width, 0.22 * height, 0, 0, 16, 16);
+        const { data } = context.getImageData(0, 0, 16, 16);
+        return Math.min(...Array.from({ length: 256 }, (_, k) => Math.max(...data.slice(4 * k, 4 * k + 3))));
+    }, shown);
+}
+
+studio('the bottle comes also if it is asked for at once, and casts a shadow', kDesktop, async (page) => {
+    await page.locator('#modes [value=dew]').evaluate((mode) => {
+        mode.click();
+        document.getElementById('dew-bottle').click();  // before the options are there
+    });
+    const bare = await darkestGround(page);
+    await stateOfDew(page, 'ready');
+    await page.waitForFunction(() => document.documentElement.dataset.state === 'resting');
+    assert.equal(await page.locator('#dew-name').textContent(), 'bottle.obj');
+    const shaded = await darkestGround(page);
+    assert.ok(shaded < 0.6 * bare, `${shaded}, ${bare} without`);
+});
+
 studio('the object has its colours, and droplets are seen on it', kDesktop, async (page) => {
     await page.evaluate(() => document.querySelector('#swatches [value=white]').click());  // the first ground is bluish
     await cover(page, ...blue);
