@@ -625,7 +625,9 @@ class Studio {
                 this.#say(say('New project'));
             });
         }
-        find('open').addEventListener('click', () => find('file').click());
+        for (const button of [find('open'), find('begin-picture')]) {
+            button.addEventListener('click', () => find('file').click());
+        }
         find('file').addEventListener('change', (event) => {
             const files = [...event.target.files];
             event.target.value = '';
