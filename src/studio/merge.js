@@ -1,29 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Joins the files of several layers into one.
 import { joined } from '../../npm/bytes.js';
-
-const kJson = 0x4e4f534a;
-const kBinary = 0x004e4942;
-
-function partsOf(glb) {
-    const view = new DataView(glb.buffer, glb.byteOffset, glb.byteLength);
-    const length = view.getUint32(12, true);
-    const json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + length)));
-    return { json, binary: glb.subarray(28 + length, 28 + length + view.getUint32(20 + length, true)) };
-}
-
-function glbOf(json, binary) {
-    const text = new TextEncoder().encode(JSON.stringify(json));
-    const [first, second] = [text, binary].map(({ length }) => Math.ceil(length / 4) * 4);
-    const glb = new Uint8Array(28 + first + second).fill(0x20, 20, 20 + first);
-    const view = new DataView(glb.buffer);
-    [0x46546c67, 2, glb.length, first, kJson].forEach((word, k) => view.setUint32(4 * k, word, true));
-    glb.set(text, 20);
-    view.setUint32(20 + first, second, true);
-    view.setUint32(24 + first, kBinary, true);
-    glb.set(binary, 28 + first);
-    return glb;
-}
+import { glbPieces, partsOf } from '../html/glb.js';
 
 /** Joins GLB files of one scene each; nodes and meshes get the layers' names. */
 function mergeGlb(files, names) {
@@ -60,7 +38,7 @@ function mergeGlb(files, names) {
     if (whole.extensionsUsed.length === 0) {
         delete whole.extensionsUsed;
     }
-    return glbOf(whole, joined(binaries));
+    return joined(glbPieces(whole, binaries));
 }
 
 /** Joins OBJ files: indices of later files follow those of earlier ones. */
