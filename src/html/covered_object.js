@@ -49,7 +49,7 @@ export class CoveredObject {
     }
 
     box() {
-        return this.space;
+        return this.space.clone();  // the stage scales it
     }
 
     /** Gives the graphics card's memory back. */

@@ -81,23 +81,28 @@ export function maskOfLevels({ width, height, levels, photo }, threshold, invert
     return mask;
 }
 
-/** The mask scaled to fit into the middle of another size; unchanged if it has this size. */
-export function fitted(mask, width, height) {
-    if (mask.width === width && mask.height === height) {
-        return mask;
-    }
+/** The mask scaled, with its top left corner somewhere on a sheet of another size. */
+export function placed(mask, width, height, { left, top, scale }) {
     const image = new ImageData(mask.width, mask.height);
     mask.data.forEach((coverage, i) => { image.data[4 * i + 3] = coverage; });
     const from = new OffscreenCanvas(mask.width, mask.height);
     from.getContext('2d').putImageData(image, 0, 0);
     const context = new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true });
-    const scale = Math.min(width / mask.width, height / mask.height);
     context.imageSmoothingQuality = 'high';
-    context.drawImage(from, (width - scale * mask.width) / 2, (height - scale * mask.height) / 2, scale * mask.width, scale * mask.height);
+    context.drawImage(from, left, top, scale * mask.width, scale * mask.height);
     const { data } = context.getImageData(0, 0, width, height);
     const result = blank(width, height);
     for (let i = 0; i < result.data.length; ++i) {
         result.data[i] = data[4 * i + 3];
     }
     return result;
+}
+
+/** The mask scaled to fit into the middle of another size; unchanged if it has this size. */
+export function fitted(mask, width, height) {
+    if (mask.width === width && mask.height === height) {
+        return mask;
+    }
+    const scale = Math.min(width / mask.width, height / mask.height);
+    return placed(mask, width, height, { left: (width - scale * mask.width) / 2, top: (height - scale * mask.height) / 2, scale });
 }

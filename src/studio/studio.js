@@ -13,7 +13,7 @@ import { History } from './history.js';
 import { ImportDialog } from './import_dialog.js';
 import { beginLanguage, offerLanguages } from './language.js';
 import { buildLayers } from './layers.js';
-import { carriesDrawings, layoutOf, loadObject } from './laid_object.js';
+import { carriesDrawings, layoutOf, loadObject, withinLayout } from './laid_object.js';
 import { kLiveParts, showLive } from './live_parts.js';
 import markup from './markup.html';
 import { inkOf, lookOf } from './looks.js';
@@ -494,11 +494,12 @@ class Studio {
             if (!carriesDrawings(files[0])) {
                 throw new Error(say('only a .glb with texture coordinates can carry drawings'));
             }
-            const [object, { width, height, scene }] = [await readObject(files), this.project];
+            const [object, { width, height, scene, layers }] = [await readObject(files), this.project];
             const [shown, metres] = await Promise.all([loadObject(object), this.solver.widthOn(object, width, height)]);
             this.objects.set(object, shown);
+            const masks = withinLayout(shown, layers.map(({ mask }) => mask));
             this.#change({
-                ...this.project, object, scene: { ...scene, ground: 'object', width: Number((metres * 1e3).toPrecision(6)) },
+                ...this.project, object, layers: layers.map((layer, k) => ({ ...layer, mask: masks[k] })), scene: { ...scene, ground: 'object', width: Number((metres * 1e3).toPrecision(6)) },
                 underlay: { picture: layoutOf(shown, width, height), opacity: 0.7 },
             });
             this.#say(say('The drawing lies on {file}', { file: name }));

@@ -15,6 +15,7 @@ const { coloursOf, lookNear } = await module('studio/colours.js');
 const { History } = await module('studio/history.js');
 const { kLooks } = await module('studio/looks.js');
 const { commandOf, kLayerFields, kSceneFields, optionsOf, settingsOf } = await module('studio/physics.js');
+const { boundsOf, largestPlace } = await module('studio/largest_place.js');
 const { seedsOf } = await module('studio/mask_finder.js');
 const { levelsOf, maskOfLevels } = await module('studio/pictures.js');
 const { kTools } = await module('studio/tools.js');
@@ -238,4 +239,20 @@ test('strokes stay on a smaller picture: white on liquid, black on dry ground', 
     assert.deepEqual([...data.slice(0, 4)], [255, 255, 255, 255]);
     assert.deepEqual([...data.slice(-4)], [0, 0, 0, 255]);
     assert.equal(data.filter((value, i) => i % 4 === 3 && value > 0).length, 2);
+});
+
+test('a drawing has most room in the largest rectangle of its aspect', () => {
+    const cover = blank(192, 96);
+    const rectangle = (left, top, right, bottom) => {
+        for (let y = top; y < bottom; ++y) {
+            cover.data.fill(255, y * 192 + left, y * 192 + right);
+        }
+    };
+    rectangle(10, 10, 180, 30);
+    rectangle(100, 40, 140, 90);
+    assert.deepEqual(largestPlace(cover, 8), { left: 10, top: 10, right: 180, bottom: 30 });
+    assert.deepEqual(largestPlace(cover, 1), { left: 100, top: 40, right: 140, bottom: 90 });
+    assert.equal(largestPlace(blank(192, 96), 1), undefined);
+    assert.deepEqual(boundsOf([cover, blank(192, 96)]), { left: 10, top: 10, right: 180, bottom: 90 });
+    assert.equal(boundsOf([blank(4, 4)]), undefined);
 });

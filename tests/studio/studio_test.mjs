@@ -434,11 +434,17 @@ studio('a drawing is laid on an object', kDesktop, async (page) => {
     await page.getByRole('button', { name: 'Lay the drawing on it' }).click();
     await page.locator('#laid').waitFor();
     await settle(page);
-    // The layout of the can's texture is below; the star goes over its border.
-    assert.match(await result(page), /^No droplet lies on the object\. Draw within the lines/);
+    // The star went over the border of the layout, which is below, and has been shrunk into it.
+    assert.match(await said(page), /of water/);
+    assert.ok(await opacity(page, 0.5, 0.3) > 200);
+    assert.equal(await opacity(page, 0.5, 0.6), 0);
     assert.equal(await page.locator('#underlay').isVisible(), true);
     assert.equal(await page.locator('#scene-width').isVisible(), false);
     assert.equal(await page.locator('#scene-ground').inputValue(), 'object');
+    await page.locator('#layer-clear').click();
+    await stroke(page, [0.5, 0.5], [0.5, 0.7]);
+    await settle(page);
+    assert.match(await result(page), /^No droplet lies on the object\. Draw within the lines/);
     await page.locator('#layer-clear').click();
     await stroke(page, [0.6, 0.2], [0.75, 0.35], [0.9, 0.2]);
     await settle(page);
