@@ -115,7 +115,7 @@ await stateOfDew(bottle, 'empty');
 await bottle.locator('#dew-bottle').click();
 await stateOfDew(bottle, 'ready');
 await bottle.locator('#view').focus();
-for (const key of ['ArrowUp', '+', '+', '+']) {
+for (const key of ['ArrowUp', '+', '+']) {
     await bottle.keyboard.press(key);
 }
 await bottle.locator('#view').blur();
