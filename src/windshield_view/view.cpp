@@ -489,6 +489,10 @@ struct DriversView::Content {
         }
         std::size_t count = 0;
         std::array<std::uint8_t, kTilePixels> wet;
+        std::array<std::uint8_t, kTilePixels> alphas;
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            alphas[k] = level8(left.cover[k]);
+        }
         for (std::size_t k = 0; k < kTilePixels; ++k) {
             wet[count] = static_cast<std::uint8_t>(k);
             count += left.cover[k] > 0.0F ? 1 : 0;  // without a branch, which would be guessed wrong
@@ -503,7 +507,7 @@ struct DriversView::Content {
         }
         for (std::size_t j = 0; j < count; ++j) {
             const std::size_t k = wet[j];
-            const StraightPixel straight{seen[j], level8(left.cover[k])};
+            const StraightPixel straight{seen[j], alphas[k]};
             if (is_lit[k]) {
                 light[k] += float4((1.0F - light[k][3]) * left.cover[k]) *
                             lightOf(straight.red(), straight.green(), straight.blue());

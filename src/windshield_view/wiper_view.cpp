@@ -355,7 +355,7 @@ void WiperView::renew(const WiperState& one, FilmPixels& film, const ViewContext
     film.shifts_y[pixel] = shifted(optics.by_x.y * slope.x + optics.by_y.y * slope.y);
 }
 
-void WiperView::addFilm(const WiperState& one, const FilmPixels& film, WaterLeft& left) const
+void WiperView::addFilm(const WiperState& one, const FilmPixels& film, bool is_first, WaterLeft& left) const
 {
     const auto since = static_cast<float>(one.since);
     const float later = since + static_cast<float>(one.wiper.period);
@@ -380,6 +380,14 @@ void WiperView::addFilm(const WiperState& one, const FilmPixels& film, WaterLeft
         const float within = above * FilmPixels::kSteepness / static_cast<float>(film.steepnesses[k]);
         covers[k] = above > 0.0F ? std::min(within + 0.5F, 1.0F) : 0.0F;
         scales[k] = FilmPixels::kShift * thickness(age, std::max(above, 0.0F));
+    }
+    if (is_first) {
+        left.cover = covers;
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            left.shift_x[k] = scales[k] * static_cast<float>(film.shifts_x[k]);
+            left.shift_y[k] = scales[k] * static_cast<float>(film.shifts_y[k]);
+        }
+        return;
     }
     std::array<float, kTilePixels> is_more;
     for (std::size_t k = 0; k < kTilePixels; ++k) {
@@ -451,14 +459,17 @@ bool WiperView::reachWedge(const WiperState& one, const ViewTile& tile)
 
 void WiperView::waterLeft(std::size_t tile, WaterLeft& left) const
 {
-    left.cover.fill(0.0F);
-    left.shift_x.fill(0.0F);
-    left.shift_y.fill(0.0F);
     left.beads.clear();
+    bool is_first = true;
     for (std::size_t k = 0; k < states_.size(); ++k) {
         if (const FilmPixels* film = films_[k][tile].get(); film != nullptr && film->is_wet) {
-            addFilm(states_[k], *film, left);
+            addFilm(states_[k], *film, std::exchange(is_first, false), left);
         }
+    }
+    if (is_first) {
+        left.cover.fill(0.0F);
+        left.shift_x.fill(0.0F);
+        left.shift_y.fill(0.0F);
     }
     addWedges(tile, left);
 }

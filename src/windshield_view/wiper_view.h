@@ -102,12 +102,12 @@ private:
     struct FilmPixels {
         std::array<float, kTilePixels> there;  ///< as FilmPlace
         std::array<float, kTilePixels> along;
-        float first = 0.0F;  ///< least time `there` of the pixels that the blade passes
-        float last = -1.0F;  ///< largest one; below 0: it passes none
-        FilmOptics optics;
-        bool is_wet = false;                          ///< now (upper bound)
-        std::optional<std::uint32_t> way;             ///< last one, if it is the same for all pixels
         std::array<std::uint32_t, kTilePixels> ways;  ///< last one over each pixel
+        float first = 0.0F;                           ///< least time `there` of the pixels that the blade passes
+        float last = -1.0F;                           ///< largest one; below 0: it passes none
+        FilmOptics optics;
+        bool is_wet = false;               ///< now (upper bound)
+        std::optional<std::uint32_t> way;  ///< last one, if it is the same for all pixels
         // What it has left there. All of this is read for every frame, so it is small.
         std::array<float, kTilePixels> passed;          ///< when [s after the stroke's begin]
         std::array<std::uint16_t, kTilePixels> levels;  ///< of the field, in 1/kLevel
@@ -136,7 +136,8 @@ private:
     void renew(const WiperState& one, FilmPixels& film, const ViewContext::TilePlaces& places, std::size_t pixel,
                std::uint32_t way) const;
     /// Adds a film where it covers more than what is there.
-    void addFilm(const WiperState& one, const FilmPixels& film, WaterLeft& left) const;
+    /// @param is_first  nothing is there; what `left` has is of another tile
+    void addFilm(const WiperState& one, const FilmPixels& film, bool is_first, WaterLeft& left) const;
     void addWedges(std::size_t tile, WaterLeft& left) const;
     [[nodiscard]] static Wedge wedgeOf(const WiperState& one);
     /// Whether a wedge may be visible in a tile (upper bound).
