@@ -155,8 +155,7 @@ cli::MadeShape madeOf(droplet::Mask mask, const cli::ShapeOptions& options, cons
         settings.warnings.insert(settings.warnings.begin(), std::move(*warning));
     }
     return cli::placed(
-        {.droplet = std::move(made.droplet), .settings = std::move(settings), .input = std::move(made.input)}, around,
-        options);
+        {.droplet = std::move(made.droplet), .settings = std::move(settings), .input = std::move(made.input)}, around);
 }
 
 }  // namespace
