@@ -69,14 +69,26 @@ function notebookTest(name, given, run) {
     });
 }
 
+/** Largest difference of two pictures' levels. */
+const difference = (page, ...pngs) => page.evaluate(async (files) => {
+    const [a, b] = await Promise.all(files.map(async (file) => {
+        const picture = await createImageBitmap(await (await fetch(`data:image/png;base64,${file}`)).blob());
+        const context = new OffscreenCanvas(picture.width, picture.height).getContext('2d');
+        context.drawImage(picture, 0, 0);
+        return context.getImageData(0, 0, picture.width, picture.height).data;
+    }));
+    return a.reduce((most, level, i) => Math.max(most, Math.abs(level - b[i])), 0);
+}, pngs.map((png) => png.toString('base64')));
+
 notebookTest('the widget shows a droplet, and another one from the same side', {}, async (page) => {
     const front = await page.shown();
     assert.equal((await page.locator('canvas').boundingBox()).height, 300);
     const above = await page.shown(() => page.change('view', { elevation: 80 }));
     assert.notDeepEqual(above, front);
     assert.notDeepEqual(await page.shown(() => page.exchange(glbs[1])), above);
-    assert.deepEqual(await page.shown(() => page.exchange(glbs[0])), above);
-    assert.deepEqual(await page.shown(() => page.change('view', {})), front);
+    // The camera's place is in lengths of the other droplet meanwhile, which rounds it.
+    assert.ok(await difference(page, await page.shown(() => page.exchange(glbs[0])), above) <= 1);
+    assert.ok(await difference(page, await page.shown(() => page.change('view', {})), front) <= 1);
 });
 
 notebookTest('turning the droplet sets the view, by the mouse and by keys', { view: { azimuth: 20, elevation: 30 } }, async (page) => {
