@@ -492,7 +492,8 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
     if (const auto unit = line.value("--unit"); unit && !has_unit) {
         warn(*unit, format == droplet::Format::ThreeMf ? "are in millimetres" : "are in metres");
     }
-    if (settings.materials && !has_material && !is_shown) {
+    // On a plate, droplets of several looks and droplets by name are bodies of their own in every format.
+    if (settings.materials && !has_material && !is_shown && !settings.base) {
         warn({settings.materials->path, "--materials"}, "have no material");
     }
     const bool is_gltf = format == droplet::Format::Glb || format == droplet::Format::Gltf;
@@ -506,7 +507,8 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
                                     " files hold triangles alone, here the halves; obj, ply and usda files hold "
                                     "quadrilaterals");
     }
-    if (settings.nodes == droplet::Nodes::Each && !is_gltf && !is_usd && format != droplet::Format::ThreeMf) {
+    if (settings.nodes == droplet::Nodes::Each && !is_gltf && !is_usd && format != droplet::Format::ThreeMf &&
+        !settings.base) {
         warn({"each", "--nodes"}, "have no nodes");
     }
 }

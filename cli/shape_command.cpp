@@ -278,7 +278,9 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
             }
         } else {
             extras.in_file = droplet::withPlate(made.droplet.surface, extras.droplets.size(), plate);
-            extras.droplets.push_back({"plate", droplet::lookOf(made.settings.material)});
+            droplet::Look look = droplet::lookOf(made.settings.material);
+            look.name = "plate";  // so that droplets with the liquid's own look stay parts of their own
+            extras.droplets.push_back({"plate", std::move(look)});
         }
         extras.shown = lowered(*extras.in_file, -*base);
         // Pictures take what copies of the rim lead to for ground; here that is the underside alone.

@@ -69,7 +69,8 @@ std::string picture(const droplet::InputReport& input)
     const bool alpha = input.channel == droplet::Channel::Alpha;
     const std::string liquid = !input.palette.empty() ? counted(input.palette.size(), "colour")
                                : input.segment == droplet::Segmentation::Colour ? "one colour"
-                               : input.segment == droplet::Segmentation::Seeds  ? "what light strokes mark"
+                               : input.segment == droplet::Segmentation::Seeds
+                                   ? (input.inverted ? "what dark strokes mark" : "what light strokes mark")
                                : alpha ? (input.inverted ? "transparent" : "opaque")
                                        : (input.inverted ? "dark" : "bright");
     const std::string page = "SVG page " + millimetres(input.pixel_size * input.width_px) + " wide" +

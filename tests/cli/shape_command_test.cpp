@@ -862,7 +862,16 @@ TEST_F(ShapeCommandTest, BaseIsABodyBelowDropletsOfSeveralLooks)
     make({"two.ppm", "colours.gltf", "--by-colour", "--base", "1mm", "--width", "40mm", "--material", "milk"});
     const json materials = json::parse(bytesOf("colours.gltf"))["materials"];
     ASSERT_THAT(materials, SizeIs(3));
-    EXPECT_EQ(materials.back()["name"], "milk");
+    EXPECT_EQ(materials.back()["name"], "plate");
+    EXPECT_GT(materials.back()["pbrMetallicRoughness"]["baseColorFactor"][0].get<double>(), 0.8) << "of milk";
+    // A droplet that has the plate's look is no part of the plate.
+    writeFile(directory() / "one.toml", "[[droplet]]\nindex = 1\nmaterial = \"gold\"\n");
+    make({"two.pgm", "looks.gltf", "--materials", "one.toml", "--base", "1mm"});
+    EXPECT_THAT(json::parse(bytesOf("looks.gltf"))["materials"], SizeIs(3));
+    // Formats without nodes have bodies of their own, too.
+    const json stl = report({"two.pgm", "a.stl", "--nodes", "each", "--base", "1mm"});
+    EXPECT_EQ(stl["output"]["components"], 3);
+    EXPECT_THAT(stl["warnings"], IsEmpty());
 }
 
 TEST_F(ShapeCommandTest, WeldMakesOneVertexOfEachPlace)
