@@ -135,7 +135,7 @@ std::shared_ptr<Droplet> Droplet::make(droplet::Droplet droplet, const cli::Drop
 {
     std::optional<droplet::ObjectReport> onto;
     if (source.around.object) {
-        onto = cli::placeOnObject(droplet, *source.around.object, *settings.onto);
+        onto = cli::placeOnObject(droplet, *source.around.object, settings);
     }
     droplet::Report report = cli::describe(droplet, settings);
     report.input = std::move(source.input);
