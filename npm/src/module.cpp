@@ -258,6 +258,15 @@ void guarded(Result& result, const Function& function)
     }
 }
 
+/// A result that a function fills.
+template <typename Function>
+Result* resultOf(const Function& fill)
+{
+    auto result = std::make_unique<Result>();
+    guarded(*result, [&] { fill(*result); });
+    return result.release();
+}
+
 std::span<const std::byte> arrayOf(Result& result, Array array)
 {
     const auto kept = [](auto& place, auto numbers) {
@@ -321,12 +330,10 @@ extern "C" {
 EMSCRIPTEN_KEEPALIVE Result* droplet_make(const char* arguments, std::size_t argument_bytes, const std::byte* mask,
                                           std::size_t mask_bytes, int width, int height, int kind)
 {
-    auto result = std::make_unique<Result>();
-    guarded(*result, [&] {
-        make(*result, wordsOf(arguments, argument_bytes),
+    return resultOf([&](Result& result) {
+        make(result, wordsOf(arguments, argument_bytes),
              {{mask, mask_bytes}, width, height, static_cast<MaskKind>(kind)});
     });
-    return result.release();
 }
 
 /// Reads the mask that droplet_make would take.
@@ -334,12 +341,10 @@ EMSCRIPTEN_KEEPALIVE Result* droplet_make(const char* arguments, std::size_t arg
 EMSCRIPTEN_KEEPALIVE Result* droplet_mask(const char* arguments, std::size_t argument_bytes, const std::byte* mask,
                                           std::size_t mask_bytes, int width, int height, int kind)
 {
-    auto result = std::make_unique<Result>();
-    guarded(*result, [&] {
-        makeMask(*result, wordsOf(arguments, argument_bytes),
+    return resultOf([&](Result& result) {
+        makeMask(result, wordsOf(arguments, argument_bytes),
                  {{mask, mask_bytes}, width, height, static_cast<MaskKind>(kind)});
     });
-    return result.release();
 }
 
 /// Width of the result of droplet_mask [px].
@@ -358,10 +363,10 @@ EMSCRIPTEN_KEEPALIVE double droplet_mask_pixel_size(const Result* result)
 /// @param arguments  of `droplet-shape dew`, each ended by a zero byte
 EMSCRIPTEN_KEEPALIVE Result* droplet_dew(const char* arguments, std::size_t argument_bytes)
 {
-    auto result = std::make_unique<Result>();
-    result->is_dew = true;
-    guarded(*result, [&] { makeDew(*result, wordsOf(arguments, argument_bytes)); });
-    return result.release();
+    return resultOf([&](Result& result) {
+        result.is_dew = true;
+        makeDew(result, wordsOf(arguments, argument_bytes));
+    });
 }
 
 /// Sets how files of a covered object are written.

@@ -95,6 +95,22 @@ class PlateBuilder {
 public:
     PlateBuilder(Surface& surface, const PlateOptions& options) : surface_(surface), options_(options) {}
 
+    /// Adds the plate.
+    /// @param outline  counter-clockwise
+    /// @param top      loops that bound its top: the outline, and those of liquid
+    /// @param rim      earlier vertices at the points of `top`, or kNone; may be shorter
+    /// @return         area of its underside [m²]
+    double addPlate(const std::vector<OutlinePoint>& outline, const PlanarMesh& top,
+                    const std::vector<std::uint32_t>& rim)
+    {
+        const PlanarMesh underside = cover(loopOf(outline));
+        const std::uint32_t upper = addCover(cover(top), 0.0, true, rim);
+        const std::uint32_t lower = addCover(underside, -options_.thickness, false, {});
+        addSide(outline, upper, lower);
+        return area(underside);
+    }
+
+private:
     /// Adds a vertex.
     /// @param place   of an earlier vertex, or of its own
     std::uint32_t add(Vec3 place, Vec3 normal, std::optional<std::uint32_t> same = {})
@@ -110,12 +126,11 @@ public:
         return index;
     }
 
-    /// Adds the cover of loops, at one height.
+    /// Adds a cover of loops, at one height.
     /// @param rim  earlier vertices at the loops' points, if there are some
     /// @return     index of its first vertex
-    std::uint32_t addCover(const PlanarMesh& loops, double height, bool faces_up, const std::vector<std::uint32_t>& rim)
+    std::uint32_t addCover(const PlanarMesh& mesh, double height, bool faces_up, const std::vector<std::uint32_t>& rim)
     {
-        const PlanarMesh mesh = cover(loops);
         const auto first = static_cast<std::uint32_t>(surface_.vertices.size());
         for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
             const bool is_copy = v < rim.size() && rim[v] != kNone;
@@ -148,7 +163,6 @@ public:
         }
     }
 
-private:
     Surface& surface_;
     const PlateOptions& options_;
 };
@@ -171,20 +185,16 @@ Surface onPlate(const std::vector<CapillarySurface>& surfaces, const PlateOption
     options.validate();
     Surface surface = loft(surfaces, {.open = true, .extent = options.extent});
     const std::vector<OutlinePoint> outline = outlineAround(surface.vertices, kMargin * options.thickness);
-    const PlanarMesh plate = loopOf(outline);
-    PlanarMesh loops = plate;
+    PlanarMesh top = loopOf(outline);
     std::vector<std::uint32_t> rim(outline.size(), kNone);
     for (const std::vector<std::uint32_t>& loop : dryLoops(surface)) {
         for (const std::uint32_t v : loop) {
-            loops.vertices.push_back({surface.vertices[v].x, surface.vertices[v].y});
+            top.vertices.push_back({surface.vertices[v].x, surface.vertices[v].y});
             rim.push_back(v);
         }
-        loops.loop_starts.push_back(static_cast<std::uint32_t>(loops.vertices.size()));
+        top.loop_starts.push_back(static_cast<std::uint32_t>(top.vertices.size()));
     }
-    PlateBuilder builder(surface, options);
-    const std::uint32_t top = builder.addCover(loops, 0.0, true, rim);
-    const std::uint32_t bottom = builder.addCover(plate, -options.thickness, false, {});
-    builder.addSide(outline, top, bottom);
+    PlateBuilder(surface, options).addPlate(outline, top, rim);
     SurfacePart whole{.vertices = surface.vertices.size(), .triangles = surface.triangles.size()};
     for (const SurfacePart& part : surface.parts) {
         whole.volume += part.volume;
@@ -203,14 +213,9 @@ Surface withPlate(Surface droplets, std::size_t number, const PlateOptions& opti
     SurfacePart plate{
         .droplet = number, .first_vertex = droplets.vertices.size(), .first_triangle = droplets.triangles.size()};
     const std::vector<OutlinePoint> outline = outlineAround(droplets.vertices, kMargin * options.thickness);
-    const PlanarMesh loop = loopOf(outline);
-    PlateBuilder builder(droplets, options);
-    const std::uint32_t top = builder.addCover(loop, 0.0, true, {});
-    const std::uint32_t bottom = builder.addCover(loop, -options.thickness, false, {});
-    builder.addSide(outline, top, bottom);
+    plate.area = PlateBuilder(droplets, options).addPlate(outline, loopOf(outline), {});
     plate.vertices = droplets.vertices.size() - plate.first_vertex;
     plate.triangles = droplets.triangles.size() - plate.first_triangle;
-    plate.area = area(cover(loop));
     droplets.parts.push_back(plate);
     return droplets;
 }
