@@ -152,16 +152,15 @@ struct GlassMapFrames::Content {
     {
         const auto columns = static_cast<std::size_t>(width());
         const double scale = 65535.0 * WaterPixel::kThickness / options.full_thickness;
-        double left_over = 0.0;  // in steps, as what follows
+        double wanted = 0.0;  // of all pixels up to here, in steps, as what follows
+        std::int64_t written = 0;
         for (std::size_t at = row * columns; at < (row + 1) * columns; ++at) {
             const WaterPixel& water = sums.water()[at];
-            std::uint16_t& level = maps.thickness.levels[at];
-            level = 0;
-            if (water.cover != 0 && water.thickness > 0) {
-                const double wanted = scale * static_cast<double>(water.thickness) + left_over;
-                level = levelOf(wanted);
-                left_over = std::min(std::max(wanted - level, -1.0), 1.0);
-            }
+            const double thickness = water.cover != 0 ? static_cast<double>(water.thickness) : 0.0;
+            wanted += std::min(std::max(scale * thickness, 0.0), 65535.0);
+            const auto so_far = static_cast<std::int64_t>(wanted + 0.5);
+            maps.thickness.levels[at] = static_cast<std::uint16_t>(so_far - written);
+            written = so_far;
         }
     }
 };

@@ -14,12 +14,17 @@ const SmoothNoise& sampledNoise()
 
 RunoffRelief::RunoffRelief(Vec2 drift) : noise_(&sampledNoise())
 {
-    // Long waves run half as fast. The field repeats.
-    const auto run = [](double way, float per_metre) {
-        return static_cast<float>(std::remainder(way * static_cast<double>(per_metre), double{SmoothNoise::kWaves}));
+    // Long waves run half as fast, and rims rest. The fields repeat.
+    const auto run = [&](Field field, double share) {
+        const auto along = [&](double way, float per_metre) {
+            return static_cast<float>(
+                std::remainder(share * way * static_cast<double>(per_metre), double{SmoothNoise::kWaves}));
+        };
+        shifts_[field] = {along(drift.x, kPerMetre[field].x), along(drift.y, kPerMetre[field].y)};
     };
-    long_run_ = {run(0.5 * drift.x, kLong), run(0.5 * drift.y, kHigh)};
-    short_run_ = {run(drift.x, kShort), run(drift.y, kShort)};
+    run(kLongWaves, 0.5);
+    run(kShortWaves, 1.0);
+    shifts_[kShortWaves].x += 3.0F;  // the four are parts of one field
 }
 
 }  // namespace droplet

@@ -2,10 +2,15 @@
 //
 // Fields that are chosen by eye: where a film's rims are when it is thin, and the waves that run over it, an
 // orange-peel of bumps.
+//
+// A film's thickness, and all that follows from it, is a Float4: a value, its slopes along the glass's x and y, and a
+// number without meaning.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "droplet/vector.h"
 #include "windshield_view/glass_frame.h"
@@ -13,15 +18,12 @@
 
 namespace droplet {
 
-/// Value and its slopes along the glass's x and y.
-struct Sloped {
-    float value = 0.0F;
-    Vec2f slope;
-};
-
 /// What the film of heavy rain has that is finer than its cells: irregular rims where it is thin, and waves that run
 /// over it. rain.glsl draws the same.
 class RunoffRelief {
+    /// Random fields of which the relief consists.
+    enum Field : std::size_t { kCoarseRim, kFineRim, kLongWaves, kShortWaves, kFields };
+
 public:
     /// @param drift  way that the waves have run [m]
     explicit RunoffRelief(Vec2 drift);
@@ -29,76 +31,118 @@ public:
     /// Surface of a film within a pixel.
     struct Surface {
         float cover = 0.0F;  ///< share of the pixel that the film covers; 0 or less: none
-        Vec2f slope;         ///< along the glass's x and y
+        Float4 relief{};     ///< its slopes along the glass's x and y are those of the surface
     };
-    /// @param thickness  of the film without waves [m]
-    /// @param pixel      width of the pixel [m]
-    /// @param covered    share of the pixel that other water covers; a film that covers no more has no slope
-    [[nodiscard]] Surface at(Vec2f place, const Sloped& thickness, float pixel, float covered = 0.0F) const;
+    /// @param film     thickness without waves [m]
+    /// @param pixel    width of the pixel [m]
+    /// @param covered  share of the pixel that other water covers; a film that covers no more has no slope
+    [[nodiscard]] Surface at(Vec2f place, const Float4& film, float pixel, float covered = 0.0F) const;
+
+    // The same for the pixels of a raster, for which columns are computed once.
+
+    /// Place along x.
+    using Column = std::array<SmoothNoise::Place, kFields>;
+    [[nodiscard]] Column columnOf(float x) const;
+    /// Places with one y.
+    class Row {
+    public:
+        Row(const RunoffRelief& relief, float y);
+
+        /// As RunoffRelief::at(), up to rounding.
+        [[nodiscard]] Surface at(const Column& column, const Float4& film, float pixel) const;
+
+    private:
+        std::array<SmoothNoise::Row, kFields> fields_;
+    };
 
 private:
-    // Waves per metre.
-    static constexpr float kLong = 1.0F / 7e-3F;
-    static constexpr float kHigh = 1.0F / 5e-3F;  // of long ones, up the glass
-    static constexpr float kShort = 1.0F / 2.9e-3F;
+    /// Waves of the fields per metre; long ones are longer across the glass.
+    static constexpr std::array<Vec2f, kFields> kPerMetre{Vec2f{1.0F / 5e-3F, 1.0F / 5e-3F},
+                                                          {1.0F / 1.7e-3F, 1.0F / 1.7e-3F},
+                                                          {1.0F / 7e-3F, 1.0F / 5e-3F},
+                                                          {1.0F / 2.9e-3F, 1.0F / 2.9e-3F}};
+    static constexpr float kWaves = 0.8F;  ///< height of waves over the thickness
+    /// Their heights: of rims over the width of a rim, of waves over the thickness.
+    static constexpr std::array<float, kFields> kHeights{0.9F, 0.5F, kWaves, 0.6F * kWaves};
 
-    [[nodiscard]] Sloped distanceFromRim(Vec2f place, const Sloped& thickness) const;
-    [[nodiscard]] Sloped wavesAt(Vec2f place) const;
+    /// Factors of a field and of its slopes in its waves.
+    static constexpr Float4 factorsOf(Field field)
+    {
+        return Float4{kHeights[field], kHeights[field] * kPerMetre[field].x, kHeights[field] * kPerMetre[field].y,
+                      0.0F};
+    }
+    /// @param value_of  value of a field at the place, times its factors
+    template <typename ValueOf>
+    static Surface surface(const Float4& film, float pixel, float covered, const ValueOf& value_of);
+    [[nodiscard]] SmoothNoise::Row rowOf(Field field, float y) const
+    {
+        return {*noise_, kPerMetre[field].y * y - shifts_[field].y, factorsOf(field)};
+    }
 
     const SmoothNoise* noise_;
-    Vec2f long_run_;  ///< of the waves, in their lengths
-    Vec2f short_run_;
+    std::array<Vec2f, kFields> shifts_{};  ///< that the fields have run, in their waves
 };
 
 // Below, all is inlined: small structures of floats that are returned pass through memory.
 
-[[gnu::always_inline]] inline Sloped RunoffRelief::distanceFromRim(Vec2f place, const Sloped& thickness) const
+template <typename ValueOf>
+[[gnu::always_inline]] inline RunoffRelief::Surface RunoffRelief::surface(const Float4& film, float pixel,
+                                                                          float covered, const ValueOf& value_of)
 {
-    constexpr float kThin = 1.0F / 50e-6F;   // over the thickness where rims are
-    constexpr float kCoarse = 1.0F / 5e-3F;  // waves of the rims per metre
-    constexpr float kFine = 1.0F / 1.7e-3F;
-    const Float4 coarse = noise_->at(kCoarse * place.x, kCoarse * place.y);
-    const Float4 fine = noise_->at(kFine * place.x, kFine * place.y);
-    return {kThin * thickness.value + 0.9F * coarse[0] + 0.5F * fine[0] - 1.25F,
-            {kThin * thickness.slope.x + 0.9F * kCoarse * coarse[1] + 0.5F * kFine * fine[1],
-             kThin * thickness.slope.y + 0.9F * kCoarse * coarse[2] + 0.5F * kFine * fine[2]}};
-}
-
-[[gnu::always_inline]] inline Sloped RunoffRelief::wavesAt(Vec2f place) const
-{
-    const Float4 large = noise_->at(kLong * place.x - long_run_.x, kHigh * place.y - long_run_.y);
-    const Float4 small = noise_->at(kShort * place.x - 3.0F - short_run_.x, kShort * place.y - short_run_.y);
-    return {large[0] + 0.6F * small[0] - 0.8F,
-            {kLong * large[1] + 0.6F * kShort * small[1], kHigh * large[2] + 0.6F * kShort * small[2]}};
-}
-
-[[gnu::always_inline]] inline RunoffRelief::Surface RunoffRelief::at(Vec2f place, const Sloped& thickness, float pixel,
-                                                                     float covered) const
-{
-    constexpr float kThinnest = 2e-6F;  // [m]
-    constexpr float kWhole = 110e-6F;   // so thick a film has no rims [m]
-    if (thickness.value < kThinnest) {
+    constexpr float kThinnest = 2e-6F;              // [m]
+    constexpr float kWhole = 110e-6F;               // so thick a film has no rims [m]
+    constexpr float kPerThickness = 1.0F / 50e-6F;  // over the thickness where rims are
+    constexpr float kRounded = 0.8F;                // distance from the rim where the film is flat
+    const float thickness = film[0];
+    if (thickness < kThinnest) {
         return {};
     }
-    const Sloped rim = thickness.value < kWhole ? distanceFromRim(place, thickness) : Sloped{1.0F, {}};
-    const float wide = std::max(std::sqrt(rim.slope.x * rim.slope.x + rim.slope.y * rim.slope.y) * pixel, 0.05F);
-    const float cover = std::min(rim.value / wide, 1.0F);
+    // Distance from the rim.
+    const Float4 rim = thickness < kWhole ? float4(kPerThickness) * film + value_of(kCoarseRim) + value_of(kFineRim) -
+                                                Float4{1.25F, 0.0F, 0.0F, 0.0F}
+                                          : Float4{1.0F, 0.0F, 0.0F, 0.0F};
+    const float wide = std::max(std::sqrt(rim[1] * rim[1] + rim[2] * rim[2]) * pixel, 0.05F);
+    const float cover = std::min(rim[0] / wide, 1.0F);
     if (!(cover > covered)) {
-        return {cover, {}};
+        return {cover, float4(0.0F)};
     }
-    constexpr float kWaves = 0.8F;    // height of waves over the thickness
-    constexpr float kRounded = 0.8F;  // distance from the rim where the film is flat
-    const Sloped waves = wavesAt(place);
-    const float t = std::min(rim.value / kRounded, 1.0F);
+    const Float4 high = value_of(kLongWaves) + value_of(kShortWaves) + Float4{1.0F - 0.8F * kWaves, 0.0F, 0.0F, 0.0F};
+    const float t = std::min(rim[0] * (1.0F / kRounded), 1.0F);
     const float rounded = t * t * (3.0F - 2.0F * t);
-    const float by_rim = t < 1.0F ? 6.0F * t * (1.0F - t) / kRounded : 0.0F;
-    const float high = 1.0F + kWaves * waves.value;
-    const auto sum = [&](float film, float wave, float at_rim) {
-        return high * rounded * film + kWaves * thickness.value * rounded * wave +
-               thickness.value * high * by_rim * at_rim;
-    };
-    return {cover,
-            {sum(thickness.slope.x, waves.slope.x, rim.slope.x), sum(thickness.slope.y, waves.slope.y, rim.slope.y)}};
+    const float by_rim = 6.0F * t * (1.0F - t) / kRounded;
+    // Slopes of the product of `high`, `rounded` and the thickness.
+    return {cover, float4(high[0] * rounded) * film + float4(thickness * rounded) * high +
+                       float4(thickness * high[0] * by_rim) * rim};
+}
+
+[[gnu::always_inline]] inline RunoffRelief::Surface RunoffRelief::at(Vec2f place, const Float4& film, float pixel,
+                                                                     float covered) const
+{
+    return surface(film, pixel, covered, [&](Field field) {
+        return factorsOf(field) * noise_->at(kPerMetre[field].x * place.x - shifts_[field].x,
+                                             kPerMetre[field].y * place.y - shifts_[field].y);
+    });
+}
+
+inline RunoffRelief::Column RunoffRelief::columnOf(float x) const
+{
+    Column column;
+    for (std::size_t field = 0; field < kFields; ++field) {
+        column[field] = SmoothNoise::placeOf(kPerMetre[field].x * x - shifts_[field].x);
+    }
+    return column;
+}
+
+inline RunoffRelief::Row::Row(const RunoffRelief& relief, float y)
+    : fields_{relief.rowOf(kCoarseRim, y), relief.rowOf(kFineRim, y), relief.rowOf(kLongWaves, y),
+              relief.rowOf(kShortWaves, y)}
+{
+}
+
+[[gnu::always_inline]] inline RunoffRelief::Surface RunoffRelief::Row::at(const Column& column, const Float4& film,
+                                                                          float pixel) const
+{
+    return surface(film, pixel, 0.0F, [&](Field field) { return fields_[field].at(column[field]); });
 }
 
 }  // namespace droplet

@@ -62,7 +62,7 @@ void RunoffView::update(const Runoff& film)
     });
 }
 
-[[gnu::always_inline]] inline Sloped RunoffView::thicknessAt(Vec2f place) const
+[[gnu::always_inline]] inline Float4 RunoffView::thicknessAt(Vec2f place) const
 {
     const float x = std::clamp(place.x * per_metre_, 0.0F, static_cast<float>(columns_));
     const float y = std::clamp(place.y * per_metre_, 0.0F, static_cast<float>(rows_));
@@ -80,15 +80,13 @@ void RunoffView::update(const Runoff& film)
     const Weights wy = weights(y - static_cast<float>(row));
     const int across = columns_ + 2 * kBorder;
     const float* from = thickness_.data() + std::ptrdiff_t{row + kBorder - 1} * across + column + kBorder - 1;
-    Sloped thickness;
+    Float4 thickness = float4(0.0F);
     for (std::size_t j = 0; j < 3; ++j, from += across) {
         const float value = wx.of[0] * from[0] + wx.of[1] * from[1] + wx.of[2] * from[2];
-        thickness.value += wy.of[j] * value;
-        thickness.slope.x += wy.of[j] * (wx.slope[0] * from[0] + wx.slope[1] * from[1] + wx.slope[2] * from[2]);
-        thickness.slope.y += wy.slope[j] * value;
+        const float slope = wx.slope[0] * from[0] + wx.slope[1] * from[1] + wx.slope[2] * from[2];
+        thickness += Float4{wy.of[j], wy.of[j], wy.slope[j], 0.0F} * Float4{value, slope, value, 0.0F};
     }
-    thickness.slope = {per_metre_ * thickness.slope.x, per_metre_ * thickness.slope.y};
-    return thickness;
+    return thickness * Float4{1.0F, per_metre_, per_metre_, 0.0F};
 }
 
 void RunoffView::add(std::size_t tile, WaterLeft& left) const
@@ -104,8 +102,8 @@ void RunoffView::add(std::size_t tile, WaterLeft& left) const
         const RunoffRelief::Surface film = relief_->at(place, thicknessAt(place), places.pixel, left.cover[k]);
         if (film.cover > left.cover[k]) {
             left.cover[k] = film.cover;
-            left.shift_x[k] = optics.by_x.x * film.slope.x + optics.by_y.x * film.slope.y;
-            left.shift_y[k] = optics.by_x.y * film.slope.x + optics.by_y.y * film.slope.y;
+            left.shift_x[k] = optics.by_x.x * film.relief[1] + optics.by_y.x * film.relief[2];
+            left.shift_y[k] = optics.by_x.y * film.relief[1] + optics.by_y.y * film.relief[2];
         }
     }
 }

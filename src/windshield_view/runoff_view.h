@@ -28,7 +28,7 @@ public:
     void add(std::size_t tile, WaterLeft& left) const;
 
 private:
-    [[nodiscard]] Sloped thicknessAt(Vec2f place) const;
+    [[nodiscard]] Float4 thicknessAt(Vec2f place) const;
 
     const ViewContext& scene_;
     float cell_ = 0.0F;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -49,8 +50,11 @@ NoiseValue fieldFrom(float u, float v, const Number& number)
 
 /// Smooth random field from 0 to 1 with waves of a unit's length, which repeats. It is sampled once.
 class SmoothNoise {
+    static constexpr std::int32_t kPerWave = 8;
+
 public:
     static constexpr std::int32_t kWaves = 32;  ///< after which it repeats
+    static constexpr std::int32_t kSamples = kWaves * kPerWave;
 
     SmoothNoise() : samples_(std::size_t{kSamples} * kSamples)
     {
@@ -77,10 +81,45 @@ public:
         return lower + float4(y - static_cast<float>(row)) * (upper - lower);
     }
 
-private:
-    static constexpr std::int32_t kPerWave = 8;
-    static constexpr std::int32_t kSamples = kWaves * kPerWave;
+    /// Place of a u between samples.
+    struct Place {
+        std::uint32_t sample = 0;  ///< before it
+        float beyond = 0.0F;       ///< the way to the next one that it is beyond
+    };
+    static Place placeOf(float u)
+    {
+        const float x = kPerWave * u;
+        const std::int32_t column = floorOf(x);
+        return {static_cast<std::uint32_t>(column & (kSamples - 1)), x - static_cast<float>(column)};
+    }
 
+    /// The field at one v, times factors.
+    class Row {
+    public:
+        /// @param factors  of value and slopes
+        Row(const SmoothNoise& field, float v, const Float4& factors)
+        {
+            const float y = kPerWave * v;
+            const std::int32_t row = floorOf(y);
+            const Float4 up = float4(y - static_cast<float>(row));
+            for (std::int32_t column = 0; column <= kSamples; ++column) {
+                const Float4& lower = field.samples_[index(column, row)];
+                samples_[static_cast<std::size_t>(column)] =
+                    factors * (lower + up * (field.samples_[index(column, row + 1)] - lower));
+            }
+        }
+
+        [[nodiscard]] Float4 at(const Place& place) const
+        {
+            const Float4* const from = samples_.data() + place.sample;
+            return from[0] + float4(place.beyond) * (from[1] - from[0]);
+        }
+
+    private:
+        std::array<Float4, kSamples + 1> samples_;  ///< the last is the first
+    };
+
+private:
     static std::size_t index(std::int32_t column, std::int32_t row)
     {
         return static_cast<std::size_t>(row & (kSamples - 1)) * kSamples +

@@ -49,16 +49,6 @@ Vec2 reachOf(const WaterDrop& drop, Vec2 along)
 
 }  // namespace
 
-Vec3f WaterPixel::normal() const
-{
-    constexpr std::int32_t kWhole = 262'144;
-    const auto x = static_cast<float>(slope[0]);
-    const auto y = static_cast<float>(slope[1]);
-    const auto z = static_cast<float>(up + std::max(kWhole - cover, 0));
-    const float scale = 1.0F / std::sqrt(x * x + y * y + z * z);
-    return {scale * x, scale * y, scale * z};
-}
-
 /// Sums over the sample places in a pixel that lie on a droplet, in its frame.
 struct WaterRaster::Samples {
     int count = 0;

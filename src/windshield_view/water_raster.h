@@ -3,7 +3,9 @@
 // was added can be taken away again without a rest.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -49,7 +51,15 @@ struct WaterPixel {
     }
     friend bool operator==(const WaterPixel&, const WaterPixel&) = default;
     /// Mean outward unit normal.
-    [[nodiscard]] Vec3f normal() const;
+    [[nodiscard]] Vec3f normal() const
+    {
+        constexpr std::int32_t kWhole = 262'144;
+        const auto x = static_cast<float>(slope[0]);
+        const auto y = static_cast<float>(slope[1]);
+        const auto z = static_cast<float>(up + std::max(kWhole - cover, 0));
+        const float scale = 1.0F / std::sqrt(x * x + y * y + z * z);
+        return {scale * x, scale * y, scale * z};
+    }
 };
 
 /// The same of running droplets alone.

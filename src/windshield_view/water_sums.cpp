@@ -49,19 +49,35 @@ void WaterSums::updateFilm(const Runoff& film)
     if (film.thickness.empty() && film_.empty()) {
         return;
     }
-    std::vector<WaterPixel> now =
-        film.thickness.empty() ? std::vector<WaterPixel>(water_.size()) : filmOn(raster_, film);
+    const bool is_there = !film.thickness.empty();
     film_.resize(water_.size());
-    forBlocks(water_.size(), [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k) {
-            if (!(now[k] == film_[k])) {
-                water_[k].add(now[k], 1);
-                water_[k].add(film_[k], -1);
-                is_changed_[k] = 1;
+    const auto columns = static_cast<std::size_t>(raster_.width());
+    const std::optional<FilmRaster> raster =
+        is_there ? std::optional<FilmRaster>(std::in_place, raster_, film) : std::nullopt;
+    constexpr std::size_t kRows = 16;  // that a thread takes
+    forBlocks(
+        static_cast<std::size_t>(raster_.height()),
+        [&](std::size_t first, std::size_t last) {
+            std::vector<WaterPixel> now(columns);
+            for (std::size_t row = first; row < last; ++row) {
+                if (raster) {
+                    raster->row(row, now);
+                }
+                for (std::size_t column = 0; column < columns; ++column) {
+                    const std::size_t k = row * columns + column;
+                    if (!(now[column] == film_[k])) {
+                        water_[k].add(now[column], 1);
+                        water_[k].add(film_[k], -1);
+                        film_[k] = now[column];
+                        is_changed_[k] = 1;
+                    }
+                }
             }
-        }
-    });
-    film_ = std::move(now);
+        },
+        kRows);
+    if (!is_there) {
+        film_.clear();
+    }
 }
 
 void WaterSums::add(std::span<const WaterStamp> stamps, int sign)

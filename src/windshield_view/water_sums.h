@@ -48,10 +48,13 @@ public:
         std::uint8_t* const begin = is_changed_.data() + row * columns;
         std::uint8_t* const end = begin + columns;
         bool is_any = false;
-        const auto next = [end](std::uint8_t* from) {  // most pixels have not changed
-            return static_cast<std::uint8_t*>(std::memchr(from, 1, static_cast<std::size_t>(end - from)));
-        };
-        for (std::uint8_t* one = next(begin); one != nullptr; one = next(one + 1)) {
+        for (std::uint8_t* one = begin; one != end; ++one) {
+            if (*one == 0) {  // most pixels have not changed, unless a film runs over them
+                one = static_cast<std::uint8_t*>(std::memchr(one, 1, static_cast<std::size_t>(end - one)));
+                if (one == nullptr) {
+                    break;
+                }
+            }
             *one = 0;
             is_any = true;
             work(static_cast<std::size_t>(one - is_changed_.data()));

@@ -52,13 +52,6 @@ constexpr float kRoundAcross = static_cast<float>(kThickAcross) * kWide;  // lik
 constexpr std::int32_t kSamplesAlong = 256;
 constexpr std::int32_t kSamplesAcross = 512;
 
-/// As std::exp(x) for x >= 0: its inverse is exact to 1e-4.
-float rise(float x)
-{
-    const float root = 1.0F + x * (1.0F / 4.0F + x * (1.0F / 32.0F + x * (1.0F / 384.0F + x * (1.0F / 6144.0F))));
-    return root * root * root * root;
-}
-
 // Level below which the glass is bare, by the film's age.
 constexpr float kBareAtOnce = 0.12F;
 float bareLevel(float age)
@@ -78,10 +71,10 @@ float dryAge(float level)
 float thickness(float age, float above)
 {
     constexpr float kThick = 4.5e-5F;  // [m]
-    // 0.35 + 0.65 exp(-age / 0.3 s) of 1 + 1.2 exp(-above / 0.05), by one division.
-    const float old = rise(age * (1.0F / 0.3F));
-    const float high = rise(above * (1.0F / 0.05F));
-    return kThick * (0.35F * old + 0.65F) * (high + 1.2F) / (old * high);
+    constexpr float kRim = 0.15F;      // of the level
+    const float old = age * (1.0F / kFilmLasts);
+    const float at_rim = std::max(1.0F - above * (1.0F / kRim), 0.0F);
+    return kThick * (1.0F - 0.6F * old * (2.0F - old)) * (1.0F + 1.2F * at_rim * at_rim);
 }
 
 Vec2f toFloats2(Vec2 v)
