@@ -107,8 +107,12 @@ vec2 filmAt(vec2 position)
     if (mean < 2e-3) {
         return vec2(0.0, -1.0);
     }
-    float waves = noise((position - 0.5 * drift) / vec2(7e-3, 5e-3)) + 0.6 * noise((position - drift) / 2.9e-3 - vec2(3.0, 0.0)) - 0.8;
-    float lies = mean / 0.05 + 0.9 * noise(position / 5e-3) + 0.5 * noise(position / 1.7e-3) - 1.25;
+    // Grids in different directions hide one another.
+    const mat2 kLeft = mat2(0.8, 0.6, -0.6, 0.8);
+    const mat2 kRight = mat2(0.6, -0.8, 0.8, 0.6);
+    float waves = noise(kLeft * ((position - 0.5 * drift) / vec2(5e-3, 10e-3))) +
+        0.6 * noise(kRight * ((position - drift) / vec2(2.9e-3, 4.8e-3))) - 0.8;
+    float lies = mean / 0.05 + 0.9 * noise(kLeft * position / 5e-3) + 0.5 * noise(kRight * position / 1.7e-3) - 1.25;
     return vec2(mean * (1.0 + 0.8 * waves) * smoothstep(0.0, 0.8, lies), lies);
 }
 

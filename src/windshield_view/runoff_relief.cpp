@@ -18,7 +18,7 @@ RunoffRelief::RunoffRelief(Vec2 drift) : noise_(&sampledNoise())
     const auto run = [&](Field field, double share) {
         const auto along = [&](double way, float per_metre) {
             return static_cast<float>(
-                std::remainder(share * way * static_cast<double>(per_metre), double{SmoothNoise::kWaves}));
+                std::remainder(share * way * static_cast<double>(per_metre), double{SmoothNoise::kUnits}));
         };
         shifts_[field] = {along(drift.x, kPerMetre[field].x), along(drift.y, kPerMetre[field].y)};
     };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Fields that are chosen by eye: where a film's rims are when it is thin, and the waves that run over it, an
-// orange-peel of bumps.
+// Fields that are chosen by eye: where a film's rims are when it is thin, and the waves that run over it.
 //
 // A film's thickness, and all that follows from it, is a Float4: a value, its slopes along the glass's x and y, and a
 // number without meaning.
@@ -56,16 +55,16 @@ public:
     };
 
 private:
-    /// Waves of the fields per metre; long ones are longer across the glass.
+    /// Units of the fields per metre; waves are longer up the glass, which a driver sees shortened.
     static constexpr std::array<Vec2f, kFields> kPerMetre{Vec2f{1.0F / 5e-3F, 1.0F / 5e-3F},
                                                           {1.0F / 1.7e-3F, 1.0F / 1.7e-3F},
-                                                          {1.0F / 7e-3F, 1.0F / 5e-3F},
-                                                          {1.0F / 2.9e-3F, 1.0F / 2.9e-3F}};
+                                                          {1.0F / 5e-3F, 1.0F / 10e-3F},
+                                                          {1.0F / 2.9e-3F, 1.0F / 4.8e-3F}};
     static constexpr float kWaves = 0.8F;  ///< height of waves over the thickness
     /// Their heights: of rims over the width of a rim, of waves over the thickness.
     static constexpr std::array<float, kFields> kHeights{0.9F, 0.5F, kWaves, 0.6F * kWaves};
 
-    /// Factors of a field and of its slopes in its waves.
+    /// Factors of a field and of its slopes in its units.
     static constexpr Float4 factorsOf(Field field)
     {
         return Float4{kHeights[field], kHeights[field] * kPerMetre[field].x, kHeights[field] * kPerMetre[field].y,
@@ -80,7 +79,7 @@ private:
     }
 
     const SmoothNoise* noise_;
-    std::array<Vec2f, kFields> shifts_{};  ///< that the fields have run, in their waves
+    std::array<Vec2f, kFields> shifts_{};  ///< that the fields have run, in their units
 };
 
 // Below, all is inlined: small structures of floats that are returned pass through memory.

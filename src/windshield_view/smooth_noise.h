@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "hashed_number.h"
@@ -48,20 +49,43 @@ NoiseValue fieldFrom(float u, float v, const Number& number)
             6.0F * y * (1.0F - y) * (c - a + sx * twist)};
 }
 
-/// Smooth random field from 0 to 1 with waves of a unit's length, which repeats. It is sampled once.
+/// Smooth random field around 0.5, with waves of two to three units in all directions, which repeats: a grid of random
+/// numbers would be seen as one. It is sampled once.
 class SmoothNoise {
-    static constexpr std::int32_t kPerWave = 8;
+    static constexpr std::int32_t kPerUnit = 8;
 
 public:
-    static constexpr std::int32_t kWaves = 32;  ///< after which it repeats
-    static constexpr std::int32_t kSamples = kWaves * kPerWave;
+    static constexpr std::int32_t kUnits = 32;  ///< after which it repeats
+    static constexpr std::int32_t kSamples = kUnits * kPerUnit;
 
-    SmoothNoise() : samples_(std::size_t{kSamples} * kSamples)
+    SmoothNoise() : samples_(std::size_t{kSamples} * kSamples, Float4{0.5F, 0.0F, 0.0F, 0.0F})
     {
-        for (std::int32_t row = 0; row < kSamples; ++row) {
-            for (std::int32_t column = 0; column < kSamples; ++column) {
-                samples_[index(column, row)] =
-                    sample(static_cast<float>(column) / kPerWave, static_cast<float>(row) / kPerWave);
+        constexpr std::uint32_t kWaves = 48;
+        // Mean squares of value and slopes are those of a grid of numbers from 0 to 1: a deviation of 0.214, and 0.405
+        // waves in a unit.
+        const float height = 0.214F * std::sqrt(2.0F / static_cast<float>(kWaves));
+        constexpr float kRound = 2.0F * std::numbers::pi_v<float>;
+        std::array<float, kSamples> cosines;
+        for (std::size_t k = 0; k < cosines.size(); ++k) {
+            cosines[k] = height * std::cos(kRound / static_cast<float>(kSamples) * static_cast<float>(k));
+        }
+        for (std::uint32_t wave = 0; wave < kWaves; ++wave) {
+            const float direction =
+                kRound * (static_cast<float>(wave) + hashedNumber(2 * wave)) / static_cast<float>(kWaves);
+            const float number = kUnits * 0.405F * (0.7F + 0.6F * hashedNumber(3 * wave + 1));
+            const auto across = static_cast<std::int32_t>(std::lround(number * std::cos(direction)));
+            const auto down = static_cast<std::int32_t>(std::lround(number * std::sin(direction)));
+            const auto phase = static_cast<std::int32_t>(kSamples * hashedNumber(5 * wave + 2));
+            for (std::int32_t row = 0; row < kSamples; ++row) {
+                for (std::int32_t column = 0; column < kSamples; ++column) {
+                    const std::int32_t at = across * column + down * row + phase;
+                    const auto value = [&](std::int32_t k) {
+                        return cosines[static_cast<std::size_t>(k & (kSamples - 1))];
+                    };
+                    const float slope = kRound / kUnits * value(at + kSamples / 4);
+                    samples_[index(column, row)] +=
+                        Float4{value(at), slope * static_cast<float>(across), slope * static_cast<float>(down), 0.0F};
+                }
             }
         }
     }
@@ -69,8 +93,8 @@ public:
     /// Value, and its slopes along u and v.
     [[nodiscard]] Float4 at(float u, float v) const
     {
-        const float x = kPerWave * u;
-        const float y = kPerWave * v;
+        const float x = kPerUnit * u;
+        const float y = kPerUnit * v;
         const std::int32_t column = floorOf(x);
         const std::int32_t row = floorOf(y);
         const Float4 across = float4(x - static_cast<float>(column));
@@ -88,7 +112,7 @@ public:
     };
     static Place placeOf(float u)
     {
-        const float x = kPerWave * u;
+        const float x = kPerUnit * u;
         const std::int32_t column = floorOf(x);
         return {static_cast<std::uint32_t>(column & (kSamples - 1)), x - static_cast<float>(column)};
     }
@@ -99,7 +123,7 @@ public:
         /// @param factors  of value and slopes
         Row(const SmoothNoise& field, float v, const Float4& factors)
         {
-            const float y = kPerWave * v;
+            const float y = kPerUnit * v;
             const std::int32_t row = floorOf(y);
             const Float4 up = float4(y - static_cast<float>(row));
             for (std::int32_t column = 0; column <= kSamples; ++column) {
@@ -124,14 +148,6 @@ private:
     {
         return static_cast<std::size_t>(row & (kSamples - 1)) * kSamples +
                static_cast<std::size_t>(column & (kSamples - 1));
-    }
-
-    static Float4 sample(float u, float v)
-    {
-        const NoiseValue field = fieldFrom(u, v, [](std::int32_t column, std::int32_t row) {
-            return hashedNumber(static_cast<std::uint32_t>(row % kWaves * kWaves + column % kWaves) * 0x9e3779b9U);
-        });
-        return Float4{field.value, field.by_u, field.by_v, 0.0F};
     }
 
     std::vector<Float4> samples_;

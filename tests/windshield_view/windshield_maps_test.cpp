@@ -307,9 +307,9 @@ TEST(FilmInMaps, WavesRunAndTakeNoWaterAlong)
     const GlassFloatMaps after = maps(3e-3);
     EXPECT_EQ(before.thickness.values, after.thickness.values);
     EXPECT_NE(before.normal.values, after.normal.values);
-    // Both kinds of waves repeat after 32 of them: long ones, which run half as fast, every 0.32 m, and short ones
-    // every 0.0928 m; 9.28 m is a multiple of both.
-    const GlassFloatMaps around = maps(9.28);
+    // Both kinds of waves repeat after 32 units: long ones, which run half as fast, every 0.64 m, and short ones every
+    // 0.1536 m; 3.84 m is a multiple of both.
+    const GlassFloatMaps around = maps(3.84);
     for (std::size_t k = 0; k < before.normal.values.size(); ++k) {
         ASSERT_NEAR(before.normal.values[k], around.normal.values[k], 1e-3F);
     }
