@@ -231,7 +231,6 @@ void declareDroplets(CommandLine& line, ShapeOptions& options)
                  "One vertex for each place in glTF, for mesh tools: the rim has the liquid's normals, not two. Other "
                  "formats are welded always",
                  settings.weld);
-    line.exclude({"--weld", "--lod"});
     declareCompression(line, "Surface");
 }
 
