@@ -32,7 +32,8 @@ const CommandText& commandText()
             "\n"
             "Exit codes:\n"
             "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
-            "  4 output cannot be written; 5 no such droplet exists"};
+            "  4 output cannot be written; 5 no such droplet exists in the first frame;\n"
+            "  6 done, but some frames have no droplet and show the one before"};
     return text;
 }
 
@@ -55,6 +56,10 @@ void readOutput(const CommandLine& line, AnimateOptions& options)
                "number, as in out/%04d" +
                extension);
     }
+    if (line.value("--lod") && !options.files) {
+        refuse("--lod needs a file for every frame as OUTPUT, such as out/%04d.glb: levels are not animated");
+    }
+    readLevels(line, options.output, options.format, options.settings);
     options.compression = readCompression(line, options.format);
     warnOfFormat(line, options.format, false, options.settings);
     if (line.value("--fps") && options.files && (!options.preview || options.preview_files)) {
@@ -173,6 +178,7 @@ void declareAnimation(CommandLine& line, AnimateOptions& options)
     declareLiquid(line, options.settings);
     declareGround(line, options.settings);
     declareSurface(line, options.settings);
+    declareLevels(line, "out/0001-lod1.obj. Every frame needs a file");
     declareCompression(line, "Surface");
     declareHtml(line);
     line.add("Run", "--json", "FILE", "Write a report; - is standard output", into(options.json));

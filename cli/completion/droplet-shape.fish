@@ -100,6 +100,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from animate' -l drips -x -
 complete -c droplet-shape -n '__fish_seen_subcommand_from animate' -l seed -x -d 'Random seed of --drips'
 complete -c droplet-shape -n '__fish_seen_subcommand_from animate' -l frames -x -d 'Number of frames of --reveal and --drips, up to 100k'
 complete -c droplet-shape -n '__fish_seen_subcommand_from animate morph' -l preview -r -F -d 'Write rendered pictures: out/%04d.png, one for every frame, or a .mp4, .mkv, .mov or .webm video, which needs ffmpeg'
+complete -c droplet-shape -n '__fish_seen_subcommand_from animate morph' -l lod -x -d 'Levels of detail: --triangles of the first, and the largest number of triangles of every other one, such as 40k,10k,2k. In glTF by MSFT_lod, otherwise in files of their own: out/0001-lod1.obj. Every frame needs a file'
 complete -c droplet-shape -n '__fish_seen_subcommand_from animate flow liquid2d morph windshield' -l resume -d 'Continue an interrupted run of the same options'
 complete -c droplet-shape -n '__fish_seen_subcommand_from batch' -l output -s o -r -F -d 'Pattern of the output files, such as \'out/{stem}.glb\''
 complete -c droplet-shape -n '__fish_seen_subcommand_from batch' -l recursive -d 'Read subfolders, too'

@@ -515,6 +515,7 @@ class SequenceFrame(_Report):
     input: str  # The picture, or the type
     output: str | None  # The file that was written
     continues: bool  # Whether vertices continue from the frame before
+    held: bool  # Whether the droplets are those of the frame before, since the footprint has none
     vertices_kept_share: float | None  # Share of the vertices that stay in place
     volume_gained_m3: float  # Volume that came
     volume_lost_m3: float  # Volume that went

@@ -21,6 +21,7 @@ ReportJson frameRow(const FrameReport& frame)
     ReportJson row{{"input", frame.input},
                    {"output", frame.output ? ReportJson(*frame.output) : ReportJson()},
                    {"continues", frame.continues},
+                   {"held", frame.held},
                    {"vertices_kept_share", orNull(frame.vertices_kept)},
                    {"volume_gained_m3", frame.volume_gained},
                    {"volume_lost_m3", frame.volume_lost},
@@ -52,6 +53,7 @@ FrameReport reportOf(const Frame& frame, const SequenceOptions& options)
     const Droplet& droplet = frame.droplet;
     FrameReport report;
     report.continues = frame.continues;
+    report.held = !frame.held.empty();
     report.vertices_kept = frame.vertices_kept;
     report.volume_gained = frame.volume_gained;
     report.volume_lost = frame.volume_lost;
@@ -80,6 +82,12 @@ std::size_t SequenceReport::dry() const
 {
     return static_cast<std::size_t>(
         std::count_if(frames.begin(), frames.end(), [](const FrameReport& frame) { return frame.droplets.empty(); }));
+}
+
+std::size_t SequenceReport::held() const
+{
+    return static_cast<std::size_t>(
+        std::count_if(frames.begin(), frames.end(), [](const FrameReport& frame) { return frame.held; }));
 }
 
 std::optional<double> SequenceReport::meanVerticesKept() const

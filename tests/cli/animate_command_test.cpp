@@ -274,6 +274,64 @@ TEST_F(AnimateTest, ReadsAFolderInTheOrderOfItsNumbers)
     EXPECT_EQ(bytesOf("loose.glb"), bytesOf("frames.glb"));
 }
 
+// One footprint that is too narrow for the liquid does not end the film.
+TEST_F(AnimateTest, HoldsTheLastDropletsWhereAFrameHasNone)
+{
+    fs::create_directory(directory() / "narrow");
+    for (int frame = 1; frame <= 4; ++frame) {
+        const double half = frame == 2 || frame == 3 ? 1.5 : 15.0;
+        writeFile(directory() / "narrow" / (std::to_string(frame) + ".pgm"), greymap(64, 48, [=](int i, int j) {
+                      return std::abs(i + 0.5 - 32.0) < 26.0 && std::abs(j + 0.5 - 24.0) < half ? 255 : 0;
+                  }));
+    }
+    const auto result = run({"narrow", "film.glb", "--volume", "200uL", "--json", "film.json"});
+    EXPECT_EQ(result.exit_code, 6);
+    EXPECT_THAT(result.error, HasSubstr("4 frames, 2 held at the frame before (2-3), 200 uL"));
+    EXPECT_THAT(result.error, HasSubstr("warning: narrow/2.pgm: no stable droplet"));
+    EXPECT_THAT(result.error, Not(HasSubstr("narrow/3.pgm")));
+    EXPECT_THAT(bytesOf("film.glb"), StartsWith("glTF"));
+    const json frames = json::parse(bytesOf("film.json"))["frames"];
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(frames[k]["held"], k == 1 || k == 2);
+        EXPECT_NEAR(frames[k]["volume_ul"].get<double>(), 200.0, 1e-6);
+    }
+    EXPECT_EQ(run({"narrow", "%d.stl", "--volume", "200uL", "-q"}).exit_code, 6);
+    EXPECT_EQ(bytesOf("2.stl"), bytesOf("1.stl"));
+    EXPECT_EQ(bytesOf("3.stl"), bytesOf("1.stl"));
+    // The first droplets set the amount.
+    expectFailure({"narrow/2.pgm", "narrow/1.pgm", "old.glb", "--volume", "200uL"}, 5, {"narrow/2.pgm", "no stable"});
+}
+
+TEST_F(AnimateTest, LevelsOfDetailAreInTheFileOfEachFrameOrBesideIt)
+{
+    const auto lod = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"animate", "frames"});
+        options.insert(options.end(), {"--lod", "3k,600,200"});
+        CommandOptions command;
+        command.directory = directory();
+        return runDroplet(options, command);
+    };
+    const auto objs = lod({"out/%04d.obj"});
+    ASSERT_EQ(objs.exit_code, 0) << objs.error;
+    for (const char* name : {"out/%04d.obj", "out/%04d-lod1.obj", "out/%04d-lod2.obj"}) {
+        EXPECT_THAT(objs.error, HasSubstr(name));
+    }
+    for (int frame = 8; frame <= 12; ++frame) {
+        const std::string stem = "out/" + name(frame - 8).substr(1, 4);
+        EXPECT_LT(bytesOf(stem + "-lod1.obj").size(), bytesOf(stem + ".obj").size());
+        EXPECT_LT(bytesOf(stem + "-lod2.obj").size(), bytesOf(stem + "-lod1.obj").size());
+        EXPECT_THAT(bytesOf(stem + "-lod2.obj"), HasSubstr("mtllib " + stem.substr(4) + ".mtl"));
+    }
+    ASSERT_EQ(lod({"out/%d.gltf"}).exit_code, 0);
+    const json file = json::parse(bytesOf("out/10.gltf"));
+    EXPECT_THAT(file["extensionsUsed"].dump(), HasSubstr("MSFT_lod"));
+    EXPECT_EQ(file["meshes"].size(), 3U);
+    EXPECT_THAT(lod({"film.glb"}).error, HasSubstr("--lod needs a file for every frame"));
+    // Levels are files of the run.
+    EXPECT_EQ(lod({"out/%04d.obj", "--json", "out/0009-lod2.obj"}).exit_code, 2);
+    EXPECT_EQ(lod({"out/%04d.obj", "--no-clobber"}).exit_code, 4);
+}
+
 /// An interrupted run goes on from its checkpoint, with the same files and the same report.
 TEST_F(AnimateTest, ResumesAnInterruptedRun)
 {

@@ -26,6 +26,8 @@ struct SequenceOptions {
     VolumeMode volume_mode = VolumeMode::Total;  ///< volume that is conserved
     bool keep_vertices = true;  ///< move each mesh with its footprint, or keep triangles far from changes of the rim,
                                 ///< where possible; if false, triangulate every frame
+    bool hold = false;  ///< show the droplets of the frame before where a frame has none that is stable, instead
+                        ///< of throwing NoSuchDroplet; the first droplets of a sequence must exist
 
     /// @throws Error InvalidArgument if a value is out of its range, with a fill_range, with quads, with volumes of
     ///               each droplet, or with VolumeMode::Total unless fill.sharing is Total
@@ -53,6 +55,8 @@ struct Frame {
                                  ///< VolumeMode::Fill how much the total volume grew
     double volume_lost = 0.0;  ///< volume of lost droplets [m³]; with VolumeMode::Total only before a dry frame; with
                                ///< VolumeMode::Fill how much the total volume shrank
+    std::string held = {};  ///< with SequenceOptions::hold: why the frame has no droplets of its own and shows those of
+                            ///< the frame before; empty if it has
     std::shared_ptr<const FrameLineage> lineage;  ///< set by firstFrame() and nextFrame(), read by nextFrame()
 };
 
@@ -82,20 +86,24 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
 /// An outline without loops makes a frame without liquid: all droplets are lost, and those of the next frame are new.
 /// The first droplets of a sequence are filled by droplet.solve.fill, in whatever frame they appear.
 ///
+/// A frame that is held continues the frame before, with its outline, volumes and vertices; the next one goes on from
+/// there.
+///
 /// Guarantees: the volume is that of the frame before − lost + gained; with VolumeMode::Total it is the same in every
 /// frame with liquid; both to 1e-9.
 /// @param before    frame before, made by firstFrame() or nextFrame() from a picture of the same extent
 /// @param outline   rims; none for a frame without liquid
 /// @param options   options of the sequence
 /// @param progress  called at every stage; may be empty
-/// @throws Error    as makeDroplet; InvalidInput if the extent differs; InvalidArgument if `before` has no lineage
+/// @throws Error    as makeDroplet, but with options.hold NoSuchDroplet only after a dry frame; InvalidInput if the
+///                  extent differs; InvalidArgument if `before` has no lineage
 Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress = {});
 
 /// Exact bytes of what nextFrame() needs of the frame before, so that an interrupted sequence can go on.
 /// @param frame  made by firstFrame() or nextFrame()
 std::string bytesOf(const Frame& frame);
 
-/// Frame from its bytes, for nextFrame() alone: it has no surface, figures and warnings.
+/// Frame from its bytes, for nextFrame() alone: it has no warnings.
 ///
 /// Guarantees: the next frame is the same as with the frame itself, to the last bit.
 /// @param bytes   of bytesOf()
