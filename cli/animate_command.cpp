@@ -21,6 +21,7 @@
 #include "droplet/io/animation.h"
 #include "droplet/render/contact_sheet.h"
 #include "droplet/render/render.h"
+#include "droplet/sequence/dripping.h"
 #include "droplet/sequence/sequence_report.h"
 #include "droplet/units.h"
 #include "droplet_report.h"
@@ -254,8 +255,7 @@ private:
         if (!outline.loops.empty()) {
             refuseTooShortEdge(coveredArea(outline), sequence_.droplet);
         }
-        frame_ = std::make_shared<const Frame>(frame_ ? nextFrame(*frame_, std::move(outline), sequence_, progress_)
-                                                      : firstFrame(std::move(outline), sequence_, progress_));
+        frame_ = std::make_shared<const Frame>(next(std::move(outline)));
         droplet::FrameReport report = reportOf(*frame_, sequence_);
         report.input = picture.name;
         if (report.held) {
@@ -294,6 +294,22 @@ private:
             }
             keep(*frame, report, number, picture_number);
         };
+    }
+
+    /// Makes the droplets of the next frame.
+    Frame next(droplet::Outline outline)
+    {
+        if (!frame_) {
+            return firstFrame(std::move(outline), sequence_, progress_);
+        }
+        const Feed* const feed = options_.motion ? std::get_if<Feed>(&*options_.motion) : nullptr;
+        if (feed == nullptr) {
+            return nextFrame(*frame_, std::move(outline), sequence_, progress_);
+        }
+        const droplet::DrippingOptions dripping{.inflow = feed->inflow,
+                                                .time_step = 1.0 / (report_.frames_per_second * feed->slow),
+                                                .way = std::max(outline.extent.x, outline.extent.y)};
+        return nextDripping(*frame_, outline, sequence_, dripping, progress_);
     }
 
     void writeFrame(const std::string& path, const std::shared_ptr<const droplet::Surface>& surface, bool closed)
@@ -606,6 +622,9 @@ std::string summaryOf(const droplet::SequenceReport& report, const std::vector<s
         }
         text << " in the first frame, " << inMicrolitres(last.total.volume) << " in the last, " << inMicrolitres(gained)
              << " gained, " << inMicrolitres(lost) << " lost";
+    }
+    if (last.drops_shed > 0) {
+        text << "; " << last.drops_shed << (last.drops_shed == 1 ? " drop" : " drops") << " fell";
     }
     if (count > 1) {
         text << "; vertices kept in " << report.kept() << " of " << count - 1 << " steps";

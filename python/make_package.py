@@ -216,10 +216,10 @@ is stable shows the droplets of the mask before; a warning and `held` in the rep
 (3, 2)
 """,
         "_core.animate(masks_of(frames), {tokens})",
-        # The last four are of the command's one picture; here, footprints that move are the frames.
+        # The last six are of the command's one picture; here, footprints that move are the frames.
         leave_out={
             "channel", "segment", "colour", "contact_sheet", "unit", "material", "onto", "advancing", "receding", "lod", "reveal",
-            "drips", "seed", "frames",
+            "drips", "seed", "feed", "slow", "frames",
         },
     ),
     Function(

@@ -13,7 +13,7 @@ _droplet_shape()
     fi
     local options choices= files=
     case $command in
-        animate) options='--volume-mode --fps --contact-sheet --reveal --drips --seed --frames --preview --view --camera --look-at --preview-size --codec --quality --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --lod --compress --html --json --resume --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
+        animate) options='--volume-mode --fps --contact-sheet --reveal --drips --seed --feed --slow --frames --preview --view --camera --look-at --preview-size --codec --quality --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --lod --compress --html --json --resume --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         batch) options='--output --recursive --json --keep-going --no-resume --shard --manifest --contact-sheet --same-scale --width --pixel-size --channel --threshold --invert --segment --colour --smooth --fill-holes --keep --speck-size --by-colour --colours --gap --contact-angle --on --volume --height --fill --liquid --surface-tension --density --model --gravity --tilt --tilt-direction --surface --surface-depth --no-penetration --onto --advancing --receding --triangles --edge --grading --open --material --unit --quads --format --nodes --materials --fill-range --sink --base --lod --weld --compress --colour-map --no-clobber --solver --threads --quiet --verbose --progress --config --help --version' ;;
         compare) options='--tolerance --volume-tolerance --normal-tolerance --json --picture --no-clobber --threads --quiet --config --help --version' ;;
         dew) options='--scale --object-size --up --preset --coverage --smallest --largest --sizes --median --spread --from --mask --vertex-weights --inside --seed --hysteresis --pinning --pinning-length --gravity-direction --contact-angle --viscosity-factor --kinetic-fraction --drag-coefficient --boundary-layer --profile-exponent --air-density --liquid --surface-tension --density --gravity --detail --material --instancing --droplets-only --compress --droplets --json --preview --view --camera --look-at --preview-size --environment --turntable --codec --quality --no-clobber --progress --threads --quiet --config --help --version' ;;
@@ -103,6 +103,8 @@ _droplet_shape()
         *:--reveal) choices='left right top bottom middle' ;;
         *:--drips) return ;;
         *:--seed) return ;;
+        *:--feed) return ;;
+        *:--slow) return ;;
         *:--frames) return ;;
         *:-o) files=1 ;;
         *:--output) files=1 ;;

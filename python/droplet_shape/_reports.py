@@ -477,6 +477,16 @@ class SequenceContactAngle(_Report):
 
 
 @dataclass(frozen=True)
+class SequenceFalling(_Report):
+    """SequenceFalling of a report."""
+
+    from_: int  # Identity of the droplet that it left
+    volume_m3: float  # Volume
+    middle_m: tuple[float, ...]  # Middle of the drop
+    since_s: float  # Time since it left
+
+
+@dataclass(frozen=True)
 class SequenceDroplet(_Report):
     """SequenceDroplet of a report."""
 
@@ -546,6 +556,7 @@ class SequenceFrame(_Report):
     would_slide: bool | None  # Whether it would slide
     driving_force_n: float | None  # Weight along the slope
     retention_force_n: float | None  # Largest force that the rim holds
+    falling: tuple[SequenceFalling, ...]  # Drops on their way from a ceiling
     droplets: tuple[SequenceDroplet, ...]  # The droplets
 
 

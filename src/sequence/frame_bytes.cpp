@@ -63,6 +63,11 @@ void fields(auto& archive, Like<Ancestry> auto& droplet)
     archive(droplet.id, droplet.from, droplet.volume);
 }
 
+void fields(auto& archive, Like<FallingDrop> auto& drop)
+{
+    archive(drop.droplet, drop.volume, drop.start, drop.since, drop.gravity);
+}
+
 void fields(auto& archive, Like<TriangulatedMeshes> auto& meshes)
 {
     archive(meshes.meshes, meshes.bases);
@@ -109,7 +114,7 @@ void fields(auto& archive, Like<Frame> auto& frame)
 {
     archive(frame.droplet.outline.extent, frame.droplet.domain.droplets, frame.droplet.domain.extent,
             frame.droplet.meshes, frame.droplet.solution.droplets, frame.droplet.figures, frame.droplet.total,
-            frame.droplet.surface, frame.droplets, frame.lineage);
+            frame.droplet.surface, frame.droplets, frame.falling, frame.drops_shed, frame.lineage);
 }
 
 void fields(auto& archive, Like<Retention> auto& retention)
@@ -131,7 +136,7 @@ void fields(auto& archive, Like<FrameReport> auto& frame)
 {
     archive(frame.input, frame.output, frame.continues, frame.held, frame.vertices_kept, frame.volume_gained,
             frame.volume_lost, frame.total, frame.pressure, frame.vertices, frame.triangles, frame.closed,
-            frame.ancestry, frame.droplets);
+            frame.ancestry, frame.droplets, frame.falling, frame.drops_shed);
 }
 
 class Saver {

@@ -37,6 +37,14 @@ ReportJson frameRow(const FrameReport& frame)
             angle = nullptr;
         }
     }
+    row["falling"] = ReportJson::array();
+    for (const FallingDrop& drop : frame.falling) {
+        const Vec3 place = drop.place();
+        row["falling"].push_back({{"from", drop.droplet},
+                                  {"volume_m3", drop.volume},
+                                  {"middle_m", {place.x, place.y, place.z}},
+                                  {"since_s", drop.since}});
+    }
     row["droplets"] = ReportJson::array();
     for (std::size_t k = 0; k < frame.droplets.size(); ++k) {
         ReportJson droplet{{"id", frame.ancestry[k].id}, {"from", frame.ancestry[k].from}};
@@ -58,6 +66,8 @@ FrameReport reportOf(const Frame& frame, const SequenceOptions& options)
     report.volume_gained = frame.volume_gained;
     report.volume_lost = frame.volume_lost;
     report.total = droplet.total;
+    report.falling = frame.falling;
+    report.drops_shed = frame.drops_shed;
     if (droplet.meshes.empty()) {
         report.closed = true;
         return report;

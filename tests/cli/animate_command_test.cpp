@@ -332,6 +332,46 @@ TEST_F(AnimateTest, LevelsOfDetailAreInTheFileOfEachFrameOrBesideIt)
     EXPECT_EQ(lod({"out/%04d.obj", "--no-clobber"}).exit_code, 4);
 }
 
+// A droplet under a ceiling sheds a drop, which falls out of the picture.
+TEST_F(AnimateTest, DropsFallFromACeiling)
+{
+    writeFile(directory() / "disc.pgm", greymap(64, 64, [](int i, int j) {
+                  return std::hypot(i + 0.5 - 32.0, j + 0.5 - 32.0) < 24.0 ? 255 : 0;
+              }));
+    const std::vector<std::string> feed{"disc.pgm", "drip.glb", "--tilt", "180deg", "--width", "5.333mm",  "--volume",
+                                        "70uL",     "--feed",   "200uL",  "--slow", "10",      "--frames", "16"};
+    const json told = report(feed);
+    EXPECT_EQ(told["volume_mode"], "track");
+    ASSERT_EQ(told["frames"].size(), 16U);
+    double before = 70e-9;
+    std::size_t seen = 0;
+    for (const json& frame : told["frames"]) {
+        double all = frame["volume_m3"];
+        for (const json& drop : frame["falling"]) {
+            all += drop["volume_m3"].get<double>();
+            EXPECT_EQ(drop["from"], 0);
+            EXPECT_NEAR(drop["volume_m3"].get<double>(), 60e-9, 7e-9) << "800 triangles find less than hangs";
+        }
+        seen += frame["falling"].size();
+        EXPECT_NEAR(all, before + frame["volume_gained_m3"].get<double>() - frame["volume_lost_m3"].get<double>(),
+                    1e-17);
+        before = all;
+    }
+    EXPECT_GT(seen, 3U);
+    EXPECT_TRUE(told["frames"].back()["falling"].empty());
+    EXPECT_THAT(run(feed).error, HasSubstr("; 1 drop fell"));
+    const auto refused = [&](std::vector<std::string> more, const std::vector<std::string>& words) {
+        more.insert(more.begin(), {"disc.pgm", "old.glb"});
+        expectFailure(more, 2, words);
+    };
+    refused({"--feed", "200uL"}, {"level ceiling"});
+    refused({"--slow", "10"}, {"--slow needs --feed"});
+    refused({"--feed", "200uL", "--drips", "2"}, {"--drips and --feed exclude each other"});
+    refused({"--feed", "200uL", "--volume-mode", "fill"}, {"--volume-mode", "--feed"});
+    refused({"--feed", "0uL"}, {"--feed"});
+    expectFailure({"frames", "old.glb", "--feed", "1uL"}, 2, {"--feed", "one picture"});
+}
+
 /// An interrupted run goes on from its checkpoint, with the same files and the same report.
 TEST_F(AnimateTest, ResumesAnInterruptedRun)
 {

@@ -41,6 +41,18 @@ struct Ancestry {
     double volume = 0.0;            ///< prescribed volume [m³]
 };
 
+/// Drop that fell off a droplet under a ceiling.
+struct FallingDrop {
+    std::size_t droplet = 0;  ///< id of the droplet that it left
+    double volume = 0.0;      ///< [m³]
+    Vec3 start;               ///< middle when it left [m]
+    double since = 0.0;       ///< time since then [s]
+    double gravity = 0.0;     ///< away from the ceiling [m/s²]
+
+    /// Its middle [m].
+    [[nodiscard]] Vec3 place() const { return {start.x, start.y, start.z + 0.5 * gravity * since * since}; }
+};
+
 /// Data about a frame that nextFrame() needs.
 struct FrameLineage;
 
@@ -57,6 +69,8 @@ struct Frame {
                                ///< VolumeMode::Fill how much the total volume shrank
     std::string held = {};  ///< with SequenceOptions::hold: why the frame has no droplets of its own and shows those of
                             ///< the frame before; empty if it has
+    std::vector<FallingDrop> falling = {};  ///< drops on their way, with nextDripping(): in the surface, not in figures
+    std::size_t drops_shed = 0;             ///< number of drops that fell so far
     std::shared_ptr<const FrameLineage> lineage;  ///< set by firstFrame() and nextFrame(), read by nextFrame()
 };
 

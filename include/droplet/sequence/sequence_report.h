@@ -31,6 +31,8 @@ struct FrameReport {
     bool closed = false;                  ///< whether the surface is closed
     std::vector<Ancestry> ancestry;       ///< origins, one per droplet
     std::vector<DropletReport> droplets;  ///< figures, one per droplet
+    std::vector<FallingDrop> falling;     ///< as in Frame
+    std::size_t drops_shed = 0;           ///< as in Frame
 };
 
 /// Measures the figures of a frame for its report; input and output stay empty.
