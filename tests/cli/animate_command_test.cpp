@@ -279,33 +279,34 @@ TEST_F(AnimateTest, HoldsTheLastDropletsWhereAFrameHasNone)
 {
     fs::create_directory(directory() / "narrow");
     for (int frame = 1; frame <= 4; ++frame) {
-        const double half = frame == 2 || frame == 3 ? 1.5 : 15.0;
-        writeFile(directory() / "narrow" / (std::to_string(frame) + ".pgm"), greymap(64, 48, [=](int i, int j) {
-                      return std::abs(i + 0.5 - 32.0) < 26.0 && std::abs(j + 0.5 - 24.0) < half ? 255 : 0;
+        const double half = frame == 2 || frame == 3 ? 1.0 : 20.0;
+        writeFile(directory() / "narrow" / (std::to_string(frame) + ".pgm"), greymap(96, 64, [=](int i, int j) {
+                      return std::abs(i + 0.5 - 48.0) < 36.0 && std::abs(j + 0.5 - 32.0) < half ? 255 : 0;
                   }));
     }
-    const auto result = run({"narrow", "film.glb", "--volume", "200uL", "--json", "film.json"});
+    const auto result = run({"narrow", "film.glb", "--width", "9.6mm", "--volume", "60uL", "--json", "film.json"});
     EXPECT_EQ(result.exit_code, 6);
-    EXPECT_THAT(result.error, HasSubstr("4 frames, 2 held at the frame before (2-3), 200 uL"));
+    EXPECT_THAT(result.error, HasSubstr("4 frames, 2 held at the frame before (2-3), 60 uL"));
     EXPECT_THAT(result.error, HasSubstr("warning: narrow/2.pgm: no stable droplet"));
     EXPECT_THAT(result.error, Not(HasSubstr("narrow/3.pgm")));
     EXPECT_THAT(bytesOf("film.glb"), StartsWith("glTF"));
     const json frames = json::parse(bytesOf("film.json"))["frames"];
     for (std::size_t k = 0; k < 4; ++k) {
         EXPECT_EQ(frames[k]["held"], k == 1 || k == 2);
-        EXPECT_NEAR(frames[k]["volume_ul"].get<double>(), 200.0, 1e-6);
+        EXPECT_NEAR(frames[k]["volume_ul"].get<double>(), 60.0, 1e-6);
     }
-    EXPECT_EQ(run({"narrow", "%d.stl", "--volume", "200uL", "-q"}).exit_code, 6);
+    EXPECT_EQ(run({"narrow", "%d.stl", "--width", "9.6mm", "--volume", "60uL", "-q"}).exit_code, 6);
     EXPECT_EQ(bytesOf("2.stl"), bytesOf("1.stl"));
     EXPECT_EQ(bytesOf("3.stl"), bytesOf("1.stl"));
     // The first droplets set the amount.
-    expectFailure({"narrow/2.pgm", "narrow/1.pgm", "old.glb", "--volume", "200uL"}, 5, {"narrow/2.pgm", "no stable"});
+    expectFailure({"narrow/2.pgm", "narrow/1.pgm", "old.glb", "--width", "9.6mm", "--volume", "60uL"}, 5,
+                  {"narrow/2.pgm", "no stable"});
 }
 
 TEST_F(AnimateTest, LevelsOfDetailAreInTheFileOfEachFrameOrBesideIt)
 {
     const auto lod = [&](std::vector<std::string> options) {
-        options.insert(options.begin(), {"animate", "frames"});
+        options.insert(options.begin(), {"animate", "frames/f%04d.pgm"});
         options.insert(options.end(), {"--lod", "3k,600,200"});
         CommandOptions command;
         command.directory = directory();
