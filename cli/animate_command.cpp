@@ -21,6 +21,7 @@
 #include "droplet/io/animation.h"
 #include "droplet/render/contact_sheet.h"
 #include "droplet/render/render.h"
+#include "droplet/sequence/dripping.h"
 #include "droplet/sequence/sequence_report.h"
 #include "droplet/units.h"
 #include "droplet_report.h"
@@ -67,6 +68,16 @@ std::string compactList(const std::vector<std::size_t>& numbers)
     return text;
 }
 
+/// Patterns of the files of every frame: its own, and those of its levels of detail.
+std::vector<NumberedPath> patternsOf(const AnimateOptions& options)
+{
+    std::vector<NumberedPath> patterns{*options.files};
+    for (const std::string& level : levelPaths(options.output, options.format, options.settings.levels.size())) {
+        patterns.push_back(*NumberedPath::of(level, "OUTPUT"));
+    }
+    return patterns;
+}
+
 /// Run that can be resumed, if every frame has a file, and the frames are in files.
 std::optional<ResumableRun> resumableRun(const AnimateOptions& options, const Frames& frames)
 {
@@ -78,7 +89,7 @@ std::optional<ResumableRun> resumableRun(const AnimateOptions& options, const Fr
                         options.fingerprint,
                         frames.count().value_or(std::numeric_limits<std::size_t>::max()),
                         options.frames_per_second.value_or(droplet::SequenceReport{}.frames_per_second),
-                        {*options.files},
+                        patternsOf(options),
                         numbers.empty() ? 1 : numbers.front()};
 }
 
@@ -151,6 +162,9 @@ private:
         }
         warnOfDisagreement();
         warnOfFlatFrames();
+        if (!level_warning_.empty()) {
+            report_.warnings.push_back(level_warning_);
+        }
         progress_(Stage::Write, 0.0);
         if (options_.preview_files) {
             writePreviewPictures();
@@ -179,6 +193,7 @@ private:
         frame_ = std::make_shared<const Frame>(droplet::frameFromBytes((*checkpoint)["frame"], path));
         report_.frames = droplet::frameReportsFromBytes((*checkpoint)["reports"], path);
         report_.bytes = std::stoull((*checkpoint)["bytes"]);
+        level_warning_ = (*checkpoint)["level warning"];
         report_.warnings = linesOf((*checkpoint)["warnings"]);
         report_.severe_warnings = std::stoull((*checkpoint)["severe warnings"]);
         const std::vector<std::string> warned = linesOf((*checkpoint)["warned"]);
@@ -191,6 +206,7 @@ private:
         return {{"frame", bytesOf(*frame_)},
                 {"reports", bytesOf(report_.frames)},
                 {"bytes", std::to_string(report_.bytes)},
+                {"level warning", level_warning_},
                 {"warnings", joined(report_.warnings)},
                 {"severe warnings", std::to_string(report_.severe_warnings)},
                 {"warned", joined(warned_)}};
@@ -239,10 +255,12 @@ private:
         if (!outline.loops.empty()) {
             refuseTooShortEdge(coveredArea(outline), sequence_.droplet);
         }
-        frame_ = std::make_shared<const Frame>(frame_ ? nextFrame(*frame_, std::move(outline), sequence_, progress_)
-                                                      : firstFrame(std::move(outline), sequence_, progress_));
+        frame_ = std::make_shared<const Frame>(next(std::move(outline)));
         droplet::FrameReport report = reportOf(*frame_, sequence_);
         report.input = picture.name;
+        if (report.held) {
+            warn(picture.name, frame_->held + "; the droplets of the frame before are shown instead", true);
+        }
         for (std::size_t i = 0; i < frame_->droplet.warnings.size(); ++i) {
             warn(picture.name, frame_->droplet.warnings[i], i < frame_->droplet.severe_warnings);
         }
@@ -278,18 +296,40 @@ private:
         };
     }
 
+    /// Makes the droplets of the next frame.
+    Frame next(droplet::Outline outline)
+    {
+        if (!frame_) {
+            return firstFrame(std::move(outline), sequence_, progress_);
+        }
+        const Feed* const feed = options_.motion ? std::get_if<Feed>(&*options_.motion) : nullptr;
+        if (feed == nullptr) {
+            return nextFrame(*frame_, std::move(outline), sequence_, progress_);
+        }
+        const droplet::DrippingOptions dripping{.inflow = feed->inflow,
+                                                .time_step = 1.0 / (report_.frames_per_second * feed->slow),
+                                                .way = std::max(outline.extent.x, outline.extent.y)};
+        return nextDripping(*frame_, outline, sequence_, dripping, progress_);
+    }
+
     void writeFrame(const std::string& path, const std::shared_ptr<const droplet::Surface>& surface, bool closed)
     {
+        const auto levels =
+            std::make_shared<const Levels>(makeLevels(*surface, options_.settings, path, options_.format));
+        if (level_warning_.empty() && !levels->warnings.empty()) {
+            level_warning_ = path + ": " + levels->warnings.front();
+        }
         std::vector<OutputFile> files = surfaceFiles(*surface,
                                                      {path,
                                                       options_.format,
                                                       {.material = options_.settings.material,
                                                        .closed = closed,
                                                        .unit = options_.settings.unit,
-                                                       .compression = options_.compression}},
+                                                       .compression = options_.compression,
+                                                       .levels = levels->surfaces}},
                                                      bytes_);
-        // The first one is that of the surface, which has to live until it is written.
-        files.front().write = [this, surface, write = std::move(files.front().write)](std::ostream& out) {
+        // The first one is that of the surface. Surface and levels have to live until all are written.
+        files.front().write = [this, surface, levels, write = std::move(files.front().write)](std::ostream& out) {
             write(out);
             report_.bytes += bytes_;
         };
@@ -515,6 +555,7 @@ private:
     std::uint64_t bytes_ = 0;               ///< of the file that is written
     std::vector<std::size_t> disagreeing_;  ///< numbers of frames
     std::set<std::string> warned_;          ///< kinds of warnings so far
+    std::string level_warning_;             ///< of the first frame whose levels have too many triangles, or empty
     struct SheetFrame {
         std::shared_ptr<const droplet::Surface> surface;
         std::string caption;
@@ -536,7 +577,8 @@ std::string inMicrolitres(double volume)
     return fmt::format("{:.4g} uL", volume / droplet::kMicrolitre);
 }
 
-std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
+/// @param levels  patterns of the files of levels of detail
+std::string summaryOf(const droplet::SequenceReport& report, const std::vector<std::string>& levels, bool verbose)
 {
     std::ostringstream text;
     const std::size_t count = report.frames.size();
@@ -547,12 +589,24 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
             text << oneLine(frame.input) << ": " << frame.droplets.size()
                  << (frame.droplets.size() == 1 ? " droplet, " : " droplets, ") << inMicrolitres(frame.total.volume)
                  << ", " << std::setprecision(4) << frame.total.height_max / droplet::kMillimetre << " mm high"
-                 << (frame.continues ? ", continues" : "") << "\n";
+                 << (frame.held        ? ", held"
+                     : frame.continues ? ", continues"
+                                       : "")
+                 << "\n";
         }
     }
     text << count << (count == 1 ? " frame, " : " frames, ");
     if (report.dry() > 0) {
         text << report.dry() << " without liquid, ";
+    }
+    std::vector<std::size_t> held;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (report.frames[i].held) {
+            held.push_back(i + 1);
+        }
+    }
+    if (!held.empty()) {
+        text << held.size() << " held at the frame before (" << compactList(held) << "), ";
     }
     const auto wet = std::find_if(report.frames.begin(), report.frames.end(),
                                   [](const droplet::FrameReport& frame) { return !frame.droplets.empty(); });
@@ -569,10 +623,16 @@ std::string summaryOf(const droplet::SequenceReport& report, bool verbose)
         text << " in the first frame, " << inMicrolitres(last.total.volume) << " in the last, " << inMicrolitres(gained)
              << " gained, " << inMicrolitres(lost) << " lost";
     }
+    if (last.drops_shed > 0) {
+        text << "; " << last.drops_shed << (last.drops_shed == 1 ? " drop" : " drops") << " fell";
+    }
     if (count > 1) {
         text << "; vertices kept in " << report.kept() << " of " << count - 1 << " steps";
     }
     text << "\n" << oneLine(report.output) << ": " << report.bytes << " bytes\n";
+    for (const std::string& level : levels) {
+        text << oneLine(level) << "\n";
+    }
     return text.str();
 }
 
@@ -583,6 +643,7 @@ droplet::SequenceOptions beginSequence(const droplet::Mask& mask, const AnimateO
 {
     droplet::SequenceOptions sequence;
     sequence.volume_mode = options.volume_mode;
+    sequence.hold = true;
     sequence.droplet = options.settings.droplet;
     sequence.droplet.trace = options.footprint.trace;
     if (mask.physical_width && !options.footprint.sized) {
@@ -617,7 +678,9 @@ RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers)
     RunFiles files;
     addSettings(files, options.settings, options.run);
     if (options.files) {
-        files.writesFrames("OUTPUT", *options.files, numbers);
+        for (const NumberedPath& pattern : patternsOf(options)) {
+            files.writesFrames(pattern.text() == options.output ? "OUTPUT" : "OUTPUT's level", pattern, numbers);
+        }
         files.writes("OUTPUT's checkpoint", checkpointPath(*options.files));
     } else {
         files.writes("OUTPUT", options.output);
@@ -639,7 +702,9 @@ RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers)
 RunEnd makeAnimation(const AnimateOptions& options, Frames& frames, ProgressDisplay& progress)
 {
     const droplet::SequenceReport report = Sequence(options, frames, progress).make();
-    return {summaryOf(report, options.run.verbosity == Verbosity::Verbose), report.warnings, report.severe_warnings};
+    const std::vector<std::string> levels = levelPaths(options.output, options.format, options.settings.levels.size());
+    return {summaryOf(report, levels, options.run.verbosity == Verbosity::Verbose), report.warnings,
+            report.severe_warnings, report.held() > 0};
 }
 
 int runAnimate(int argc, const char* const* argv)

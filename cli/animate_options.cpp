@@ -28,11 +28,13 @@ const CommandText& commandText()
             "  droplet-shape animate frames/ 'rain-%04d.obj'\n"
             "  droplet-shape animate logo.svg logo.glb --reveal left --frames 72\n"
             "  droplet-shape animate logo.svg logo.glb --drips 7 --material honey\n"
+            "  droplet-shape animate dots.svg tap.glb --feed 1mL --slow 20 --tilt 180deg\n"
             "  ffmpeg -i rain.mp4 -f image2pipe -c:v png - | droplet-shape animate - rain.glb\n"
             "\n"
             "Exit codes:\n"
             "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
-            "  4 output cannot be written; 5 no such droplet exists"};
+            "  4 output cannot be written; 5 no such droplet exists in the first frame;\n"
+            "  6 done, but some frames have no droplet and show the one before"};
     return text;
 }
 
@@ -55,6 +57,10 @@ void readOutput(const CommandLine& line, AnimateOptions& options)
                "number, as in out/%04d" +
                extension);
     }
+    if (line.value("--lod") && !options.files) {
+        refuse("--lod needs a file for every frame as OUTPUT, such as out/%04d.glb: levels are not animated");
+    }
+    readLevels(line, options.output, options.format, options.settings);
     options.compression = readCompression(line, options.format);
     warnOfFormat(line, options.format, false, options.settings);
     if (line.value("--fps") && options.files && (!options.preview || options.preview_files)) {
@@ -107,27 +113,33 @@ droplet::RevealSource revealSource(const Given& given)
 }
 
 /// Reads what becomes of the footprint of one picture.
-void readMotion(const CommandLine& line, const std::optional<droplet::DripOptions>& drips, AnimateOptions& options)
+void readMotion(const CommandLine& line, const std::optional<droplet::DripOptions>& drips,
+                const std::optional<Feed>& feed, AnimateOptions& options)
 {
     const auto source = line.value("--reveal");
     if (line.value("--seed") && !drips) {
         refuse("--seed needs --drips");
     }
-    if (source && drips) {
-        refuse("--reveal and --drips cannot be used together");
+    if (line.value("--slow") && !feed) {
+        refuse("--slow needs --feed");
     }
-    if (!source && !drips) {
+    if (!source && !drips && !feed) {
         if (line.value("--frames")) {
-            refuse("--frames needs --reveal or --drips; without them, the frames are those of INPUT");
+            refuse("--frames needs --reveal, --drips or --feed; without them, the frames are those of INPUT");
         }
         return;
     }
-    options.motion = source ? FootprintMotion(revealSource(*source)) : FootprintMotion(*drips);
+    options.motion = source  ? FootprintMotion(revealSource(*source))
+                     : drips ? FootprintMotion(*drips)
+                             : FootprintMotion(*feed);
     if (options.inputs.size() > 1 || isStream(options.inputs.front()) || !isPicture(options.inputs.front())) {
-        refuse(source ? "--reveal takes one picture as INPUT, into whose footprint liquid flows"
-                      : "--drips takes one picture as INPUT, from whose footprint liquid drips");
+        refuse(source  ? "--reveal takes one picture as INPUT, into whose footprint liquid flows"
+               : drips ? "--drips takes one picture as INPUT, from whose footprint liquid drips"
+                       : "--feed takes one picture as INPUT, into whose droplets liquid flows");
     }
-    if (!line.value("--volume-mode")) {
+    if (feed) {
+        options.volume_mode = droplet::VolumeMode::Track;
+    } else if (!line.value("--volume-mode")) {
         options.volume_mode = droplet::VolumeMode::Fill;
     }
 }
@@ -173,6 +185,7 @@ void declareAnimation(CommandLine& line, AnimateOptions& options)
     declareLiquid(line, options.settings);
     declareGround(line, options.settings);
     declareSurface(line, options.settings);
+    declareLevels(line, "out/0001-lod1.obj. Every frame needs a file");
     declareCompression(line, "Surface");
     declareHtml(line);
     line.add("Run", "--json", "FILE", "Write a report; - is standard output", into(options.json));
@@ -227,7 +240,19 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
         "contact angle; --volume-mode is fill then",
         into(drips, CountRange{1, 1000, "1000"}));
     line.add("Sequence", "--seed", "N", "Random seed of --drips", seedInto(dripping.seed));
-    line.add("Sequence", "--frames", "N", "Number of frames of --reveal and --drips, up to 100k",
+    std::optional<double> inflow;
+    Feed feed;
+    line.add("Sequence", "--feed", "VOLUME",
+             "Let so much liquid flow into the droplets of one picture per second, under a ceiling (--tilt 180deg): a "
+             "droplet that grows too heavy sheds a drop, which falls",
+             into(inflow, Range{droplet::Dimension::Volume, 1e-15, 1e-3, "from 1e-6uL to 1L"}));
+    line.add("Sequence", "--slow", "NUMBER", "Slow motion of --feed: seconds of the film for a second",
+             into(feed.slow, NumberRange{1e-3, 1e6, "a number from 0.001 to 1000000"}));
+    line.exclude({"--reveal", "--drips"});
+    line.exclude({"--reveal", "--feed"});
+    line.exclude({"--drips", "--feed"});
+    line.exclude({"--volume-mode", "--feed"});
+    line.add("Sequence", "--frames", "N", "Number of frames of --reveal, --drips and --feed, up to 100k",
              into(options.frames, {1, 100'000, "100k"}));
     line.parse(argc, argv);
     if (const auto text = requestedText(line)) {
@@ -247,7 +272,9 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     }
     options.output = files.back().text;
     dripping.count = drips.value_or(dripping.count);
-    readMotion(line, drips ? std::optional(dripping) : std::nullopt, options);
+    feed.inflow = inflow.value_or(0.0);
+    readMotion(line, drips ? std::optional(dripping) : std::nullopt, inflow ? std::optional(feed) : std::nullopt,
+               options);
     readAnimation(line, options);
     if (options.resume && (!options.files || isStream(options.inputs.front()))) {
         refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.glb, and INPUT in files");

@@ -131,7 +131,7 @@ public:
         discardAfterFailure();
         progress_.endMaking();
         writeManifest(rows_, items_, options_, progress_.elapsed());
-        return std::any_of(rows_.begin(), rows_.end(), hasFailed) ? kSomeFailed : 0;
+        return std::any_of(rows_.begin(), rows_.end(), hasFailed) ? static_cast<int>(ExitCode::SomeFailed) : 0;
     }
 
     /// Draws the contact sheet of the finished outputs, if --contact-sheet is given.

@@ -8,9 +8,6 @@
 
 namespace cli {
 
-/// Exit code of a batch in which some items failed.
-inline constexpr int kSomeFailed = 6;
-
 /// Checks the files of all items before any of them is made. They must be listed before other inputs are read.
 /// @throws droplet::Error InvalidArgument: no items, two outputs that are one file, an output that is an input
 void checkItems(const std::vector<BatchItem>& items, const BatchOptions& options);
@@ -28,7 +25,7 @@ void checkItems(const std::vector<BatchItem>& items, const BatchOptions& options
 ///
 /// Missing folders of outputs are created. With no_clobber, existing outputs that are not up to date are refused before
 /// any item is made.
-/// @return                0, or kSomeFailed
+/// @return                0, or that of ExitCode::SomeFailed
 /// @throws droplet::Error InvalidArgument: a file that is not a manifest at the manifest's path; OutputFailed: the
 ///                        manifest cannot be written, or an output must not be replaced. All errors but a full disk are
 ///                        found before any work is done

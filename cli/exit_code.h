@@ -5,8 +5,8 @@
 
 namespace cli {
 
-/// Exit codes of failures, as in the manual page.
-enum class ExitCode { InternalError = 1, Usage = 2, BadInput = 3, BadOutput = 4, NoSuchDroplet = 5 };
+/// Exit codes of failures, as in the manual page. After SomeFailed, all that could be made is there.
+enum class ExitCode { InternalError = 1, Usage = 2, BadInput = 3, BadOutput = 4, NoSuchDroplet = 5, SomeFailed = 6 };
 
 /// Exit code that stands for an error of the library.
 inline ExitCode exitCodeOf(droplet::ErrorCode code)

@@ -157,6 +157,10 @@ FramePicture Frames::moved(const droplet::MaskOptions& options)
         try {
             if (const auto* options_of_drips = std::get_if<droplet::DripOptions>(&*motion_)) {
                 footprint_ = moving(droplet::Drips(std::move(mask), *options_of_drips));
+            } else if (std::holds_alternative<Feed>(*motion_)) {
+                footprint_ = [shared = std::make_shared<const droplet::Mask>(std::move(mask))](double /*time*/) {
+                    return *shared;
+                };
             } else {
                 footprint_ = moving(droplet::Reveal(std::move(mask), std::get<droplet::RevealSource>(*motion_)));
             }

@@ -28,8 +28,14 @@ struct FramePicture {
     bool disagrees = false;  ///< whether the frame by itself would be read differently
 };
 
+/// Liquid that flows into droplets under a ceiling: the footprint stays.
+struct Feed {
+    double inflow = 0.0;  ///< [m³/s]
+    double slow = 1.0;    ///< seconds of the film for a second
+};
+
 /// What becomes of the footprint of one picture: liquid flows into it, or drips from it.
-using FootprintMotion = std::variant<droplet::RevealSource, droplet::DripOptions>;
+using FootprintMotion = std::variant<droplet::RevealSource, droplet::DripOptions, Feed>;
 
 /// Frames of a sequence, all read in the same way: with Channel::Auto, the first frame with a clear footprint decides
 /// which levels of which channel are dry and liquid in all frames.

@@ -29,7 +29,8 @@ const CommandText& commandText()
                                       "\n"
                                       "Exit codes:\n"
                                       "  0 done; 1 internal error; 2 usage; 3 input unreadable or without liquid;\n"
-                                      "  4 output cannot be written; 5 no such droplet exists"};
+                                      "  4 output cannot be written; 5 no such droplet exists in the first frame;\n"
+                                      "  6 done, but some frames have no droplet and show the one before"};
     return text;
 }
 

@@ -6,12 +6,13 @@
 #include <iostream>
 #include <optional>
 
+#include "exit_code.h"
 #include "library_message.h"
 #include "shape_command.h"
 
 namespace cli {
 
-void runAndTell(const RunOptions& run, const RunFiles& files, const std::function<RunEnd(ProgressDisplay&)>& make)
+int runAndTell(const RunOptions& run, const RunFiles& files, const std::function<RunEnd(ProgressDisplay&)>& make)
 {
     std::optional<tbb::global_control> threads;
     if (run.threads) {
@@ -28,13 +29,13 @@ void runAndTell(const RunOptions& run, const RunFiles& files, const std::functio
     for (std::size_t i = 0; i < printed; ++i) {
         printWarning(withOptions(end.warnings[i], run.terms), run.progress);
     }
+    return end.some_failed ? static_cast<int>(ExitCode::SomeFailed) : 0;
 }
 
 int checkAndRun(const RunOptions& run, const RunFiles& files, const std::function<RunEnd(ProgressDisplay&)>& make)
 {
     checkFiles(files, run.files);
-    runAndTell(run, files, make);
-    return 0;
+    return runAndTell(run, files, make);
 }
 
 }  // namespace cli

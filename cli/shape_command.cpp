@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shape_command.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -116,8 +114,10 @@ struct Extras {
     std::optional<PreviewSubject> subject;
     std::optional<OutputFile> mask;
     std::vector<OutputFile> maps;
-    std::string texture;                      ///< bytes of a PNG, or empty
-    std::optional<droplet::Surface> in_file;  ///< what OUTPUT holds, if it is not the droplets alone
+    std::string texture;                              ///< bytes of a PNG, or empty
+    std::optional<droplet::Surface> in_file;          ///< what OUTPUT holds, if it is not the droplets alone
+    std::vector<droplet::Surface> levels = {};        ///< of detail, but the first
+    std::optional<droplet::Refill> page_refill = {};  ///< of the page's slider, if OUTPUT has none
     /// What pictures and the page show, if it is not the droplets alone: on the ground, not below it.
     std::optional<droplet::Surface> shown = {};
 };
@@ -160,46 +160,10 @@ PreviewSubject subjectOf(const MadeShape& made, const Extras& extras, const Surr
     return subject;
 }
 
-/// Makes the levels of detail but the first, and reports them.
-std::vector<droplet::Surface> makeLevels(const droplet::Surface& whole, const ShapeOptions& options,
-                                         droplet::Report& report)
-{
-    constexpr double kFew = 1.1;
-    const std::vector<std::size_t>& wanted = options.settings.levels;
-    const std::vector<std::string> paths = levelPaths(options.output, options.format, wanted.size());
-    std::vector<droplet::Surface> levels;
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-        auto [level, error] = droplet::simplify(whole, wanted[k]);
-        const std::size_t triangles = level.triangles.size();
-        if (static_cast<double>(triangles) > kFew * static_cast<double>(wanted[k])) {
-            report.warnings.push_back(
-                fmt::format("level {} has {} triangles, not {}: fewer would close holes or join "
-                            "what is apart",
-                            k + 1, triangles, wanted[k]));
-        }
-        const droplet::OutputReport made = describeOutput(level, options.output, options.format);
-        report.output.levels.push_back(
-            {k < paths.size() ? std::optional(paths[k]) : std::nullopt, triangles, made.vertices, error});
-        levels.push_back(std::move(level));
-    }
-    return levels;
-}
-
 /// Writes the surface and, if given, the mask, the datafile for Surface Evolver, the page, the pictures and the report.
-void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, StageClock& clock,
-          droplet::Report& report)
+void save(Droplet& droplet, const ShapeOptions& options, Extras& extras, StageClock& clock, droplet::Report& report)
 {
-    std::optional<droplet::Refill> refill = std::exchange(droplet.surface.refill, std::nullopt);
-    if (!hasSliderInPageOnly(options)) {
-        droplet.surface.refill.swap(refill);
-    }
-    // Previews and the page have a ground of their own; an object's droplets were lowered before they were laid on it.
-    std::optional<droplet::Surface> sunk;
-    if (options.settings.sink > 0.0 && !options.settings.onto) {
-        sunk = lowered(extras.in_file ? *extras.in_file : droplet.surface, options.settings.sink);
-    }
-    const droplet::Surface& written = sunk ? *sunk : extras.in_file ? *extras.in_file : droplet.surface;
-    const std::vector<droplet::Surface> levels = makeLevels(written, options, report);
+    const droplet::Surface& written = extras.in_file ? *extras.in_file : droplet.surface;
     std::vector<OutputFile> files = surfaceFiles(written,
                                                  {options.output,
                                                   options.format,
@@ -210,7 +174,7 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
                                                    .droplets = extras.droplets,
                                                    .texture = extras.texture,
                                                    .compression = options.compression,
-                                                   .levels = levels}},
+                                                   .levels = extras.levels}},
                                                  report.output.bytes);
     if (extras.mask) {
         files.push_back(*extras.mask);
@@ -223,8 +187,8 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
     }
     if (options.html) {
         files.push_back({*options.html, [&](std::ostream& out) {
-                             if (refill) {
-                                 droplet.surface.refill.swap(refill);
+                             if (extras.page_refill) {
+                                 droplet.surface.refill.swap(extras.page_refill);
                              }
                              writeHtml(out, extras.shown ? *extras.shown : droplet.surface, options, extras, report);
                          }});
@@ -289,14 +253,24 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
             report.warnings.push_back(*std::move(thin));
         }
     }
+    if (hasSliderInPageOnly(options)) {
+        extras.page_refill.swap(made.droplet.surface.refill);
+    }
+    // Previews and the page have a ground of their own; an object's droplets were lowered before they were laid on it.
+    if (made.settings.sink > 0.0 && !made.settings.onto) {
+        extras.in_file = lowered(made.droplet.surface, made.settings.sink);
+    }
+    const droplet::Surface& whole = extras.in_file ? *extras.in_file : made.droplet.surface;
+    // Levels are made with both copies of the rim, which is a crease then, and joined afterwards.
+    Levels levels = makeLevels(whole, made.settings, options.output, options.format);
+    extras.levels = std::move(levels.surfaces);
+    report.warnings.insert(report.warnings.end(), levels.warnings.begin(), levels.warnings.end());
     if (made.settings.weld) {
-        extras.in_file = droplet::welded(extras.in_file ? *extras.in_file : made.droplet.surface);
-        if (hasSliderInPageOnly(options)) {
-            extras.in_file->refill.reset();
-        }
+        extras.in_file = droplet::welded(whole);
     }
     const droplet::Surface& written = extras.in_file ? *extras.in_file : made.droplet.surface;
     report.output = describeOutput(written, options.output, options.format);
+    report.output.levels = std::move(levels.reports);
     report.output.base = made.settings.base;
     report.output.compression = options.compression;
     if (options.compression != droplet::Compression::None) {

@@ -109,8 +109,22 @@ bool inGltf(const ShapeOptions& options)
     return options.html || inGltf(options.format);
 }
 
-/// Reads --lod.
-void readLevels(const CommandLine& line, ShapeOptions& options)
+}  // namespace
+
+void declareLevels(CommandLine& line, const std::string& files)
+{
+    line.add("Surface", "--lod", "NUMBERS",
+             "Levels of detail: --triangles of the first, and the largest number of triangles of every other one, such "
+             "as 40k,10k,2k. In glTF by MSFT_lod, otherwise in files of their own: " +
+                 files);
+    for (const char* other : {"--triangles", "--edge", "--quads"}) {
+        if (line.knows(other)) {
+            line.exclude({"--lod", other});
+        }
+    }
+}
+
+void readLevels(const CommandLine& line, const std::string& output, droplet::Format format, DropletSettings& settings)
 {
     const auto given = line.value("--lod");
     if (!given) {
@@ -125,12 +139,14 @@ void readLevels(const CommandLine& line, ShapeOptions& options)
     if (levels.size() < 2 || levels.size() > kMaxLevels || !descends) {
         refuse(*given, "2 to 8 numbers of triangles, each smaller than the one before, such as 40k,10k,2k");
     }
-    if (isStream(options.output) && !inGltf(options.format)) {
+    if (isStream(output) && !inGltf(format)) {
         refuse("--lod and OUTPUT - exclude each other: only glb and gltf hold all levels in one file");
     }
-    options.settings.droplet.mesh.triangles = levels.front();
-    options.settings.levels.assign(levels.begin() + 1, levels.end());
+    settings.droplet.mesh.triangles = levels.front();
+    settings.levels.assign(levels.begin() + 1, levels.end());
 }
+
+namespace {
 
 /// Reads --fill-range. A slider needs a file format that can hold it.
 void readFillRange(const CommandLine& line, ShapeOptions& options)
@@ -221,17 +237,11 @@ void declareDroplets(CommandLine& line, ShapeOptions& options)
             line.exclude({"--base", other});
         }
     }
-    line.add("Surface", "--lod", "NUMBERS",
-             "Levels of detail: --triangles of the first, and the largest number of triangles of every other one, such "
-             "as 40k,10k,2k. In glTF by MSFT_lod, otherwise in files of their own: logo-lod1.obj");
-    for (const char* other : {"--triangles", "--edge", "--quads"}) {
-        line.exclude({"--lod", other});
-    }
+    declareLevels(line, "logo-lod1.obj");
     line.addFlag("Surface", "--weld",
                  "One vertex for each place in glTF, for mesh tools: the rim has the liquid's normals, not two. Other "
                  "formats are welded always",
                  settings.weld);
-    line.exclude({"--weld", "--lod"});
     declareCompression(line, "Surface");
 }
 
@@ -288,7 +298,7 @@ void readDroplets(const CommandLine& line, ShapeOptions& options, const std::str
         options.format = formatOf(options.output, subject);
     }
     warnOfFormat(line, options.format, options.html || options.preview, options.settings);
-    readLevels(line, options);
+    readLevels(line, options.output, options.format, options.settings);
     if (options.settings.weld && !inGltf(options.format)) {
         options.settings.warnings.push_back(std::string("--weld has no effect: ") + droplet::name(options.format) +
                                             " files have one vertex for each place");

@@ -47,6 +47,16 @@ void declareHtml(CommandLine& line, const char* group = "Run", const std::string
 /// @throws droplet::Error InvalidArgument if the program was built without the page
 std::optional<std::string> readHtml(const CommandLine& line);
 
+/// Declares --lod.
+/// @param files  an example of a level's file, for the help
+void declareLevels(CommandLine& line, const std::string& files);
+
+/// Reads --lod.
+/// @param output          path of the surface, or pattern of paths
+/// @param settings        receives the numbers of triangles
+/// @throws droplet::Error InvalidArgument, naming the option and what is allowed
+void readLevels(const CommandLine& line, const std::string& output, droplet::Format format, DropletSettings& settings);
+
 /// Declares the options of every command that makes droplets: liquid, ground and surface, --format, --nodes,
 /// --materials and --fill-range.
 void declareDroplets(CommandLine& line, ShapeOptions& options);

@@ -310,6 +310,12 @@ std::string summary(const Report& report, bool with_details)
     text +=
         line("written", oneLine(report.output.path) + ": " + bytes(report.output.bytes) + ", " + faces(report.output) +
                             ", " + (report.output.topology.closed ? "closed" : "open") + compression(report.output));
+    for (std::size_t k = 0; k < report.output.levels.size(); ++k) {
+        const droplet::LevelReport& level = report.output.levels[k];
+        const std::string name = level.path ? oneLine(*level.path) : fmt::format("level {} in it", k + 1);
+        text += line("", name + ": " + counted(level.triangles, "triangle") + ", off by " +
+                             digits(level.error * 1e6, 2) + " µm rms");
+    }
     if (!report.output.maps.empty()) {
         text += line("maps", maps(report.output));
     }

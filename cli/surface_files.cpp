@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "surface_files.h"
 
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <utility>
 
 #include "droplet/printable.h"
+#include "droplet/surface/simplify.h"
+#include "droplet_report.h"
 #include "option_values.h"
 
 namespace cli {
@@ -37,6 +41,32 @@ std::vector<std::string> levelPaths(const std::string& path, droplet::Format for
         paths.push_back(pathBeside(path, "lod" + std::to_string(k)));
     }
     return paths;
+}
+
+Levels makeLevels(const droplet::Surface& whole, const DropletSettings& settings, const std::string& output,
+                  droplet::Format format)
+{
+    constexpr double kFew = 1.1;  // times as many as asked for need no warning
+    const std::vector<std::size_t>& wanted = settings.levels;
+    const std::vector<std::string> paths = levelPaths(output, format, wanted.size());
+    Levels levels;
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        droplet::SimplifiedSurface level = droplet::simplify(whole, wanted[k]);
+        if (settings.weld) {
+            level.surface = droplet::welded(level.surface);
+        }
+        const std::size_t triangles = level.surface.triangles.size();
+        if (static_cast<double>(triangles) > kFew * static_cast<double>(wanted[k])) {
+            levels.warnings.push_back(
+                fmt::format("level {} has {} triangles, not {}: fewer would close holes or join what is apart", k + 1,
+                            triangles, wanted[k]));
+        }
+        const droplet::OutputReport made = describeOutput(level.surface, output, format);
+        levels.reports.push_back(
+            {k < paths.size() ? std::optional(paths[k]) : std::nullopt, triangles, made.vertices, level.error});
+        levels.surfaces.push_back(std::move(level.surface));
+    }
+    return levels;
 }
 
 droplet::Surface lowered(droplet::Surface surface, double depth)

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "droplet/io/output.h"
+#include "droplet/io/report.h"
 #include "droplet/surface/surface.h"
+#include "droplet_options.h"
 #include "files.h"
 
 namespace cli {
@@ -22,6 +24,20 @@ std::string pathBeside(const std::string& path, const std::string& word);
 
 /// Paths of the surfaces with fewer triangles; none in glTF, whose file holds them.
 std::vector<std::string> levelPaths(const std::string& path, droplet::Format format, std::size_t count);
+
+/// Levels of detail of a surface, but the first.
+struct Levels {
+    std::vector<droplet::Surface> surfaces;
+    std::vector<droplet::LevelReport> reports;
+    std::vector<std::string> warnings;  ///< of those with more triangles than asked for
+};
+
+/// Makes the levels of detail that the settings ask for.
+/// @param whole   surface with two copies of its rim, which levels keep as a crease; they are joined if settings.weld
+/// @param output  path of the surface's file
+/// @throws droplet::Error InvalidArgument
+Levels makeLevels(const droplet::Surface& whole, const DropletSettings& settings, const std::string& output,
+                  droplet::Format format);
 
 /// Surface that lies deeper in the ground.
 /// @param depth  [m]

@@ -205,7 +205,8 @@ text: one line or more, separated by line feeds.
         """\
 Makes droplets whose footprints move.
 
-frames: masks of one size, as of make_droplet(), one after another. A mask without liquid is allowed.
+frames: masks of one size, as of make_droplet(), one after another. A mask without liquid is allowed. One on which no droplet
+is stable shows the droplets of the mask before; a warning and `held` in the report say so.
 
 >>> import numpy
 >>> y, x = numpy.mgrid[-1:1:150j, -1:1:150j]
@@ -215,10 +216,10 @@ frames: masks of one size, as of make_droplet(), one after another. A mask witho
 (3, 2)
 """,
         "_core.animate(masks_of(frames), {tokens})",
-        # The last four are of the command's one picture; here, footprints that move are the frames.
+        # The last six are of the command's one picture; here, footprints that move are the frames.
         leave_out={
-            "channel", "segment", "colour", "contact_sheet", "unit", "material", "onto", "advancing", "receding", "reveal", "drips", "seed",
-            "frames",
+            "channel", "segment", "colour", "contact_sheet", "unit", "material", "onto", "advancing", "receding", "lod", "reveal",
+            "drips", "seed", "feed", "slow", "frames",
         },
     ),
     Function(

@@ -480,7 +480,9 @@ def animate(
 ) -> Animation:
     """Makes droplets whose footprints move.
 
-    frames: masks of one size, as of make_droplet(), one after another. A mask without liquid is allowed.
+    frames: masks of one size, as of make_droplet(), one after another. A mask without liquid is allowed. One on which
+    no droplet
+    is stable shows the droplets of the mask before; a warning and `held` in the report say so.
 
     >>> import numpy
     >>> y, x = numpy.mgrid[-1:1:150j, -1:1:150j]

@@ -477,6 +477,16 @@ class SequenceContactAngle(_Report):
 
 
 @dataclass(frozen=True)
+class SequenceFalling(_Report):
+    """SequenceFalling of a report."""
+
+    from_: int  # Identity of the droplet that it left
+    volume_m3: float  # Volume
+    middle_m: tuple[float, ...]  # Middle of the drop
+    since_s: float  # Time since it left
+
+
+@dataclass(frozen=True)
 class SequenceDroplet(_Report):
     """SequenceDroplet of a report."""
 
@@ -515,6 +525,7 @@ class SequenceFrame(_Report):
     input: str  # The picture, or the type
     output: str | None  # The file that was written
     continues: bool  # Whether vertices continue from the frame before
+    held: bool  # Whether the droplets are those of the frame before, since the footprint has none
     vertices_kept_share: float | None  # Share of the vertices that stay in place
     volume_gained_m3: float  # Volume that came
     volume_lost_m3: float  # Volume that went
@@ -545,6 +556,7 @@ class SequenceFrame(_Report):
     would_slide: bool | None  # Whether it would slide
     driving_force_n: float | None  # Weight along the slope
     retention_force_n: float | None  # Largest force that the rim holds
+    falling: tuple[SequenceFalling, ...]  # Drops on their way from a ceiling
     droplets: tuple[SequenceDroplet, ...]  # The droplets
 
 

@@ -95,6 +95,9 @@ public:
         }
         droplet::FrameReport frame = reportOf(*frame_, sequence_);
         frame.input = name;
+        if (frame.held) {
+            warn(name, frame_->held + "; the droplets of the frame before are shown instead", true);
+        }
         const droplet::Droplet& droplet = frame_->droplet;
         for (std::size_t i = 0; i < droplet.warnings.size(); ++i) {
             warn(name, droplet.warnings[i], i < droplet.severe_warnings);

@@ -33,6 +33,8 @@ double smoothMinimum(double a, double b, double width)
     return std::min(a, b) - 0.25 * near * near * width;
 }
 
+/// From 0 to 1 with both ends at rest: the cubic is the lowest polynomial that has no speed at 0 and at 1, so that no
+/// bulge starts or stops with a jerk. Which curve it is has no physical reason.
 double smoothstep(double t)
 {
     t = std::clamp(t, 0.0, 1.0);

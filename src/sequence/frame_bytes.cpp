@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/error.h"
 #include "droplet/sequence/sequence.h"
 #include "droplet/sequence/sequence_report.h"
 #include "exact_bytes.h"
@@ -21,8 +22,8 @@
 namespace droplet {
 namespace {
 
-constexpr std::string_view kFrameHead = "droplet-shape frame 1\n";
-constexpr std::string_view kReportsHead = "droplet-shape frame reports 1\n";
+constexpr std::string_view kFrameHead = "droplet-shape frame 2\n";
+constexpr std::string_view kReportsHead = "droplet-shape frame reports 2\n";
 
 /// A struct or a constant one.
 template <class Value, class Struct>
@@ -62,6 +63,11 @@ void fields(auto& archive, Like<Ancestry> auto& droplet)
     archive(droplet.id, droplet.from, droplet.volume);
 }
 
+void fields(auto& archive, Like<FallingDrop> auto& drop)
+{
+    archive(drop.droplet, drop.volume, drop.start, drop.since, drop.gravity);
+}
+
 void fields(auto& archive, Like<TriangulatedMeshes> auto& meshes)
 {
     archive(meshes.meshes, meshes.bases);
@@ -78,13 +84,6 @@ void fields(auto& archive, Like<FrameLineage> auto& lineage)
             lineage.reservoir);
 }
 
-/// What nextFrame() needs of the frame before.
-void fields(auto& archive, Like<Frame> auto& frame)
-{
-    archive(frame.droplet.outline.extent, frame.droplet.domain.droplets, frame.droplet.domain.extent,
-            frame.droplet.meshes, frame.droplet.solution.droplets, frame.droplets, frame.lineage);
-}
-
 void fields(auto& archive, Like<ContactAngle> auto& angle)
 {
     archive(angle.min, angle.mean, angle.max, angle.min_at, angle.max_at);
@@ -95,6 +94,27 @@ void fields(auto& archive, Like<ShapeFigures> auto& f)
     archive(f.footprint_area, f.rim_length, f.dry_area, f.volume, f.height_max, f.depth_max, f.overhang, f.liquid_area,
             f.linear_area, f.surface_energy, f.gravity_energy, f.slope_max, f.steep_area, f.bond_number,
             f.projected_width, f.contact_angle, f.height_bound);
+}
+
+void fields(auto& archive, Like<SurfacePart> auto& part)
+{
+    archive(part.droplet, part.first_vertex, part.vertices, part.first_triangle, part.triangles, part.quads,
+            part.volume, part.area);
+}
+
+/// Surfaces of a sequence have no refill.
+void fields(auto& archive, Like<Surface> auto& surface)
+{
+    archive(surface.vertices, surface.normals, surface.uvs, surface.contact_angle, surface.triangles, surface.weld,
+            surface.texture_map, surface.mean_height, surface.parts);
+}
+
+/// What nextFrame() needs of the frame before, also to show it once more.
+void fields(auto& archive, Like<Frame> auto& frame)
+{
+    archive(frame.droplet.outline.extent, frame.droplet.domain.droplets, frame.droplet.domain.extent,
+            frame.droplet.meshes, frame.droplet.solution.droplets, frame.droplet.figures, frame.droplet.total,
+            frame.droplet.surface, frame.droplets, frame.falling, frame.drops_shed, frame.lineage);
 }
 
 void fields(auto& archive, Like<Retention> auto& retention)
@@ -114,8 +134,9 @@ void fields(auto& archive, Like<DropletReport> auto& droplet)
 
 void fields(auto& archive, Like<FrameReport> auto& frame)
 {
-    archive(frame.input, frame.output, frame.continues, frame.vertices_kept, frame.volume_gained, frame.volume_lost,
-            frame.total, frame.pressure, frame.vertices, frame.triangles, frame.closed, frame.ancestry, frame.droplets);
+    archive(frame.input, frame.output, frame.continues, frame.held, frame.vertices_kept, frame.volume_gained,
+            frame.volume_lost, frame.total, frame.pressure, frame.vertices, frame.triangles, frame.closed,
+            frame.ancestry, frame.droplets, frame.falling, frame.drops_shed);
 }
 
 class Saver {
@@ -133,6 +154,7 @@ private:
         out_.put(static_cast<std::uint64_t>(value));
     }
     void put(double value) { out_.put(value); }
+    void put(float value) { out_.put(double{value}); }
     void put(Vec2 value) { out_.put(value); }
     void put(Vec3 value) { out_.put(value); }
     template <class Value>
@@ -198,6 +220,12 @@ private:
         in_.require(static_cast<std::uint64_t>(value) == bits);
     }
     void get(double& value) { in_.get(value); }
+    void get(float& value)
+    {
+        double exact = 0.0;
+        in_.get(exact);
+        value = static_cast<float>(exact);
+    }
     void get(Vec2& value) { in_.get(value); }
     void get(Vec3& value) { in_.get(value); }
     template <class Value>
@@ -290,7 +318,15 @@ Frame frameFromBytes(std::string_view bytes, const std::string& name)
     loader.end();
     const std::size_t count = frame.droplets.size();
     loader.require(frame.lineage && (count == 0 || frame.lineage->first) && frame.droplet.meshes.size() == count &&
-                   frame.droplet.solution.droplets.size() == count && frame.droplet.domain.droplets.size() == count);
+                   frame.droplet.solution.droplets.size() == count && frame.droplet.domain.droplets.size() == count &&
+                   frame.droplet.figures.size() == count);
+    if (!frame.droplet.surface.vertices.empty()) {
+        try {
+            frame.droplet.surface.validate();
+        } catch (const Error& /*error*/) {
+            loader.require(false);
+        }
+    }
     return frame;
 }
 

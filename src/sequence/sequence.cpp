@@ -457,65 +457,24 @@ double keptShare(const Droplet& before, const Droplet& after, bool followed, con
     return static_cast<double>(known) / static_cast<double>(all);
 }
 
-}  // namespace
-
-void SequenceOptions::validate() const
+/// Frame that shows the droplets of the frame before.
+Frame heldFrame(const Frame& before, const std::string& why)
 {
-    validateStages(droplet);
-    if (droplet.fill_range) {
-        throw Error(ErrorCode::InvalidArgument, "fill_range is not allowed in a sequence");
+    Frame frame = before;
+    for (Ancestry& droplet : frame.droplets) {
+        droplet.from = {droplet.id};
     }
-    if (droplet.mesh.quads) {
-        // Others would be joined in every frame, though triangles stay.
-        throw Error(ErrorCode::InvalidArgument, "mesh.quads are not allowed in a sequence");
-    }
-    if (!droplet.solve.volumes.empty()) {
-        throw Error(ErrorCode::InvalidArgument,
-                    "volumes are not allowed in a sequence: fill sets the amount of the first frame");
-    }
-    if (volume_mode == VolumeMode::Total && droplet.solve.fill.sharing != FillSharing::Total) {
-        throw Error(ErrorCode::InvalidArgument, "volume_mode total requires fill.sharing total: one reservoir");
-    }
-}
-
-Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress& progress)
-{
-    options.validate();
-    if (outline.loops.empty()) {
-        return dryFrame(std::move(outline), {});
-    }
-    Frame frame;
-    frame.droplet.outline = std::move(outline);
-    frame.droplet.domain = split(frame.droplet.outline);
-    if (progress) {
-        progress(Stage::Triangulate, 0.0);
-    }
-    FrameLineage lineage = triangulateAnew(frame.droplet.domain, options.droplet, frame.droplet.meshes);
-    finish(frame.droplet, options.droplet, progress,
-           {.bases = lineage.bases, .keeps_triangles = options.keep_vertices});
-    for (const ShapeFigures& figures : frame.droplet.figures) {
-        frame.droplets.push_back({lineage.next_id++, {}, figures.volume});
-    }
-    lineage.reservoir = volumeOf(frame.droplets);
-    lineage.sheets = originsOf(frame.droplet, {}, lineage.bases);
-    frame.lineage = std::make_shared<const FrameLineage>(std::move(lineage));
+    frame.continues = true;
+    frame.vertices_kept = 1.0;
+    frame.volume_gained = 0.0;
+    frame.volume_lost = 0.0;
+    frame.held = why;
     return frame;
 }
 
-Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress)
+/// Makes a frame with liquid after another frame.
+Frame wetFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress)
 {
-    options.validate();
-    if (!before.lineage) {
-        throw Error(ErrorCode::InvalidArgument, "before must be a frame made by firstFrame or nextFrame");
-    }
-    if (outline.extent != before.droplet.outline.extent) {
-        throw Error(ErrorCode::InvalidInput, "frames of a sequence must have the same extent");
-    }
-    if (outline.loops.empty()) {
-        Frame dry = dryFrame(std::move(outline), *before.lineage);
-        dry.volume_lost = volumeOf(before.droplets);
-        return dry;
-    }
     Frame frame;
     frame.droplet.outline = std::move(outline);
     Domain& domain = frame.droplet.domain;
@@ -608,6 +567,75 @@ Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& opt
     lineage->sheets = originsOf(frame.droplet, origins, sheets->bases);
     frame.lineage = std::make_shared<const FrameLineage>(*std::move(lineage));
     return frame;
+}
+
+}  // namespace
+
+void SequenceOptions::validate() const
+{
+    validateStages(droplet);
+    if (droplet.fill_range) {
+        throw Error(ErrorCode::InvalidArgument, "fill_range is not allowed in a sequence");
+    }
+    if (droplet.mesh.quads) {
+        // Others would be joined in every frame, though triangles stay.
+        throw Error(ErrorCode::InvalidArgument, "mesh.quads are not allowed in a sequence");
+    }
+    if (!droplet.solve.volumes.empty()) {
+        throw Error(ErrorCode::InvalidArgument,
+                    "volumes are not allowed in a sequence: fill sets the amount of the first frame");
+    }
+    if (volume_mode == VolumeMode::Total && droplet.solve.fill.sharing != FillSharing::Total) {
+        throw Error(ErrorCode::InvalidArgument, "volume_mode total requires fill.sharing total: one reservoir");
+    }
+}
+
+Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress& progress)
+{
+    options.validate();
+    if (outline.loops.empty()) {
+        return dryFrame(std::move(outline), {});
+    }
+    Frame frame;
+    frame.droplet.outline = std::move(outline);
+    frame.droplet.domain = split(frame.droplet.outline);
+    if (progress) {
+        progress(Stage::Triangulate, 0.0);
+    }
+    FrameLineage lineage = triangulateAnew(frame.droplet.domain, options.droplet, frame.droplet.meshes);
+    finish(frame.droplet, options.droplet, progress,
+           {.bases = lineage.bases, .keeps_triangles = options.keep_vertices});
+    for (const ShapeFigures& figures : frame.droplet.figures) {
+        frame.droplets.push_back({lineage.next_id++, {}, figures.volume});
+    }
+    lineage.reservoir = volumeOf(frame.droplets);
+    lineage.sheets = originsOf(frame.droplet, {}, lineage.bases);
+    frame.lineage = std::make_shared<const FrameLineage>(std::move(lineage));
+    return frame;
+}
+
+Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress)
+{
+    options.validate();
+    if (!before.lineage) {
+        throw Error(ErrorCode::InvalidArgument, "before must be a frame made by firstFrame or nextFrame");
+    }
+    if (outline.extent != before.droplet.outline.extent) {
+        throw Error(ErrorCode::InvalidInput, "frames of a sequence must have the same extent");
+    }
+    if (outline.loops.empty()) {
+        Frame dry = dryFrame(std::move(outline), *before.lineage);
+        dry.volume_lost = volumeOf(before.droplets);
+        return dry;
+    }
+    try {
+        return wetFrame(before, std::move(outline), options, progress);
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::NoSuchDroplet || !options.hold || before.droplets.empty()) {
+            throw;
+        }
+        return heldFrame(before, error.what());
+    }
 }
 
 }  // namespace droplet

@@ -21,6 +21,7 @@ ReportJson frameRow(const FrameReport& frame)
     ReportJson row{{"input", frame.input},
                    {"output", frame.output ? ReportJson(*frame.output) : ReportJson()},
                    {"continues", frame.continues},
+                   {"held", frame.held},
                    {"vertices_kept_share", orNull(frame.vertices_kept)},
                    {"volume_gained_m3", frame.volume_gained},
                    {"volume_lost_m3", frame.volume_lost},
@@ -35,6 +36,14 @@ ReportJson frameRow(const FrameReport& frame)
         for (ReportJson& angle : row["contact_angle_deg"]) {
             angle = nullptr;
         }
+    }
+    row["falling"] = ReportJson::array();
+    for (const FallingDrop& drop : frame.falling) {
+        const Vec3 place = drop.place();
+        row["falling"].push_back({{"from", drop.droplet},
+                                  {"volume_m3", drop.volume},
+                                  {"middle_m", {place.x, place.y, place.z}},
+                                  {"since_s", drop.since}});
     }
     row["droplets"] = ReportJson::array();
     for (std::size_t k = 0; k < frame.droplets.size(); ++k) {
@@ -52,10 +61,13 @@ FrameReport reportOf(const Frame& frame, const SequenceOptions& options)
     const Droplet& droplet = frame.droplet;
     FrameReport report;
     report.continues = frame.continues;
+    report.held = !frame.held.empty();
     report.vertices_kept = frame.vertices_kept;
     report.volume_gained = frame.volume_gained;
     report.volume_lost = frame.volume_lost;
     report.total = droplet.total;
+    report.falling = frame.falling;
+    report.drops_shed = frame.drops_shed;
     if (droplet.meshes.empty()) {
         report.closed = true;
         return report;
@@ -80,6 +92,12 @@ std::size_t SequenceReport::dry() const
 {
     return static_cast<std::size_t>(
         std::count_if(frames.begin(), frames.end(), [](const FrameReport& frame) { return frame.droplets.empty(); }));
+}
+
+std::size_t SequenceReport::held() const
+{
+    return static_cast<std::size_t>(
+        std::count_if(frames.begin(), frames.end(), [](const FrameReport& frame) { return frame.held; }));
 }
 
 std::optional<double> SequenceReport::meanVerticesKept() const

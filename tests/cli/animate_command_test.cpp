@@ -274,6 +274,105 @@ TEST_F(AnimateTest, ReadsAFolderInTheOrderOfItsNumbers)
     EXPECT_EQ(bytesOf("loose.glb"), bytesOf("frames.glb"));
 }
 
+// One footprint that is too narrow for the liquid does not end the film.
+TEST_F(AnimateTest, HoldsTheLastDropletsWhereAFrameHasNone)
+{
+    fs::create_directory(directory() / "narrow");
+    for (int frame = 1; frame <= 4; ++frame) {
+        const double half = frame == 2 || frame == 3 ? 1.0 : 20.0;
+        writeFile(directory() / "narrow" / (std::to_string(frame) + ".pgm"), greymap(96, 64, [=](int i, int j) {
+                      return std::abs(i + 0.5 - 48.0) < 36.0 && std::abs(j + 0.5 - 32.0) < half ? 255 : 0;
+                  }));
+    }
+    const auto result = run({"narrow", "film.glb", "--width", "9.6mm", "--volume", "60uL", "--json", "film.json"});
+    EXPECT_EQ(result.exit_code, 6);
+    EXPECT_THAT(result.error, HasSubstr("4 frames, 2 held at the frame before (2-3), 60 uL"));
+    EXPECT_THAT(result.error, HasSubstr("warning: narrow/2.pgm: no stable droplet"));
+    EXPECT_THAT(result.error, Not(HasSubstr("narrow/3.pgm")));
+    EXPECT_THAT(bytesOf("film.glb"), StartsWith("glTF"));
+    const json frames = json::parse(bytesOf("film.json"))["frames"];
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_EQ(frames[k]["held"], k == 1 || k == 2);
+        EXPECT_NEAR(frames[k]["volume_ul"].get<double>(), 60.0, 1e-6);
+    }
+    EXPECT_EQ(run({"narrow", "%d.stl", "--width", "9.6mm", "--volume", "60uL", "-q"}).exit_code, 6);
+    EXPECT_EQ(bytesOf("2.stl"), bytesOf("1.stl"));
+    EXPECT_EQ(bytesOf("3.stl"), bytesOf("1.stl"));
+    // The first droplets set the amount.
+    expectFailure({"narrow/2.pgm", "narrow/1.pgm", "old.glb", "--width", "9.6mm", "--volume", "60uL"}, 5,
+                  {"narrow/2.pgm", "no stable"});
+}
+
+TEST_F(AnimateTest, LevelsOfDetailAreInTheFileOfEachFrameOrBesideIt)
+{
+    const auto lod = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"animate", "frames/f%04d.pgm"});
+        options.insert(options.end(), {"--lod", "3k,600,200"});
+        CommandOptions command;
+        command.directory = directory();
+        return runDroplet(options, command);
+    };
+    const auto objs = lod({"out/%04d.obj"});
+    ASSERT_EQ(objs.exit_code, 0) << objs.error;
+    for (const char* name : {"out/%04d.obj", "out/%04d-lod1.obj", "out/%04d-lod2.obj"}) {
+        EXPECT_THAT(objs.error, HasSubstr(name));
+    }
+    for (int frame = 8; frame <= 12; ++frame) {
+        const std::string stem = "out/" + name(frame - 8).substr(1, 4);
+        EXPECT_LT(bytesOf(stem + "-lod1.obj").size(), bytesOf(stem + ".obj").size());
+        EXPECT_LT(bytesOf(stem + "-lod2.obj").size(), bytesOf(stem + "-lod1.obj").size());
+        EXPECT_THAT(bytesOf(stem + "-lod2.obj"), HasSubstr("mtllib " + stem.substr(4) + ".mtl"));
+    }
+    ASSERT_EQ(lod({"out/%d.gltf"}).exit_code, 0);
+    const json file = json::parse(bytesOf("out/10.gltf"));
+    EXPECT_THAT(file["extensionsUsed"].dump(), HasSubstr("MSFT_lod"));
+    EXPECT_EQ(file["meshes"].size(), 3U);
+    EXPECT_THAT(lod({"film.glb"}).error, HasSubstr("--lod needs a file for every frame"));
+    // Levels are files of the run.
+    EXPECT_EQ(lod({"out/%04d.obj", "--json", "out/0009-lod2.obj"}).exit_code, 2);
+    EXPECT_EQ(lod({"out/%04d.obj", "--no-clobber"}).exit_code, 4);
+}
+
+// A droplet under a ceiling sheds a drop, which falls out of the picture.
+TEST_F(AnimateTest, DropsFallFromACeiling)
+{
+    writeFile(directory() / "disc.pgm", greymap(64, 64, [](int i, int j) {
+                  return std::hypot(i + 0.5 - 32.0, j + 0.5 - 32.0) < 24.0 ? 255 : 0;
+              }));
+    const std::vector<std::string> feed{"disc.pgm", "drip.glb", "--tilt", "180deg", "--width", "5.333mm",  "--volume",
+                                        "70uL",     "--feed",   "200uL",  "--slow", "10",      "--frames", "16"};
+    const json told = report(feed);
+    EXPECT_EQ(told["volume_mode"], "track");
+    ASSERT_EQ(told["frames"].size(), 16U);
+    double before = 70e-9;
+    std::size_t seen = 0;
+    for (const json& frame : told["frames"]) {
+        double all = frame["volume_m3"];
+        for (const json& drop : frame["falling"]) {
+            all += drop["volume_m3"].get<double>();
+            EXPECT_EQ(drop["from"], 0);
+            EXPECT_NEAR(drop["volume_m3"].get<double>(), 60e-9, 7e-9) << "800 triangles find less than hangs";
+        }
+        seen += frame["falling"].size();
+        EXPECT_NEAR(all, before + frame["volume_gained_m3"].get<double>() - frame["volume_lost_m3"].get<double>(),
+                    1e-17);
+        before = all;
+    }
+    EXPECT_GT(seen, 3U);
+    EXPECT_TRUE(told["frames"].back()["falling"].empty());
+    EXPECT_THAT(run(feed).error, HasSubstr("; 1 drop fell"));
+    const auto refused = [&](std::vector<std::string> more, const std::vector<std::string>& words) {
+        more.insert(more.begin(), {"disc.pgm", "old.glb"});
+        expectFailure(more, 2, words);
+    };
+    refused({"--feed", "200uL"}, {"level ceiling"});
+    refused({"--slow", "10"}, {"--slow needs --feed"});
+    refused({"--feed", "200uL", "--drips", "2"}, {"--drips and --feed exclude each other"});
+    refused({"--feed", "200uL", "--volume-mode", "fill"}, {"--volume-mode", "--feed"});
+    refused({"--feed", "0uL"}, {"--feed"});
+    expectFailure({"frames", "old.glb", "--feed", "1uL"}, 2, {"--feed", "one picture"});
+}
+
 /// An interrupted run goes on from its checkpoint, with the same files and the same report.
 TEST_F(AnimateTest, ResumesAnInterruptedRun)
 {

@@ -944,6 +944,10 @@ TEST_F(ShapeCommandTest, LevelsOfDetailAreInTheGlbOrBesideTheFile)
         EXPECT_THAT(bytesOf(name), HasSubstr("mtllib lod.mtl"));
     }
     EXPECT_LT(bytesOf("lod-lod2.obj").size(), bytesOf("lod-lod1.obj").size());
+    const std::string told = run({"two.pgm", "lod.obj", "--lod", "8k,2k,500"}).error;
+    for (const char* name : {"lod.obj: ", "lod-lod1.obj: ", "lod-lod2.obj: "}) {
+        EXPECT_THAT(told, HasSubstr(name));
+    }
     EXPECT_TRUE(report({"two.pgm", "plain.obj"})["output"]["levels"].empty());
     for (const char* list : {"8k", "2k,8k", "8k,8k", "8k,0", "8k,x"}) {
         EXPECT_EQ(run({"two.pgm", "a.glb", "--lod", list}).exit_code, 2) << list;
@@ -951,6 +955,38 @@ TEST_F(ShapeCommandTest, LevelsOfDetailAreInTheGlbOrBesideTheFile)
     EXPECT_EQ(run({"two.pgm", "-", "--format", "stl", "--lod", "8k,2k"}).exit_code, 2);
     EXPECT_EQ(run({"two.pgm", "a.glb", "--lod", "8k,2k", "--triangles", "8k"}).exit_code, 2);
     EXPECT_EQ(run({"two.pgm", "a.obj", "--lod", "8k,2k", "--json", "a-lod1.obj"}).exit_code, 2);
+}
+
+// Levels have the triangles that they have with both copies of the rim, and one vertex for each place, whose normal is
+// the liquid's.
+TEST_F(ShapeCommandTest, LevelsOfAWeldedMeshAreWelded)
+{
+    const auto output = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), "two.pgm");
+        options.insert(options.end(), {"--lod", "8k,2k,500", "--json", "lod.json"});
+        EXPECT_EQ(run(options).exit_code, 0);
+        return json::parse(bytesOf("lod.json"))["output"];
+    };
+    const json split = output({"split.gltf"});
+    const json one = output({"one.gltf", "--weld"});
+    const json ply = output({"each.ply"});
+    const json file = json::parse(bytesOf("one.gltf"));
+    ASSERT_EQ(one["levels"].size(), 2U);
+    ASSERT_EQ(file["meshes"].size(), 3U);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const json& level = one["levels"][k];
+        EXPECT_EQ(level["triangles"], split["levels"][k]["triangles"]);
+        EXPECT_EQ(level["error_rms_m"], split["levels"][k]["error_rms_m"]);
+        EXPECT_EQ(level["vertices"], ply["levels"][k]["vertices"]);
+        EXPECT_LT(level["vertices"], split["levels"][k]["vertices"]);
+        const auto position = file["meshes"][k + 1]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>();
+        EXPECT_EQ(file["accessors"][position]["count"], level["vertices"]);
+    }
+    EXPECT_EQ(output({"plate.glb", "--weld", "--base", "1mm"})["components"], 1);
+    output({"each.obj"});
+    const std::string each = bytesOf("each-lod1.obj");
+    output({"each.obj", "--weld"});
+    EXPECT_EQ(bytesOf("each-lod1.obj"), each);
 }
 
 TEST_F(ShapeCommandTest, ReportedVerticesAreThoseOfTheFile)

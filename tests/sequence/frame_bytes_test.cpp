@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -85,6 +86,38 @@ TEST(FrameBytes, TheNextFrameIsTheSameToTheLastBit)
     }
 }
 
+// Where a footprint is too narrow for the amount, the droplets of the frame before stay, and the film goes on from
+// them.
+TEST(FrameBytes, AFrameWithoutADropletIsHeldAlsoAfterARestart)
+{
+    SequenceOptions options = kinds().back();
+    const auto bar = [](double half) {
+        return outlineOf([=](Vec2 p) { return std::abs(p.x - 48) < 36 && std::abs(p.y - 32) < half; });
+    };
+    options.droplet.solve.fill.amount = 40 * kMicrolitre;
+    const Frame before = firstFrame(bar(20), options);
+    EXPECT_TRUE(before.held.empty());
+    EXPECT_THROW(nextFrame(before, bar(1.5), options), Error);
+    options.hold = true;
+    const Frame held = nextFrame(frameFromBytes(bytesOf(before), "state"), bar(1.5), options);
+    EXPECT_THAT(held.held, HasSubstr("no stable droplet"));
+    EXPECT_TRUE(held.continues);
+    EXPECT_EQ(held.vertices_kept, 1.0);
+    EXPECT_EQ(held.droplet.surface.vertices, before.droplet.surface.vertices);
+    EXPECT_EQ(held.droplet.surface.normals, before.droplet.surface.normals);
+    EXPECT_EQ(held.droplet.surface.weld, before.droplet.surface.weld);
+    const FrameReport report = reportOf(held, options);
+    EXPECT_TRUE(report.held);
+    EXPECT_EQ(report.total.volume, before.droplet.total.volume);
+    EXPECT_EQ(report.ancestry.front().from, std::vector<std::size_t>{before.droplets.front().id});
+    const Frame after = nextFrame(held, bar(20), options);
+    EXPECT_TRUE(after.held.empty());
+    EXPECT_TRUE(after.continues);
+    EXPECT_NEAR(after.droplet.total.volume / before.droplet.total.volume, 1.0, 1e-9);
+    const Frame dry = nextFrame(before, outlineOf([](Vec2) { return false; }), options);
+    EXPECT_THROW(nextFrame(dry, bar(1.5), options), Error) << "there is nothing to hold";
+}
+
 TEST(FrameBytes, ReportsComeBack)
 {
     const SequenceOptions options = kinds().front();
@@ -92,12 +125,15 @@ TEST(FrameBytes, ReportsComeBack)
     std::vector<FrameReport> reports{reportOf(frame, options), {}};
     reports[0].input = "a picture, ä";
     reports[0].output = "out/1.glb";
+    reports[0].held = true;
     reports[0].droplets[0].colour = CssColour{1, 200, 3};
     const std::string bytes = bytesOf(reports);
     const std::vector<FrameReport> same = frameReportsFromBytes(bytes, "state");
     EXPECT_EQ(bytesOf(same), bytes);
     ASSERT_EQ(same.size(), 2);
     EXPECT_EQ(same[0].input, reports[0].input);
+    EXPECT_TRUE(same[0].held);
+    EXPECT_FALSE(same[1].held);
     EXPECT_EQ(same[0].droplets.size(), 2);
     EXPECT_EQ(same[0].total.height_bound, reports[0].total.height_bound);
     EXPECT_EQ(same[1].output, std::nullopt);

@@ -26,6 +26,8 @@ struct SequenceOptions {
     VolumeMode volume_mode = VolumeMode::Total;  ///< volume that is conserved
     bool keep_vertices = true;  ///< move each mesh with its footprint, or keep triangles far from changes of the rim,
                                 ///< where possible; if false, triangulate every frame
+    bool hold = false;  ///< show the droplets of the frame before where a frame has none that is stable, instead
+                        ///< of throwing NoSuchDroplet; the first droplets of a sequence must exist
 
     /// @throws Error InvalidArgument if a value is out of its range, with a fill_range, with quads, with volumes of
     ///               each droplet, or with VolumeMode::Total unless fill.sharing is Total
@@ -37,6 +39,18 @@ struct Ancestry {
     std::size_t id = 0;             ///< the same in all frames; never reused
     std::vector<std::size_t> from;  ///< ids of droplets of the frame before that became this one; empty if it is new
     double volume = 0.0;            ///< prescribed volume [m³]
+};
+
+/// Drop that fell off a droplet under a ceiling.
+struct FallingDrop {
+    std::size_t droplet = 0;  ///< id of the droplet that it left
+    double volume = 0.0;      ///< [m³]
+    Vec3 start;               ///< middle when it left [m]
+    double since = 0.0;       ///< time since then [s]
+    double gravity = 0.0;     ///< away from the ceiling [m/s²]
+
+    /// Its middle [m].
+    [[nodiscard]] Vec3 place() const { return {start.x, start.y, start.z + 0.5 * gravity * since * since}; }
 };
 
 /// Data about a frame that nextFrame() needs.
@@ -53,6 +67,10 @@ struct Frame {
                                  ///< VolumeMode::Fill how much the total volume grew
     double volume_lost = 0.0;  ///< volume of lost droplets [m³]; with VolumeMode::Total only before a dry frame; with
                                ///< VolumeMode::Fill how much the total volume shrank
+    std::string held = {};  ///< with SequenceOptions::hold: why the frame has no droplets of its own and shows those of
+                            ///< the frame before; empty if it has
+    std::vector<FallingDrop> falling = {};  ///< drops on their way, with nextDripping(): in the surface, not in figures
+    std::size_t drops_shed = 0;             ///< number of drops that fell so far
     std::shared_ptr<const FrameLineage> lineage;  ///< set by firstFrame() and nextFrame(), read by nextFrame()
 };
 
@@ -82,20 +100,24 @@ Frame firstFrame(Outline outline, const SequenceOptions& options, const Progress
 /// An outline without loops makes a frame without liquid: all droplets are lost, and those of the next frame are new.
 /// The first droplets of a sequence are filled by droplet.solve.fill, in whatever frame they appear.
 ///
+/// A frame that is held continues the frame before, with its outline, volumes and vertices; the next one goes on from
+/// there.
+///
 /// Guarantees: the volume is that of the frame before − lost + gained; with VolumeMode::Total it is the same in every
 /// frame with liquid; both to 1e-9.
 /// @param before    frame before, made by firstFrame() or nextFrame() from a picture of the same extent
 /// @param outline   rims; none for a frame without liquid
 /// @param options   options of the sequence
 /// @param progress  called at every stage; may be empty
-/// @throws Error    as makeDroplet; InvalidInput if the extent differs; InvalidArgument if `before` has no lineage
+/// @throws Error    as makeDroplet, but with options.hold NoSuchDroplet only after a dry frame; InvalidInput if the
+///                  extent differs; InvalidArgument if `before` has no lineage
 Frame nextFrame(const Frame& before, Outline outline, const SequenceOptions& options, const Progress& progress = {});
 
 /// Exact bytes of what nextFrame() needs of the frame before, so that an interrupted sequence can go on.
 /// @param frame  made by firstFrame() or nextFrame()
 std::string bytesOf(const Frame& frame);
 
-/// Frame from its bytes, for nextFrame() alone: it has no surface, figures and warnings.
+/// Frame from its bytes, for nextFrame() alone: it has no warnings.
 ///
 /// Guarantees: the next frame is the same as with the frame itself, to the last bit.
 /// @param bytes   of bytesOf()

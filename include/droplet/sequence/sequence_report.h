@@ -21,6 +21,7 @@ struct FrameReport {
     std::optional<std::string> output;    ///< path of its file, if every frame has its own
     bool continues = false;               ///< as in Frame
     std::optional<double> vertices_kept;  ///< as in Frame
+    bool held = false;                    ///< whether the droplets are those of the frame before, since none exists
     double volume_gained = 0.0;           ///< as in Frame [m³]
     double volume_lost = 0.0;             ///< as in Frame [m³]
     ShapeFigures total;                   ///< of all droplets together
@@ -30,6 +31,8 @@ struct FrameReport {
     bool closed = false;                  ///< whether the surface is closed
     std::vector<Ancestry> ancestry;       ///< origins, one per droplet
     std::vector<DropletReport> droplets;  ///< figures, one per droplet
+    std::vector<FallingDrop> falling;     ///< as in Frame
+    std::size_t drops_shed = 0;           ///< as in Frame
 };
 
 /// Measures the figures of a frame for its report; input and output stay empty.
@@ -64,6 +67,8 @@ struct SequenceReport {
     double time_total = 0.0;          ///< run time [s]
     std::uint64_t peak_memory = 0;    ///< [bytes]
 
+    /// Number of frames that show the droplets of the frame before, since they have none.
+    [[nodiscard]] std::size_t held() const;
     /// Mean vertices_kept of all frames that have it; empty if none has.
     [[nodiscard]] std::optional<double> meanVerticesKept() const;
     /// Number of frames without liquid.
