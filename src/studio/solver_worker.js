@@ -169,9 +169,10 @@ const acts = {
     },
 };
 
+let started;  // all acts but the first wait for it
 addEventListener('message', async ({ data }) => {
     try {
-        const answered = await acts[data.act](data);
+        const answered = await (data.act === 'start' ? started = acts.start(data) : started.then(() => acts[data.act](data)));
         const [answer, transferred] = Array.isArray(answered) ? answered : [answered];
         postMessage({ ...answer, token: data.token }, transferred ?? []);
     } catch (error) {

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pages of the command in Firefox, whose engine is not that of the other tests: node --test firefox_test.mjs
+// STUDIO, RAIN and VIEWER are pages, of `studio`, of `windshield --live` and of `--html`; VALIDATOR the script that checks
+// glTF; FIREFOX the browser.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join, resolve } from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import puppeteer from 'puppeteer-core';
+
+const { STUDIO, RAIN, VIEWER, VALIDATOR, FIREFOX = '/usr/bin/firefox-esr' } = process.env;
+const kSize = { width: 1100, height: 640 };
+const kWait = { timeout: 120_000 };  // enough on a busy machine, without a graphics card
+
+const downloads = mkdtempSync(join(tmpdir(), 'firefox-'));
+let browser;
+before(async () => {
+    browser = await puppeteer.launch({
+        browser: 'firefox', executablePath: FIREFOX, headless: false,  // Firefox has no WebGL without a display
+        args: [`--width=${kSize.width}`, `--height=${kSize.height + 100}`],
+        extraPrefsFirefox: {
+            'browser.download.dir': downloads, 'browser.download.folderList': 2, 'browser.download.useDownloadDir': true, 'webgl.force-enabled': true,
+        },
+    });
+});
+after(async () => {
+    await browser?.close();
+    rmSync(downloads, { recursive: true });
+});
+
+/** Runs a test in a page, in which nothing may complain. */
+function firefox(name, file, run) {
+    test(name, async () => {
+        const page = await browser.newPage();
+        const complaints = [];
+        page.on('pageerror', (error) => complaints.push(error.message));
+        page.on('console', (message) => {
+            if (['error', 'assert'].includes(message.type())) {
+                complaints.push(message.text());
+            }
+        });
+        // Firefox tells a page of promises that nobody caught, but not the test.
+        await page.evaluateOnNewDocument(() => addEventListener('unhandledrejection', ({ reason }) => console.error(String(reason))));
+        await page.setViewport(kSize);
+        await page.goto(pathToFileURL(resolve(file)).href);
+        await run(page);
+        assert.deepEqual(complaints, []);
+        await page.close();
+    });
+}
+
+const until = (page, condition, ...values) => page.waitForFunction(condition, kWait, ...values);
+const settled = (page) => until(page, () => document.documentElement.dataset.droplets === 'ready' && document.documentElement.dataset.state === 'resting');
+const text = (page, selector) => page.$eval(selector, (element) => element.textContent);
+
+async function frames(page, count) {
+    const now = await page.evaluate(() => Number(document.documentElement.dataset.frames));
+    await until(page, (last) => Number(document.documentElement.dataset.frames) >= last, now + count);
+}
+
+/** Mean level of a picture of the page, and the mean distance of its levels from that. */
+async function levels(page, clip) {
+    const png = await page.screenshot({ clip, encoding: 'base64' });
+    return page.evaluate(async (base64) => {
+        const image = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (c) => c.charCodeAt(0))]));
+        const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+        context.drawImage(image, 0, 0);
+        const { data } = context.getImageData(0, 0, image.width, image.height);
+        const mean = data.reduce((sum, level) => sum + level, 0) / data.length;
+        return { mean, contrast: data.reduce((sum, level) => sum + Math.abs(level - mean), 0) / data.length };
+    }, png);
+}
+
+/** The file that a button of the menu saves. */
+async function saved(page, button) {
+    const before = readdirSync(downloads);
+    await page.click('#save');
+    await page.click(button);
+    for (let k = 0; k < 600; ++k) {
+        const name = readdirSync(downloads).find((one) => !before.includes(one) && !one.endsWith('.part'));
+        if (name && statSync(join(downloads, name)).size > 0) {
+            return join(downloads, name);
+        }
+        await new Promise((done) => setTimeout(done, 100));
+    }
+    return assert.fail(`${button} saves nothing`);
+}
+
+async function stroke(page, ...points) {
+    const box = await (await page.$('#sheet')).boundingBox();
+    const at = ([x, y]) => [box.x + x * box.width, box.y + y * box.height];
+    await page.mouse.move(...at(points[0]));
+    await page.mouse.down();
+    for (const point of points.slice(1)) {
+        await page.mouse.move(...at(point), { steps: 5 });
+    }
+    await page.mouse.up();
+}
+
+firefox('a stroke becomes a droplet, and its file is valid', STUDIO, async (page) => {
+    await settled(page);
+    await stroke(page, [0.2, 0.5], [0.5, 0.4], [0.8, 0.5]);
+    await until(page, () => /µL/.test(document.querySelector('#said').textContent));
+    await settled(page);
+    assert.match(await text(page, '#said'), /^[\d.]+\sµL of water, [\d.]+\sµm high$/);
+    execFileSync('node', [VALIDATOR, await saved(page, '[data-save=glb]')], { stdio: 'pipe' });
+    assert.match(readFileSync(await saved(page, '[data-save=project]'), 'utf8'), /^\{/);
+});
+
+firefox('the view shows a droplet of the gallery, and undo takes it away', STUDIO, async (page) => {
+    await settled(page);
+    await page.click('#gallery ::-p-aria([name="Heart"][role="button"])');
+    await settled(page);
+    await until(page, () => /µL/.test(document.querySelector('#result').textContent));
+    const { x, y, width, height } = await (await page.$('#view')).boundingBox();
+    const middle = { x: x + 0.3 * width, y: y + 0.3 * height, width: 0.4 * width, height: 0.4 * height };
+    const wet = await levels(page, middle);
+    await page.keyboard.down('Control');
+    await page.keyboard.press('z');
+    await page.keyboard.up('Control');
+    await settled(page);
+    assert.equal(await text(page, '#result'), '');
+    const dry = await levels(page, middle);
+    assert.ok(Math.abs(wet.contrast - dry.contrast) + Math.abs(wet.mean - dry.mean) > 1, JSON.stringify({ wet, dry }));
+});
+
+firefox('dew covers an object', STUDIO, async (page) => {
+    await settled(page);
+    await page.click('::-p-text(Dew)');
+    await page.click('#dew-bottle');
+    await until(page, () => document.documentElement.dataset.dew === 'ready');
+    assert.match(await text(page, '#result'), /^[\d.,]+.*droplets/);
+});
+
+firefox('Splash simulates and draws', STUDIO, async (page) => {
+    await settled(page);
+    await page.click('#liquid2d');
+    await until(page, () => document.documentElement.dataset.state === 'running');
+    await frames(page, 20);
+    const { contrast } = await levels(page, { x: 20, y: 20, width: 700, height: 480 });
+    assert.ok(contrast > 5, `${contrast}`);
+});
+
+firefox('it rains in the page of windshield', RAIN, async (page) => {
+    await until(page, () => document.documentElement.dataset.state === 'running');
+    await frames(page, 30);
+    const { contrast } = await levels(page, { x: 100, y: 100, width: 400, height: 300 });
+    assert.ok(contrast > 1, `${contrast}`);
+});
+
+firefox('the page of --html shows its droplet', VIEWER, async (page) => {
+    await until(page, () => document.documentElement.dataset.state === 'resting');
+    const { contrast } = await levels(page, { x: 300, y: 120, width: 500, height: 400 });
+    assert.ok(contrast > 1, `${contrast}`);
+});
