@@ -393,7 +393,9 @@ void declareGround(CommandLine& line, DropletSettings& settings)
                  "Keep the liquid above the ground; where it would sink in, the ground stays dry",
                  solve.no_penetration);
     line.add(kGroup, "--onto", "OBJECT",
-             "Lay the droplets on the object in a .glb or .gltf file by its texture coordinates", into(settings.onto));
+             "Lay the droplets on the object in a .glb or .gltf file by its texture coordinates; a .glb, .gltf, .usda "
+             "or .usdz has the object with them, other formats the droplets alone",
+             into(settings.onto));
     line.add(kGroup, "--advancing", "ANGLE",
              "Advancing contact angle; with --receding the report says whether droplets slide", within(kHalfTurn));
     line.add(kGroup, "--receding", "ANGLE", "Receding contact angle, at most --advancing", within(kHalfTurn));

@@ -50,6 +50,7 @@ struct DropletSettings {
     droplet::DropletOptions droplet;  ///< all but trace and solve.ground
     droplet::GroundReport ground;
     std::optional<std::string> onto;  ///< path of the wetted object
+    bool with_object = false;         ///< whether files have this object, too: see hasObject()
     std::optional<droplet::Hysteresis> hysteresis;
     droplet::Material material = droplet::Material::Water;
     std::optional<Materials> materials;  ///< of single droplets, over `material`

@@ -186,8 +186,9 @@ std::vector<droplet::Surface> makeLevels(const droplet::Surface& whole, const Sh
 }
 
 /// Writes the surface and, if given, the mask, the datafile for Surface Evolver, the page, the pictures and the report.
-void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, StageClock& clock,
-          droplet::Report& report)
+/// @param object  in the surface's file; null: none
+void save(Droplet& droplet, const droplet::ObjectStand* object, const ShapeOptions& options, const Extras& extras,
+          StageClock& clock, droplet::Report& report)
 {
     std::optional<droplet::Refill> refill = std::exchange(droplet.surface.refill, std::nullopt);
     if (!hasSliderInPageOnly(options)) {
@@ -210,7 +211,8 @@ void save(Droplet& droplet, const ShapeOptions& options, const Extras& extras, S
                                                    .droplets = extras.droplets,
                                                    .texture = extras.texture,
                                                    .compression = options.compression,
-                                                   .levels = levels}},
+                                                   .levels = levels},
+                                                  object},
                                                  report.output.bytes);
     if (extras.mask) {
         files.push_back(*extras.mask);
@@ -295,12 +297,14 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
             extras.in_file->refill.reset();
         }
     }
+    const droplet::ObjectStand* const object = made.settings.with_object ? &around.object.value() : nullptr;
     const droplet::Surface& written = extras.in_file ? *extras.in_file : made.droplet.surface;
     report.output = describeOutput(written, options.output, options.format);
     report.output.base = made.settings.base;
     report.output.compression = options.compression;
     if (options.compression != droplet::Compression::None) {
-        report.output.compression_error = droplet::compressionError(written, options.compression);
+        report.output.compression_error = droplet::compressionError(
+            written, options.compression, object != nullptr ? object->mesh.vertices : std::vector<droplet::Vec3>());
     }
     if (options.footprint.mask_out) {
         extras.mask = {*options.footprint.mask_out,
@@ -322,7 +326,7 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
     if (options.preview) {
         extras.subject.emplace(subjectOf(made, extras, around));
     }
-    save(made.droplet, options, extras, stages.clock, report);
+    save(made.droplet, object, options, extras, stages.clock, report);
     return report;
 }
 

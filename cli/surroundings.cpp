@@ -28,8 +28,9 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
     }
     if (settings.onto) {
         const bool is_shown = preview && showsLooks(*preview);
-        around.object =
-            droplet::readObjectStand(*settings.onto, is_shown ? droplet::StandParts::All : droplet::StandParts::Holes);
+        around.object = droplet::readObjectStand(
+            *settings.onto, is_shown || settings.with_object ? droplet::StandParts::All : droplet::StandParts::Holes);
+        around.object->is_plain = !is_shown;
     }
     if (preview && preview->ground) {
         around.below = droplet::readPicture(*preview->ground);
