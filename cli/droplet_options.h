@@ -72,9 +72,9 @@ void declareFootprint(CommandLine& line, FootprintOptions& options);
 void declareByColour(CommandLine& line);
 /// Declares --gap.
 void declareGap(CommandLine& line, const char* group);
-/// Declares --seeds, for commands that make a single file.
+/// Declares --seeds.
 void declareSeeds(CommandLine& line, FootprintOptions& options);
-/// Declares --mask-out, for commands that make a single file.
+/// Declares --mask-out.
 void declareMaskOut(CommandLine& line);
 void declareLiquid(CommandLine& line, DropletSettings& settings);
 void declareGround(CommandLine& line, DropletSettings& settings);

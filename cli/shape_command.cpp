@@ -334,7 +334,7 @@ MadeShape makeFromMask(const ShapeOptions& options, const Surroundings& around, 
                        Stages& stages)
 {
     droplet::MaskOptions mask_options = readMaskOptions(options.footprint);
-    const auto decode = [&] { return droplet::decodeMask(picture, mask_options); };
+    const auto decode = [&] { return decodedMask(picture, mask_options); };
     droplet::Mask mask = forInput(options, decode);
     DropletSettings settings = forInput(options, [&] { return completeSettings(mask, around, options); });
     if (const auto side = finerSide(mask, settings.droplet)) {
@@ -354,7 +354,8 @@ MadeShape makeFromMask(const ShapeOptions& options, const Surroundings& around, 
     if (hidden) {
         settings.warnings.push_back(*hidden);
     }
-    for (auto& warning : {maskWarning(mask, "look at it with --mask-out"), drawingWarning(mask)}) {
+    for (auto& warning :
+         {seedsWarning(mask_options), maskWarning(mask, "look at it with --mask-out"), drawingWarning(mask)}) {
         if (warning) {
             settings.warnings.insert(settings.warnings.begin(), *warning);
         }

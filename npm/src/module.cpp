@@ -151,7 +151,7 @@ std::variant<cli::DewCommandOptions, std::string> parseDew(const std::vector<std
 droplet::Mask maskOf(const Given& given, const cli::FootprintOptions& footprint)
 {
     if (given.kind == MaskKind::Png) {
-        return droplet::decodeMask(given.bytes, cli::readMaskOptions(footprint));
+        return cli::decodedMask(given.bytes, cli::readMaskOptions(footprint));
     }
     if (footprint.seeds) {
         throw Error(ErrorCode::InvalidArgument, "--seeds needs a picture, not coverage");

@@ -149,7 +149,8 @@ class Studio {
             find('name').value = shownName(project.name);
         }
         document.title = `${shownName(project.name)} – Droplet Studio`;
-        find('laid').hidden = find('saves-object').hidden = !objectBelow(project);
+        find('laid').hidden = !objectBelow(project);
+        find('saves').querySelectorAll('[data-laid]').forEach((each) => { each.hidden = !objectBelow(project); });
         find('saves').querySelector('[data-save=maps]').hidden = objectBelow(project) !== undefined;
         find('paper').classList.toggle('laid', objectBelow(project) !== undefined);
         find('laid-name').textContent = project.object?.name ?? '';

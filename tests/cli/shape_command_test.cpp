@@ -638,6 +638,22 @@ TEST_F(ShapeCommandTest, WritesADatafileForSurfaceEvolver)
                 ElementsAre("a.glb", "b.fe", "b.glb", "c.fe", "c.glb", "c.json", "d.glb", "disc.pgm", "two.pgm"));
 }
 
+// What is wrong with strokes names them, not the picture.
+TEST_F(ShapeCommandTest, StrokesThatDoNotFitAreNamed)
+{
+    const auto with = [&](const char* seeds) { return run({"disc.pgm", "x.glb", "--seeds", seeds}); };
+    writeFile(directory() / "small.pgm", greymap(8, 8, [](int x, int) { return x < 4 ? 0 : 255; }));
+    const auto small = with("small.pgm");
+    EXPECT_EQ(small.exit_code, 3);
+    EXPECT_THAT(small.error, StartsWith("droplet-shape: --seeds: it has 8 x 8 pixels, must be 64 x 64, as the picture"));
+    writeFile(directory() / "dark.pgm", greymap(64, 64, [](int x, int) { return x < 4 ? 0 : 128; }));
+    EXPECT_THAT(with("dark.pgm").error, StartsWith("droplet-shape: --seeds: it must have a light stroke, on liquid"));
+    writeFile(directory() / "photo.pgm", greymap(64, 64, [](int x, int y) { return 2 * (x + y); }));
+    const auto photo = with("photo.pgm");
+    EXPECT_EQ(photo.exit_code, 0) << photo.error;
+    EXPECT_THAT(photo.error, HasSubstr("warning: --seeds: it looks like a photograph"));
+}
+
 // A plate of 10 cm whose picture cuts out its right two fifths, where the disc would lie.
 TEST_F(ShapeCommandTest, LeavesOutDropletsOverHolesOfAnObjectsTexture)
 {
