@@ -141,8 +141,8 @@ TEST_F(BatchTest, EveryPictureHasItsOwnStrokesAndMask)
     const auto made = files("out");
     EXPECT_EQ(made.size(), 4U);
     for (const std::string stem : {"a", "c"}) {
-        const auto one = run({"masks/" + stem + ".pgm", "one.glb", "--seeds", "strokes/" + stem + ".pgm", "--mask-out",
-                              "one.png"});
+        const auto one =
+            run({"masks/" + stem + ".pgm", "one.glb", "--seeds", "strokes/" + stem + ".pgm", "--mask-out", "one.png"});
         EXPECT_EQ(one.exit_code, 0) << one.error;
         EXPECT_EQ(made.at(stem + ".glb"), readFile(directory() / "one.glb"));
         EXPECT_EQ(made.at(stem + ".png"), readFile(directory() / "one.png"));

@@ -645,7 +645,8 @@ TEST_F(ShapeCommandTest, StrokesThatDoNotFitAreNamed)
     writeFile(directory() / "small.pgm", greymap(8, 8, [](int x, int) { return x < 4 ? 0 : 255; }));
     const auto small = with("small.pgm");
     EXPECT_EQ(small.exit_code, 3);
-    EXPECT_THAT(small.error, StartsWith("droplet-shape: --seeds: it has 8 x 8 pixels, must be 64 x 64, as the picture"));
+    EXPECT_THAT(small.error,
+                StartsWith("droplet-shape: --seeds: it has 8 x 8 pixels, must be 64 x 64, as the picture"));
     writeFile(directory() / "dark.pgm", greymap(64, 64, [](int x, int) { return x < 4 ? 0 : 128; }));
     EXPECT_THAT(with("dark.pgm").error, StartsWith("droplet-shape: --seeds: it must have a light stroke, on liquid"));
     writeFile(directory() / "photo.pgm", greymap(64, 64, [](int x, int y) { return 2 * (x + y); }));
