@@ -475,6 +475,9 @@ studio('maps are saved as those of the command', kDesktop, async (page) => {
         'import json, sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None; z.extractall(sys.argv[2]); print(json.dumps(z.namelist()))',
         zip, folder]));
     const kMaps = ['height', 'normal', 'thickness', 'coverage', 'wetness', 'occlusion'];
+    await page.locator('#save').click();
+    assert.deepEqual(await Promise.all(['maps', 'object'].map((kind) => page.locator(`[data-save=${kind}]`).isVisible())), [true, false]);
+    await page.keyboard.press('Escape');
     const zip = await saved(page, 'maps');
     assert.equal(zip.name, 'Heart-maps.zip');
     assert.deepEqual(listed(zip.path), kMaps.map((map) => `Heart-${map}.png`));
