@@ -306,6 +306,7 @@ int runBatch(int argc, const char* const* argv)
     }
     checkItems(items, options);
     around = inTermsOf(shared.run.terms, read, [&] { return readSurroundings(shared.settings); });
+    options.object = objectInFiles(shared.settings, around);
     settings = settingsFingerprint(shared, options);
     return makeAll(items, options);
 }

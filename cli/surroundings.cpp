@@ -2,6 +2,7 @@
 #include "surroundings.h"
 
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 #include "droplet/error.h"
@@ -39,6 +40,16 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
         around.light = droplet::readEnvironment(*preview->environment);
     }
     return around;
+}
+
+std::shared_ptr<const droplet::ObjectStand> objectInFiles(const DropletSettings& settings, const Surroundings& around)
+{
+    if (!settings.with_object) {
+        return nullptr;
+    }
+    auto object = std::make_shared<droplet::ObjectStand>(around.object.value());
+    object->is_plain = false;
+    return object;
 }
 
 droplet::BaseSurface groundOf(const DropletSettings& settings, const Surroundings& around, droplet::Vec2 extent)

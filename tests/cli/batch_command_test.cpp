@@ -160,6 +160,25 @@ TEST_F(BatchTest, EveryPictureHasItsOwnStrokesAndMask)
                 HasSubstr("must be different files"));
 }
 
+// Sheets of files with the object and of those without it differ by the object, which is no liquid.
+TEST_F(BatchTest, ContactSheetShowsTheObjectBelowItsDroplets)
+{
+    ASSERT_EQ(run({"masks/a.pgm", "cap.glb", "--open", "--width", "6cm"}).exit_code, 0);
+    fs::remove(directory() / "masks/b.SVG");
+    writeFile(directory() / "masks/a.pgm", discPicture(20, 3.0));
+    writeFile(directory() / "masks/c.pgm", discPicture(24, 4.0));
+    const auto sheet = [&](const std::string& name, std::vector<std::string> more) {
+        more.insert(more.begin(), {"batch", "masks", "-o", name + "/{stem}.glb", "--onto", "cap.glb", "--contact-sheet",
+                                   name + ".png"});
+        const auto result = run(more);
+        EXPECT_EQ(result.exit_code, 0) << result.error;
+        return readFile(directory() / (name + ".png"));
+    };
+    const std::string both = sheet("both", {});
+    EXPECT_NE(both, sheet("alone", {"--droplets-only"}));
+    EXPECT_EQ(both, sheet("threads", {"-j", "1"}));
+}
+
 TEST_F(BatchTest, ManifestHasARowForEveryPicture)
 {
     ASSERT_EQ(batch({"--recursive", "--liquid", "glycerol", "-q"}).exit_code, 0);
