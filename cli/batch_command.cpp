@@ -32,7 +32,7 @@ const CommandText& commandText()
 {
     static const CommandText text{
         "droplet-shape batch", "make droplets from many pictures", "[OPTIONS] INPUT... -o OUTPUT",
-        std::string("Placeholders in OUTPUT and --json:\n"
+        std::string("Placeholders in OUTPUT, --json, --mask-out and --seeds:\n"
                     "  {stem} is the picture's name without extension, {name} the whole name,\n"
                     "  {ext} the extension, {dir} its folder below INPUT, {parent} the name of its\n"
                     "  folder, {index} its number; {{ and }} are braces\n"
@@ -58,6 +58,8 @@ void declare(CommandLine& line, ShapeOptions& shared)
     line.add("Batch", "--json", "FILE", "Write a report for each picture, such as 'out/{stem}.json'");
     declareBatch(line);
     declareShapes(line, shared);
+    declareSeeds(line, shared.footprint);
+    declareMaskOut(line);
     declareRun(line);
 }
 
@@ -235,6 +237,13 @@ int runBatch(int argc, const char* const* argv)
         refuse("--output is missing: give a path for each droplet, such as -o 'out/{stem}.glb'");
     }
     const auto report = line.value("--json");
+    const auto mask = line.value("--mask-out");
+    const auto seeds = line.value("--seeds");
+    for (const auto& pattern : {mask, seeds}) {
+        if (pattern && isStream(pattern->text)) {
+            refuse(*pattern, "a path for each picture, such as 'strokes/{stem}.png'");
+        }
+    }
     line.read();
     shared.output = output->text;
     readShapes(line, shared, "--output");
@@ -266,6 +275,14 @@ int runBatch(int argc, const char* const* argv)
             item.others.push_back(std::move(level));
         }
         ShapeOptions job = shared;
+        if (mask) {
+            job.footprint.mask_out = fillPattern(*mask, values, kPlaceholders);
+            item.others.push_back(*job.footprint.mask_out);
+        }
+        if (seeds) {
+            job.footprint.seeds = fillPattern(*seeds, values, kPlaceholders);
+            options.read.push_back({"--seeds", *job.footprint.seeds, {}, {}});
+        }
         job.input = item.input;
         job.output = item.output;
         if (report) {
@@ -274,7 +291,11 @@ int runBatch(int argc, const char* const* argv)
         item.open = [job, &around, &settings] {
             auto picture = readPicture(job);
             BatchWork work;
-            work.fingerprint = fingerprintOf({settings, hashOf(picture)});
+            std::vector<std::string> parts{settings, hashOf(picture)};
+            if (job.footprint.seeds) {
+                parts.push_back(hashOfFile(job.footprint.seeds));
+            }
+            work.fingerprint = fingerprintOf(parts);
             // The picture's memory is released as soon as it is no longer needed.
             work.make = [&job, &around, picture = std::move(picture)]() mutable {
                 return figuresOf(makeShape(job, around, std::move(picture)));
@@ -285,6 +306,7 @@ int runBatch(int argc, const char* const* argv)
     }
     checkItems(items, options);
     around = inTermsOf(shared.run.terms, read, [&] { return readSurroundings(shared.settings); });
+    options.object = objectInFiles(shared.settings, around);
     settings = settingsFingerprint(shared, options);
     return makeAll(items, options);
 }

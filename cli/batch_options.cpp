@@ -55,9 +55,9 @@ fs::path manifestBeside(const std::string& output_pattern)
 std::vector<std::pair<std::string, std::string>> decisiveOptions(const CommandLine& line)
 {
     static const std::set<std::string> others{
-        "--config",    "--help",    "--json",     "--keep-going",    "--manifest",  "--no-clobber",
-        "--no-resume", "--output",  "--progress", "--quiet",         "--recursive", "--shard",
-        "--threads",   "--verbose", "--version",  "--contact-sheet", "--same-scale"};
+        "--config",    "--help",    "--json",     "--keep-going",    "--manifest",   "--no-clobber",
+        "--no-resume", "--output",  "--progress", "--quiet",         "--recursive",  "--shard",
+        "--threads",   "--verbose", "--version",  "--contact-sheet", "--same-scale", "--mask-out"};
     std::vector<std::pair<std::string, std::string>> decisive;
     for (const auto& [name, value] : line.given()) {
         if (others.count(name) == 0) {

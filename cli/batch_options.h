@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "command_line.h"
+#include "droplet/render/object_stand.h"
 #include "droplet_options.h"
 #include "run_files.h"
 
@@ -39,6 +41,7 @@ struct BatchOptions {
     std::optional<std::string> contact_sheet;               ///< path of a picture of all droplets
     bool one_scale = false;                                 ///< draw all droplets of the contact sheet at one scale
     droplet::Material material = droplet::Material::Water;  ///< material on the contact sheet
+    std::shared_ptr<const droplet::ObjectStand> object;     ///< in all outputs, below the droplets; null: none
     std::optional<std::size_t> threads;                     ///< maximum number of items in work [all cores]
     Verbosity verbosity = Verbosity::Normal;
     ProgressMode progress = ProgressMode::Auto;

@@ -141,7 +141,8 @@ public:
             return;
         }
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threadsOf(options_));
-        const ContactSheet sheet{*options_.contact_sheet, options_.material, options_.one_scale, outputs()};
+        const ContactSheet sheet{*options_.contact_sheet, options_.material, options_.one_scale, outputs(),
+                                 options_.object};
         writeContactSheet(sheet, options_.files,
                           [&](std::size_t drawn) { progress_.reportDrawn(drawn, sheet.droplets.size()); });
     }

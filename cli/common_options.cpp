@@ -56,6 +56,20 @@ droplet::Compression readCompression(const CommandLine& line, droplet::Format fo
     return compression;
 }
 
+void declareDropletsOnly(CommandLine& line, const char* group, const std::string& when)
+{
+    line.addFlag(group, "--droplets-only", when + "Leave the object out of a .glb, .gltf, .usda or .usdz");
+}
+
+bool hasObject(const CommandLine& line, droplet::Format format, const std::string& output)
+{
+    const bool is_left_out = line.flag("--droplets-only");
+    if (is_left_out && !droplet::isAnimated(format)) {
+        refuse("--droplets-only needs a .glb, .gltf, .usda or .usdz as OUTPUT, not '" + output + "'");
+    }
+    return droplet::isAnimated(format) && !is_left_out;
+}
+
 std::optional<std::string> requestedText(const CommandLine& line)
 {
     if (auto help = line.requestedHelp()) {

@@ -58,6 +58,14 @@ void declareCompression(CommandLine& line, const char* group);
 /// @throws droplet::Error InvalidArgument, naming the option and what is allowed
 droplet::Compression readCompression(const CommandLine& line, droplet::Format format);
 
+/// Declares --droplets-only of a command that places droplets on an object; hasObject() reads it.
+void declareDropletsOnly(CommandLine& line, const char* group, const std::string& when = "");
+
+/// Whether a file of droplets on an object has the object, too: in formats that show scenes, without --droplets-only.
+/// @param output          path, for the message
+/// @throws droplet::Error InvalidArgument: --droplets-only with a format that holds the droplets alone
+bool hasObject(const CommandLine& line, droplet::Format format, const std::string& output);
+
 /// Text that --help or --version prints, if one of them is given.
 std::optional<std::string> requestedText(const CommandLine& line);
 

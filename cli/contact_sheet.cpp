@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <mutex>
+#include <vector>
 
 #include "droplet/io/read_surface.h"
 #include "droplet/render/contact_sheet.h"
@@ -24,6 +27,39 @@ double meanHeight(const droplet::Surface& surface)
         area += 0.5 * std::max(0.0, cross(surface.vertices[t[1]] - a, surface.vertices[t[2]] - a).z);
     }
     return area > 0.0 ? std::abs(droplet::enclosedVolume(surface)) / area : 0.0;
+}
+
+/// The droplets of a file that begins with the triangles of the object that they lie on.
+/// @param count  of these triangles
+droplet::Surface withoutFirst(const droplet::Surface& all, std::size_t count)
+{
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    droplet::Surface droplets;
+    droplets.triangles.assign(all.triangles.begin() + static_cast<std::ptrdiff_t>(count), all.triangles.end());
+    std::vector<bool> is_kept(all.vertices.size(), false);
+    for (const droplet::Triangle& triangle : droplets.triangles) {
+        for (const std::uint32_t v : triangle) {
+            is_kept[v] = true;
+        }
+    }
+    std::vector<std::uint32_t> number(all.vertices.size(), kNone);
+    std::vector<std::uint32_t> first(all.vertices.size(), kNone);  // of those that are kept, at the place of a vertex
+    droplets.weld.reserve(all.vertices.size());
+    for (std::size_t v = 0; v < all.vertices.size(); ++v) {
+        if (is_kept[v]) {
+            number[v] = static_cast<std::uint32_t>(droplets.vertices.size());
+            droplets.vertices.push_back(all.vertices[v]);
+            droplets.normals.push_back(all.normals[v]);
+            droplets.uvs.push_back(all.uvs[v]);
+            std::uint32_t& place = first[all.weld[v]];
+            place = place == kNone ? number[v] : place;
+            droplets.weld.push_back(place);
+        }
+    }
+    for (droplet::Triangle& triangle : droplets.triangles) {
+        triangle = {number[triangle[0]], number[triangle[1]], number[triangle[2]]};
+    }
+    return droplets;
 }
 
 /// Boxes of one size, each centred on its droplet and standing on the ground.
@@ -66,13 +102,20 @@ void writeContactSheet(const ContactSheet& sheet, const droplet::OutputOptions& 
     if (sheet.one_scale) {
         boxes = boxesOfOneSize(sheet.droplets);
     }
+    droplet::RenderOptions alike;
+    if (sheet.object) {
+        sheet.object->showIn(alike);
+    }
     std::mutex mutex;
     std::size_t done = 0;
     std::vector<droplet::Tile> tiles(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         droplet::Surface surface = droplet::readSurface(sheet.droplets[i]).surface;
+        if (sheet.object) {
+            surface = withoutFirst(surface, sheet.object->mesh.triangles.size());
+        }
         surface.mean_height = meanHeight(surface);
-        droplet::RenderOptions render;
+        droplet::RenderOptions render = alike;
         render.width = size.width;
         render.height = size.height;
         render.look = droplet::lookOf(sheet.material);

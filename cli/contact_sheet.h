@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "droplet/io/output.h"
+#include "droplet/render/object_stand.h"
 #include "droplet/surface/material.h"
 
 namespace cli {
@@ -17,6 +19,8 @@ struct ContactSheet {
     droplet::Material material = droplet::Material::Water;
     bool one_scale = false;             ///< draw all droplets at one scale; otherwise each fills its tile
     std::vector<std::string> droplets;  ///< files, in the order of the tiles; their names are the captions
+    std::shared_ptr<const droplet::ObjectStand> object =
+        {};  ///< in each of these files, below its droplets; null: none
 };
 
 /// Reads all droplets from their files, draws them in parallel, and writes the sheet, if there is at least one. The

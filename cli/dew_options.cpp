@@ -122,7 +122,7 @@ void declare(CommandLine& line, DewCommandOptions& options)
                                        {"none", droplet::Instancing::None},
                                        {"nodes", droplet::Instancing::Nodes},
                                        {"gpu", droplet::Instancing::Gpu}}));
-    line.addFlag(kOut, "--droplets-only", "Leave the object out of a .glb, .gltf, .usda or .usdz");
+    declareDropletsOnly(line, kOut);
     declareCompression(line, kOut);
     line.add(kOut, "--droplets", "FILE", "Write a table of all droplets, .csv or .json; flow can start with the .csv",
              into(options.droplets));
@@ -230,14 +230,9 @@ void readOutput(const CommandLine& line, DewCommandOptions& options)
     }
     const droplet::Format format = droplet::formatNamed(extension.substr(1));
     options.file.file = {format, readCompression(line, format)};
-    options.file.has_object = !line.flag("--droplets-only");
-    if (!droplet::isAnimated(format)) {
-        for (const char* option : {"--instancing", "--droplets-only"}) {
-            if (line.value(option) || line.flag(option)) {
-                refuse(std::string(option) + " needs a .glb, .gltf, .usda or .usdz as OUTPUT, not '" + options.output +
-                       "'");
-            }
-        }
+    options.file.has_object = hasObject(line, format, options.output);
+    if (line.value("--instancing") && !droplet::isAnimated(format)) {
+        refuse("--instancing needs a .glb, .gltf, .usda or .usdz as OUTPUT, not '" + options.output + "'");
     }
     if (options.file.instancing == droplet::Instancing::Gpu && format != droplet::Format::Glb &&
         format != droplet::Format::Gltf) {

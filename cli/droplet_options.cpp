@@ -393,7 +393,9 @@ void declareGround(CommandLine& line, DropletSettings& settings)
                  "Keep the liquid above the ground; where it would sink in, the ground stays dry",
                  solve.no_penetration);
     line.add(kGroup, "--onto", "OBJECT",
-             "Lay the droplets on the object in a .glb or .gltf file by its texture coordinates", into(settings.onto));
+             "Lay the droplets on the object in a .glb or .gltf file by its texture coordinates; a .glb, .gltf, .usda "
+             "or .usdz has the object with them, other formats the droplets alone",
+             into(settings.onto));
     line.add(kGroup, "--advancing", "ANGLE",
              "Advancing contact angle; with --receding the report says whether droplets slide", within(kHalfTurn));
     line.add(kGroup, "--receding", "ANGLE", "Receding contact angle, at most --advancing", within(kHalfTurn));
@@ -493,8 +495,13 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
         warn(*unit, format == droplet::Format::ThreeMf ? "are in millimetres" : "are in metres");
     }
     // On a plate, droplets of several looks and droplets by name are bodies of their own in every format.
-    if (settings.materials && !has_material && !is_shown && !settings.base) {
-        warn({settings.materials->path, "--materials"}, "have no material");
+    const auto warn_of_parts = [&](const Given& given, bool has_parts, const std::string& why) {
+        if (!has_parts && !settings.base) {
+            warn(given, why);
+        }
+    };
+    if (settings.materials) {
+        warn_of_parts({settings.materials->path, "--materials"}, has_material || is_shown, "have no material");
     }
     const bool is_gltf = format == droplet::Format::Glb || format == droplet::Format::Gltf;
     const bool is_usd = format == droplet::Format::Usda || format == droplet::Format::Usdz;
@@ -507,9 +514,8 @@ void warnOfFormat(const CommandLine& line, droplet::Format format, bool is_shown
                                     " files hold triangles alone, here the halves; obj, ply and usda files hold "
                                     "quadrilaterals");
     }
-    if (settings.nodes == droplet::Nodes::Each && !is_gltf && !is_usd && format != droplet::Format::ThreeMf &&
-        !settings.base) {
-        warn({"each", "--nodes"}, "have no nodes");
+    if (settings.nodes == droplet::Nodes::Each) {
+        warn_of_parts({"each", "--nodes"}, is_gltf || is_usd || format == droplet::Format::ThreeMf, "have no nodes");
     }
 }
 

@@ -50,6 +50,7 @@ struct DropletSettings {
     droplet::DropletOptions droplet;  ///< all but trace and solve.ground
     droplet::GroundReport ground;
     std::optional<std::string> onto;  ///< path of the wetted object
+    bool with_object = false;         ///< whether files have this object, too: see hasObject()
     std::optional<droplet::Hysteresis> hysteresis;
     droplet::Material material = droplet::Material::Water;
     std::optional<Materials> materials;  ///< of single droplets, over `material`
@@ -71,9 +72,9 @@ void declareFootprint(CommandLine& line, FootprintOptions& options);
 void declareByColour(CommandLine& line);
 /// Declares --gap.
 void declareGap(CommandLine& line, const char* group);
-/// Declares --seeds, for commands that make a single file.
+/// Declares --seeds.
 void declareSeeds(CommandLine& line, FootprintOptions& options);
-/// Declares --mask-out, for commands that make a single file.
+/// Declares --mask-out.
 void declareMaskOut(CommandLine& line);
 void declareLiquid(CommandLine& line, DropletSettings& settings);
 void declareGround(CommandLine& line, DropletSettings& settings);

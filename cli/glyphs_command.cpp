@@ -358,6 +358,7 @@ int makeGlyphs(const Font& font, GlyphsOptions options)
     }
     checkItems(items, set.batch);
     around = readSurroundings(options.shape.settings);
+    set.batch.object = objectInFiles(options.shape.settings, around);
     settings = settingsFingerprint(options);
     return makeAll(items, set.batch);
 }

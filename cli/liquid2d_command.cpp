@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <cstddef>
 #include <string>
 #include <variant>
 
@@ -18,8 +19,11 @@ namespace {
 std::string summaryOf(const droplet::LiquidReport& report)
 {
     const droplet::LiquidFrameRow& last = report.frames.back();
-    std::string text = fmt::format("{} frame{} of {:.4g} s; {} particles, {} steps\n", report.frames.size(),
-                                   report.frames.size() == 1 ? "" : "s", last.time, last.particles, last.steps);
+    const std::size_t frames = report.frames.size();
+    std::string text = fmt::format(
+        "{} frame{}, {:.4g} s; {} particles{}, {} steps\n", frames, frames == 1 ? "" : "s",
+        static_cast<double>(frames) / report.frames_per_second, last.particles,
+        report.removed > 0 ? fmt::format(" at the end, {} left the window", report.removed) : "", last.steps);
     for (const auto& path : {report.output, report.masks}) {
         if (path && !isStream(*path)) {
             text += oneLine(*path) + "\n";

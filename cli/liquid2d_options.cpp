@@ -241,6 +241,10 @@ void readOutputs(const CommandLine& line, Liquid2dOptions& options)
                    "animation; or a .mp4, .mkv, .mov or .webm");
         }
     }
+    if (const auto width = line.value("--frame-width");
+        width && options.kind == LiquidOutput::Video && options.width % 2 != 0) {
+        refuse(*width, "even, as a video's frame must have even sides");
+    }
     options.encoding = readVideoEncoding(line, options.kind == LiquidOutput::Video, "OUTPUT");
     if (line.flag("--alpha")) {
         if (options.kind != LiquidOutput::Video) {

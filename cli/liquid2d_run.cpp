@@ -356,6 +356,7 @@ public:
         if (options_.cache_file) {
             particles_.emplace(options_.frames_per_second);
         }
+        warnOfFewParticles();
         warnOfShortSteps();
         std::vector<OutputFile> files;
         if (video_) {
@@ -424,6 +425,19 @@ private:
             throw Error(ErrorCode::NoSuchDroplet, said);
         }
         warn(said);
+    }
+
+    /// Tells of a liquid that is only a few particles wide.
+    void warnOfFewParticles()
+    {
+        // Of a splash with 50 a disc floats in the air; with 100 the basin's lower corners stay empty, with 500 hardly.
+        constexpr std::size_t kFew = 200;
+        if (options_.particle_count && *options_.particle_count < kFew) {
+            warn(fmt::format(
+                "--particle-count: {} particles are too few: liquid keeps off walls and floats in the air; give {} or "
+                "more",
+                *options_.particle_count, kFew));
+        }
     }
 
     /// Tells of a simulation without end before it begins.

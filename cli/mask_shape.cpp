@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -60,6 +61,20 @@ droplet::MaskOptions readMaskOptions(const FootprintOptions& footprint)
         options.seeds = droplet::readSeeds(*footprint.seeds);
     }
     return options;
+}
+
+droplet::Mask decodedMask(std::span<const std::byte> picture, const droplet::MaskOptions& options)
+{
+    try {
+        return droplet::decodeMask(picture, options);
+    } catch (const Error& error) {
+        constexpr std::string_view kField = "options.seeds";
+        const std::string_view message = error.what();
+        if (!message.starts_with(kField)) {
+            throw;
+        }
+        throw Error(error.code(), "--seeds: it" + std::string(message.substr(kField.size())));
+    }
 }
 
 droplet::Mask tracedMask(const droplet::Mask& mask, const droplet::TraceOptions& options)
@@ -128,6 +143,16 @@ std::optional<std::string> drawingWarning(const droplet::Mask& mask)
     return mask.lacking.empty()
                ? std::nullopt
                : std::optional("parts of the drawing are not drawn as they are meant: " + mask.lacking);
+}
+
+std::optional<std::string> seedsWarning(const droplet::MaskOptions& options)
+{
+    if (!options.seeds || options.seeds->varied < droplet::kVariedSeeds) {
+        return std::nullopt;
+    }
+    return "--seeds: it looks like a photograph, whose light and dark parts are taken for strokes; give a picture with "
+           "the "
+           "strokes alone, on transparent or evenly grey ground";
 }
 
 std::optional<std::string> maskWarning(const droplet::Mask& mask, const std::string& advice)

@@ -33,6 +33,11 @@ bool takesOwnSize(const droplet::Mask& mask, const DropletSettings& settings, co
 /// @throws droplet::Error  InvalidInput: the strokes' file
 droplet::MaskOptions readMaskOptions(const FootprintOptions& footprint);
 
+/// Reads a mask from an encoded picture.
+/// @param options          of readMaskOptions
+/// @throws droplet::Error  as droplet::decodeMask; what is wrong with strokes begins with --seeds
+droplet::Mask decodedMask(std::span<const std::byte> picture, const droplet::MaskOptions& options);
+
 /// The mask as it is traced: without spots and holes that the options drop.
 droplet::Mask tracedMask(const droplet::Mask& mask, const droplet::TraceOptions& options);
 
@@ -59,6 +64,9 @@ MaskShape makeOfMask(const droplet::Mask& mask, const DropletSettings& settings,
 
 /// Warning about parts of an SVG image that are not drawn.
 std::optional<std::string> drawingWarning(const droplet::Mask& mask);
+
+/// Warning about strokes that look like a photograph.
+std::optional<std::string> seedsWarning(const droplet::MaskOptions& options);
 
 /// Warning about a mask that may be wrong.
 /// @param advice  how to look at the mask

@@ -161,7 +161,9 @@ PreviewSubject subjectOf(const MadeShape& made, const Extras& extras, const Surr
 }
 
 /// Writes the surface and, if given, the mask, the datafile for Surface Evolver, the page, the pictures and the report.
-void save(Droplet& droplet, const ShapeOptions& options, Extras& extras, StageClock& clock, droplet::Report& report)
+/// @param object  in the surface's file; null: none
+void save(Droplet& droplet, const droplet::ObjectStand* object, const ShapeOptions& options, Extras& extras,
+          StageClock& clock, droplet::Report& report)
 {
     const droplet::Surface& written = extras.in_file ? *extras.in_file : droplet.surface;
     std::vector<OutputFile> files = surfaceFiles(written,
@@ -174,7 +176,8 @@ void save(Droplet& droplet, const ShapeOptions& options, Extras& extras, StageCl
                                                    .droplets = extras.droplets,
                                                    .texture = extras.texture,
                                                    .compression = options.compression,
-                                                   .levels = extras.levels}},
+                                                   .levels = extras.levels},
+                                                  object},
                                                  report.output.bytes);
     if (extras.mask) {
         files.push_back(*extras.mask);
@@ -249,8 +252,8 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
         extras.shown = lowered(*extras.in_file, -*base);
         // Pictures take what copies of the rim lead to for ground; here that is the underside alone.
         std::iota(extras.shown->weld.begin(), extras.shown->weld.end(), 0U);
-        if (auto thin = droplet::thinWarning(made.droplet.figures, *base)) {
-            report.warnings.push_back(*std::move(thin));
+        if (auto warning = droplet::printWarning(made.droplet.figures, plate)) {
+            report.warnings.push_back(*std::move(warning));
         }
     }
     if (hasSliderInPageOnly(options)) {
@@ -268,13 +271,15 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
     if (made.settings.weld) {
         extras.in_file = droplet::welded(whole);
     }
+    const droplet::ObjectStand* const object = made.settings.with_object ? &around.object.value() : nullptr;
     const droplet::Surface& written = extras.in_file ? *extras.in_file : made.droplet.surface;
     report.output = describeOutput(written, options.output, options.format);
     report.output.levels = std::move(levels.reports);
     report.output.base = made.settings.base;
     report.output.compression = options.compression;
     if (options.compression != droplet::Compression::None) {
-        report.output.compression_error = droplet::compressionError(written, options.compression);
+        report.output.compression_error = droplet::compressionError(
+            written, options.compression, object != nullptr ? object->mesh.vertices : std::vector<droplet::Vec3>());
     }
     if (options.footprint.mask_out) {
         extras.mask = {*options.footprint.mask_out,
@@ -296,7 +301,7 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
     if (options.preview) {
         extras.subject.emplace(subjectOf(made, extras, around));
     }
-    save(made.droplet, options, extras, stages.clock, report);
+    save(made.droplet, object, options, extras, stages.clock, report);
     return report;
 }
 
@@ -304,7 +309,7 @@ MadeShape makeFromMask(const ShapeOptions& options, const Surroundings& around, 
                        Stages& stages)
 {
     droplet::MaskOptions mask_options = readMaskOptions(options.footprint);
-    const auto decode = [&] { return droplet::decodeMask(picture, mask_options); };
+    const auto decode = [&] { return decodedMask(picture, mask_options); };
     droplet::Mask mask = forInput(options, decode);
     DropletSettings settings = forInput(options, [&] { return completeSettings(mask, around, options); });
     if (const auto side = finerSide(mask, settings.droplet)) {
@@ -324,7 +329,8 @@ MadeShape makeFromMask(const ShapeOptions& options, const Surroundings& around, 
     if (hidden) {
         settings.warnings.push_back(*hidden);
     }
-    for (auto& warning : {maskWarning(mask, "look at it with --mask-out"), drawingWarning(mask)}) {
+    for (auto& warning :
+         {seedsWarning(mask_options), maskWarning(mask, "look at it with --mask-out"), drawingWarning(mask)}) {
         if (warning) {
             settings.warnings.insert(settings.warnings.begin(), *warning);
         }

@@ -216,6 +216,7 @@ void declareDroplets(CommandLine& line, ShapeOptions& options)
              "so on, with its "
              "figures",
              into(settings.nodes, {{"one", droplet::Nodes::One}, {"each", droplet::Nodes::Each}}));
+    declareDropletsOnly(line, "Surface", "With --onto: ");
     line.add("Surface", "--materials", "FILE",
              "TOML file with a material, colour, roughness or index of refraction for single droplets");
     line.add("Surface", "--fill-range", "RANGE",
@@ -296,6 +297,11 @@ void readDroplets(const CommandLine& line, ShapeOptions& options, const std::str
     }
     if (!line.value("--format")) {
         options.format = formatOf(options.output, subject);
+    }
+    if (options.settings.onto) {
+        options.settings.with_object = hasObject(line, options.format, options.output);
+    } else if (line.flag("--droplets-only")) {
+        options.settings.warnings.emplace_back("--droplets-only has no effect without --onto");
     }
     warnOfFormat(line, options.format, options.html || options.preview, options.settings);
     readLevels(line, options.output, options.format, options.settings);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "droplet/printable.h"
+#include "droplet/render/write_on_object.h"
 #include "droplet/surface/simplify.h"
 #include "droplet_report.h"
 #include "option_values.h"
@@ -77,6 +78,17 @@ droplet::Surface lowered(droplet::Surface surface, double depth)
     return surface;
 }
 
+namespace {
+
+std::uint64_t write(const droplet::Surface& surface, std::ostream& out, const SurfaceTarget& target)
+{
+    return target.object != nullptr
+               ? droplet::writeOnObject(surface, *target.object, out, target.format, target.options)
+               : droplet::writeSurface(surface, out, target.format, target.options);
+}
+
+}  // namespace
+
 std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTarget target, std::uint64_t& bytes)
 {
     std::vector<OutputFile> files;
@@ -84,14 +96,11 @@ std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTar
     if (material_file) {
         target.options.material_file = std::filesystem::path(*material_file).filename().string();
     }
-    files.push_back({target.path, [&surface, &bytes, target](std::ostream& out) {
-                         bytes = droplet::writeSurface(surface, out, target.format, target.options);
-                     }});
+    files.push_back(
+        {target.path, [&surface, &bytes, target](std::ostream& out) { bytes = write(surface, out, target); }});
     const std::vector<std::string> paths = levelPaths(target.path, target.format, target.options.levels.size());
     for (std::size_t k = 0; k < paths.size(); ++k) {
-        files.push_back({paths[k], [k, target](std::ostream& out) {
-                             droplet::writeSurface(target.options.levels[k], out, target.format, target.options);
-                         }});
+        files.push_back({paths[k], [k, target](std::ostream& out) { write(target.options.levels[k], out, target); }});
     }
     if (material_file) {
         std::vector<droplet::Look> looks = droplet::looksOf(target.options.droplets);

@@ -9,6 +9,7 @@
 
 #include "droplet/io/output.h"
 #include "droplet/io/report.h"
+#include "droplet/render/object_stand.h"
 #include "droplet/surface/surface.h"
 #include "droplet_options.h"
 #include "files.h"
@@ -48,10 +49,11 @@ struct SurfaceTarget {
     std::string path;
     droplet::Format format = droplet::Format::Glb;
     droplet::WriteOptions options;
+    const droplet::ObjectStand* object = nullptr;  ///< which the file has, too, with the surface on it; null: none
 };
 
-/// Files of a surface and, in OBJ, its material; and of its levels. `surface`, levels and `bytes` must live until they
-/// are written.
+/// Files of a surface and, in OBJ, its material; and of its levels. `surface`, object, levels and `bytes` must live
+/// until they are written.
 /// @param bytes  receives the size of the surface's file
 std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTarget target, std::uint64_t& bytes);
 

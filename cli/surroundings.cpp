@@ -2,6 +2,7 @@
 #include "surroundings.h"
 
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 #include "droplet/error.h"
@@ -28,8 +29,9 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
     }
     if (settings.onto) {
         const bool is_shown = preview && showsLooks(*preview);
-        around.object =
-            droplet::readObjectStand(*settings.onto, is_shown ? droplet::StandParts::All : droplet::StandParts::Holes);
+        around.object = droplet::readObjectStand(
+            *settings.onto, is_shown || settings.with_object ? droplet::StandParts::All : droplet::StandParts::Holes);
+        around.object->is_plain = !is_shown;
     }
     if (preview && preview->ground) {
         around.below = droplet::readPicture(*preview->ground);
@@ -38,6 +40,16 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
         around.light = droplet::readEnvironment(*preview->environment);
     }
     return around;
+}
+
+std::shared_ptr<const droplet::ObjectStand> objectInFiles(const DropletSettings& settings, const Surroundings& around)
+{
+    if (!settings.with_object) {
+        return nullptr;
+    }
+    auto object = std::make_shared<droplet::ObjectStand>(around.object.value());
+    object->is_plain = false;
+    return object;
 }
 
 droplet::BaseSurface groundOf(const DropletSettings& settings, const Surroundings& around, droplet::Vec2 extent)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -28,6 +29,9 @@ struct Surroundings {
 /// @param preview         of the droplets
 /// @throws droplet::Error InvalidInput; InvalidArgument if --surface-depth is missing
 Surroundings readSurroundings(const DropletSettings& settings, const std::optional<PreviewOptions>& preview = {});
+
+/// The object that all files have below their droplets, with its looks; null: none.
+std::shared_ptr<const droplet::ObjectStand> objectInFiles(const DropletSettings& settings, const Surroundings& around);
 
 /// Ground on which droplets are solved.
 /// @param extent          extent of the picture, which a height map covers [m]

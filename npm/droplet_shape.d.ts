@@ -69,7 +69,7 @@ export interface Options {
     surface?: string;
     /** Keep the liquid above the ground; where it would sink in, the ground stays dry */
     noPenetration?: boolean;
-    /** Lay the droplets on the object in a .glb or .gltf file by its texture coordinates */
+    /** Lay the droplets on the object in a .glb or .gltf file by its texture coordinates; a .glb, .gltf, .usda or .usdz has the object with them, other formats the droplets alone */
     onto?: DewObject;
     /** Advancing contact angle; with receding the report says whether droplets slide; a number is in rad */
     advancing?: string | number;
@@ -89,6 +89,8 @@ export interface Options {
     unit?: 'm' | 'cm' | 'mm';
     /** Quadrilaterals along the rim, for subdivision and sculpting, in .obj, .ply and USD; triangles counts their halves */
     quads?: boolean;
+    /** With onto: Leave the object out of a .glb, .gltf, .usda or .usdz */
+    dropletsOnly?: boolean;
     /** Add a slider to glTF that fills and drains the droplet, such as 0..2 from none to twice its liquid; takes the linear model unless model exact is given */
     fillRange?: string | [number, number];
     /** Strokes on the picture, in a picture of its size: light ones on liquid, dark ones on dry ground, the rest transparent or grey; for clear droplets, whose rims are then found between them */
@@ -197,8 +199,16 @@ export interface Droplet {
     readonly surface: Surface;
     /** The command's report, droplet-shape.report/1. */
     readonly report: Record<string, any>;
-    /** Bytes of a file. */
-    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl' | 'usda' | 'usdz' | '3mf'): Uint8Array;
+    /**
+     * Bytes of a file. With onto, glb, gltf, usda and usdz have the object with the droplets on it; others the droplets alone.
+     * @param form  other options for this file
+     */
+    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl' | 'usda' | 'usdz' | '3mf', form?: Pick<Options, 'dropletsOnly'>): Uint8Array;
+    /**
+     * Textures of the droplets from straight above, as the command's --maps: PNG files by name, such as droplet-height.png. Not with onto.
+     * @param options  path: the names without the map's, ending in .png [droplet.png]; the others as of the command
+     */
+    maps(options?: { path?: string; mapWidth?: number; mapThickness?: string | number; mapTile?: boolean }): Record<string, Uint8Array>;
     /** Gives the solver's memory back before the garbage collector does. */
     free(): void;
 }

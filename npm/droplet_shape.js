@@ -6,7 +6,7 @@ import { pngOf } from './png.js';
 
 // As in src/module.cpp.
 const kMask = { png: 0, bytes: 1, words: 2 };
-const kArray = { positions: 0, normals: 1, uvs: 2, contactAngles: 3, triangles: 4, report: 5, file: 6, message: 7, code: 8, coverage: 9 };
+const kArray = { positions: 0, normals: 1, uvs: 2, contactAngles: 3, triangles: 4, report: 5, file: 6, message: 7, code: 8, coverage: 9, name: 10 };
 
 export { DropletError };
 
@@ -22,14 +22,17 @@ const withDegrees = (message) => message.replace(/'(-?[\d.e+-]+)rad' must be .*/
 
 /** Options of files, of the terminal and of the threads. */
 const kNotHere = ['format', 'config', 'help', 'version', 'quiet', 'verbose', 'progress', 'threads', 'no-clobber'];
+const kOfMaps = ['map-width', 'map-thickness', 'map-tile'];
 /** Those of a droplet, and those of colours, which are not a mask's. */
 const kNotOfDroplets = new Set([...kNotHere, 'surface-depth', 'by-colour', 'colours', 'gap', 'colour-map', 'nodes', 'materials',
-    'compress', 'sink', 'base', 'lod', 'weld']);
+    'compress', 'sink', 'base', 'lod', 'weld', 'maps', ...kOfMaps]);
 // The module draws no pictures.
 const kNotOfDew = new Set([...kNotHere, 'droplets', 'json', 'preview', 'view', 'camera', 'look-at', 'preview-size', 'environment',
     'turntable', 'codec', 'quality']);
 const kDewFormats = ['glb', 'gltf', 'usda', 'usdz', 'obj', 'ply', 'stl', 'csv'];
-/** Options of dew that change its files alone. */
+/** Options of droplets on an object that change files alone. */
+const kForm = ['dropletsOnly'];
+/** Those of dew. */
 const kDewForm = ['material', 'instancing', 'dropletsOnly', 'compress'];
 
 /** Options of the command's --help=json that the solver has, with their names in JavaScript. */
@@ -196,8 +199,10 @@ export async function loadSolver(wasm) {
         return decoder.decode(bytes.slice(0, bytes.indexOf(0)));
     };
     const byName = (list) => new Map(list.map((option) => [option.name, option]));
-    const options = optionsOf(textAt(solver.droplet_help()), kNotOfDroplets);
+    const help = textAt(solver.droplet_help());
+    const options = optionsOf(help, kNotOfDroplets);
     const known = byName(options);
+    const knownOfMaps = byName(optionsOf(help, { has: (name) => !kOfMaps.includes(name) }));
     const dewOptions = optionsOf(textAt(solver.droplet_dew_help()), kNotOfDew);
     const knownOfDew = byName(dewOptions);
     const bytesOf = (words) => new TextEncoder().encode(words.map((word) => `${word}\0`).join(''));
@@ -218,13 +223,32 @@ export async function loadSolver(wasm) {
     // The solver's own memory of droplets whose objects are gone.
     const forgotten = new FinalizationRegistry((result) => solver.droplet_delete(result));
 
-    class Droplet {
+    /** Lets the module read files while it works. */
+    const withFiles = (given, work) => {
+        given.forEach((bytes, path) => void files.set(path, bytes));
+        try {
+            return work();
+        } finally {
+            files.clear();
+        }
+    };
+
+    /** What the module made, with its files. */
+    class Made {
         #result;
+        #words;
+        #object;
         #surface;
         #report;
 
-        constructor(result) {
+        /**
+         * @param words   gives the arguments with other options of files
+         * @param object  files of the object that it lies on
+         */
+        constructor(result, words, object) {
             this.#result = result;
+            this.#words = words;
+            this.#object = object;
             forgotten.register(this, result, this);
         }
 
@@ -248,20 +272,40 @@ export async function loadSolver(wasm) {
             return this.#report;
         }
 
-        file(format = 'glb', form = undefined) {
+        file(format = 'glb', form = {}) {
             const result = this.#kept();
-            if (form) {
-                const bytes = bytesOf(form);
-                const at = put(bytes);
-                solver.droplet_dew_form(result, at, bytes.length);
-                solver.free(at);
-                check(result);
+            const only = this.constructor.form;
+            const other = Object.keys(form).find((name) => !only.includes(name));
+            if (other) {
+                throw new DropletError('InvalidArgument', `${other}: changes more than a file; only ${only.join(', ')} may be given here`);
             }
+            this._tell(solver.droplet_form, form);
             const place = put(new TextEncoder().encode(`${format}\0`));
-            solver.droplet_write(result, place);
+            withFiles(this.#object, () => solver.droplet_write(result, place));
             solver.free(place);
             check(result);
             return take(result, kArray.file, Uint8Array);
+        }
+
+        /**
+         * Gives a call the arguments, with some more; returns what it does.
+         * @param form  options of files
+         */
+        _tell(call, form, more = []) {
+            const result = this.#kept();
+            const bytes = bytesOf([...this.#words(form), ...more]);
+            const at = put(bytes);
+            const answer = call(result, at, bytes.length);
+            solver.free(at);
+            check(result);
+            return answer;
+        }
+
+        /** Name and bytes of one of the maps. */
+        _map(number) {
+            const result = this.#kept();
+            solver.droplet_map(result, number);
+            return [text(result, kArray.name), take(result, kArray.file, Uint8Array)];
         }
 
         /** Gives its memory back at once. */
@@ -281,14 +325,20 @@ export async function loadSolver(wasm) {
         }
     }
 
-    class Dew extends Droplet {
-        #words;
+    class Droplet extends Made {
+        static form = kForm;
 
-        /** @param words  gives the arguments with other options of files */
-        constructor(result, words) {
-            super(result);
-            this.#words = words;
+        maps({ path = 'droplet.png', ...given } = {}) {
+            if (typeof path !== 'string' || !path.endsWith('.png')) {
+                throw new DropletError('InvalidArgument', `path: ${JSON.stringify(path)} must end in .png; only the command writes OpenEXR`);
+            }
+            const count = this._tell(solver.droplet_maps, {}, [`--maps=${path}`, ...argumentsOf(given, knownOfMaps)]);
+            return Object.fromEntries(Array.from({ length: count }, (_, k) => this._map(k)));
         }
+    }
+
+    class Dew extends Made {
+        static form = kDewForm;
 
         get surface() {
             const { positions, normals, triangles } = super.surface;
@@ -299,34 +349,23 @@ export async function loadSolver(wasm) {
             if (!kDewFormats.includes(format)) {
                 throw new DropletError('InvalidArgument', `format: '${format}' must be one of ${kDewFormats.join(', ')}`);
             }
-            const other = Object.keys(form).find((name) => !kDewForm.includes(name));
-            if (other) {
-                throw new DropletError('InvalidArgument', `${other}: changes more than a file; only ${kDewForm.join(', ')} may be given here`);
-            }
-            return super.file(format, this.#words(form));
+            return super.file(format, form);
         }
     }
 
-    /** Lets the module read files while it works. */
-    const withFiles = (given, work) => {
-        given.forEach((bytes, path) => void files.set(path, bytes));
-        try {
-            return work();
-        } finally {
-            files.clear();
-        }
-    };
     /** Gives the module a mask, with the files that its options name, and keeps what it makes of it. */
     const ofMask = (mask, options_given, make, wrap) => {
         const { seeds, onto, ...given } = options_given ?? {};
         const object = onto ? filesOf(onto, 'onto') : new Map();
         const [name] = object.keys();
-        const words = [...argumentsOf(given, known), ...seeds ? ['--seeds=seeds'] : [], ...onto ? [`--onto=${name}`] : []];
+        const words = (form) => [...argumentsOf({ ...given, ...form }, known), ...seeds ? ['--seeds=seeds'] : [], ...onto ? [`--onto=${name}`] : []];
+        const first = words();
         const { kind, bytes, width, height } = describe(mask);
         const inputs = new Map([...object, ...seeds ? [['seeds', pictureOf(seeds, 'seeds')]] : []]);
         const pixels = put(bytes);
         try {
-            return withFiles(inputs, () => made(words, (at, length) => make(at, length, pixels, bytes.length, width, height, kind), wrap));
+            return withFiles(inputs, () => made(first, (at, length) => make(at, length, pixels, bytes.length, width, height, kind),
+                (result) => wrap(result, words, object)));
         } finally {
             solver.free(pixels);
         }
@@ -341,7 +380,7 @@ export async function loadSolver(wasm) {
             solver.droplet_delete(result);
             return { width, height: data.length / width, pixelSize, data };
         }),
-        makeDroplet: (mask, given) => ofMask(mask, given, solver.droplet_make, (result) => new Droplet(result)),
+        makeDroplet: (mask, given) => ofMask(mask, given, solver.droplet_make, (result, words, object) => new Droplet(result, words, object)),
         dewOptions,
         dew(object, { mask, ...given } = {}) {
             const inputs = filesOf(object);
@@ -351,7 +390,7 @@ export async function loadSolver(wasm) {
             }
             const words = (form) => [...argumentsOf({ ...given, ...form }, knownOfDew), ...mask ? ['--mask=mask'] : [], '--', name, 'droplets.glb'];
             const first = words();
-            return withFiles(inputs, () => made(first, solver.droplet_dew, (result) => new Dew(result, words)));
+            return withFiles(inputs, () => made(first, solver.droplet_dew, (result) => new Dew(result, words, new Map())));
         },
     };
 }

@@ -80,8 +80,16 @@ export interface Droplet {
     readonly surface: Surface;
     /** The command's report, droplet-shape.report/1. */
     readonly report: Record<string, any>;
-    /** Bytes of a file. */
-    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl' | 'usda' | 'usdz' | '3mf'): Uint8Array;
+    /**
+     * Bytes of a file. With onto, glb, gltf, usda and usdz have the object with the droplets on it; others the droplets alone.
+     * @param form  other options for this file
+     */
+    file(format?: 'glb' | 'gltf' | 'obj' | 'ply' | 'stl' | 'usda' | 'usdz' | '3mf', form?: Pick<Options, 'dropletsOnly'>): Uint8Array;
+    /**
+     * Textures of the droplets from straight above, as the command's --maps: PNG files by name, such as droplet-height.png. Not with onto.
+     * @param options  path: the names without the map's, ending in .png [droplet.png]; the others as of the command
+     */
+    maps(options?: { path?: string; mapWidth?: number; mapThickness?: string | number; mapTile?: boolean }): Record<string, Uint8Array>;
     /** Gives the solver's memory back before the garbage collector does. */
     free(): void;
 }

@@ -10,7 +10,7 @@ const kTable = Uint32Array.from({ length: 256 }, (_, byte) => {
     return rest;
 });
 
-function crc32(bytes) {
+export function crc32(bytes) {
     let crc = 0xffffffff;
     for (let i = 0; i < bytes.length; ++i) {
         crc = kTable[(crc ^ bytes[i]) & 0xff] ^ (crc >>> 8);

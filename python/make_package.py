@@ -170,7 +170,7 @@ mask: array of two dimensions, rows from the top: bool; uint8 or uint16, whose l
         "_core.make_droplet(mask_of(mask), {tokens})",
         leave_out={
             "segment", "colour", "mask_out", "unit", "format", "material",
-            "colour_map", "nodes", "materials", "compress", "sink", "base", "lod", "weld",
+            "colour_map", "nodes", "materials", "droplets_only", "compress", "sink", "base", "lod", "weld",
         },
     ),
     Function(
@@ -193,7 +193,7 @@ text: one line or more, separated by line feeds.
         "_core.glyphs(font, text, {tokens})",
         leave_out={
             "font", "text", "charset", "all", "list", "output", "json", "equal_height", "unit", "format", "material", "nodes",
-            "materials", "compress", "sink", "base", "lod", "weld", "by_colour", "palette", "text_colour", "gap",
+            "materials", "droplets_only", "compress", "sink", "base", "lod", "weld", "by_colour", "palette", "text_colour", "gap",
         },
     ),
     Function(

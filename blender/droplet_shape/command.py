@@ -89,7 +89,7 @@ def run(program, timeout, arguments, inputs, onto=None, has_report=True):
         line = [program, *subcommand, *(item.placed(folder) for item in inputs), str(output)]
         line += arguments[len(subcommand):]
         if onto is not None:
-            line += ["--onto", onto.placed(folder)]
+            line += ["--onto", onto.placed(folder), "--droplets-only"]  # the scene has the object
         line += ["--json", str(report), "--progress", "none"] if has_report else []
         line += ["--quiet"]
         try:

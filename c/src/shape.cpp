@@ -37,6 +37,7 @@ using droplet::ErrorCode;
 struct DropletShape {
     cli::ShapeOptions options;
     cli::MadeShape made;
+    std::optional<droplet::ObjectStand> object = {};  ///< that files have, too
     cli::DescribedShape described = {};
     std::string report = {};
     std::vector<float> positions = {};
@@ -102,8 +103,12 @@ DropletShape* madeBy(const Words& words, const char* input, const Make& make)
     if (options.run.threads) {
         limit.emplace(tbb::global_control::max_allowed_parallelism, *options.run.threads);
     }
-    cli::MadeShape made = make(options, cli::readSurroundings(options.settings));
+    cli::Surroundings around = cli::readSurroundings(options.settings);
+    cli::MadeShape made = make(options, around);
     auto shape = std::make_unique<DropletShape>(DropletShape{std::move(options), std::move(made)});
+    if (shape->options.settings.with_object) {
+        shape->object = std::move(around.object);
+    }
     shape->described = cli::describe(shape->made, shape->options);
     const droplet::Surface& surface = shape->made.droplet.surface;
     droplet::Report& report = shape->described.report;
@@ -221,6 +226,9 @@ DropletCode droplet_shape_write(const DropletShape* shape, const char* path)
                           .nodes = settings.nodes,
                           .droplets = shape->described.droplets,
                           .texture = cli::textureOf(shape->made)};
+        if (shape->object && droplet::isAnimated(target.format)) {
+            target.object = &*shape->object;
+        }
         if (target.format == droplet::Format::Glb) {
             target.options.compression = shape->options.compression;
         }

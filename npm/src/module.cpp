@@ -27,8 +27,14 @@
 #include "droplet/io/report.h"
 #include "droplet/mask/mask.h"
 #include "droplet/mask/two_levels.h"
+#include "droplet/render/droplet_maps.h"
+#include "droplet/render/object_stand.h"
+#include "droplet/render/write_on_object.h"
+#include "droplet/shape/base_surface.h"
 #include "droplet_report.h"
+#include "files.h"
 #include "mask_shape.h"
+#include "shape_maps.h"
 #include "shape_options.h"
 #include "stage_clock.h"
 #include "surroundings.h"
@@ -42,12 +48,29 @@ using droplet::ErrorCode;
 enum class MaskKind : int { Png = 0, Bytes = 1, Words = 2 };
 
 /// Arrays of a result; known to solver.js.
-enum class Array : int { Positions, Normals, Uvs, ContactAngles, Triangles, Report, File, Message, Code, Coverage };
+enum class Array : int {
+    Positions,
+    Normals,
+    Uvs,
+    ContactAngles,
+    Triangles,
+    Report,
+    File,
+    Message,
+    Code,
+    Coverage,
+    Name
+};
 
 /// Covered object and how its files are wanted.
 struct MadeDew {
     cli::DewCommandOptions options;
     cli::Dew dew;
+};
+
+struct MapFile {
+    std::string name;
+    std::string bytes;
 };
 
 /// A mask, a droplet or a covered object, or the error that prevented it.
@@ -60,6 +83,12 @@ struct Result {
     droplet::Report report;
     droplet::Material material = droplet::Material::Water;
     droplet::LengthUnit unit = droplet::LengthUnit::Millimetre;
+    std::optional<std::string> object;  ///< path of the object that the droplets lie on
+    bool with_object = false;           ///< whether files have it, too
+    droplet::Vec2 extent;               ///< of the mask [m]
+    droplet::BaseSurface ground;
+    std::vector<MapFile> maps;  ///< of the last droplet_maps
+    std::string name;           ///< of the last droplet_map
     std::vector<float> positions;
     std::vector<float> normals;
     std::vector<float> uvs;
@@ -77,10 +106,11 @@ struct Given {
     MaskKind kind = MaskKind::Png;
 };
 
-void declare(cli::CommandLine& line, cli::ShapeOptions& options)
+void declare(cli::CommandLine& line, cli::ShapeOptions& options, cli::ShapeMapOptions& maps)
 {
     cli::declareShapes(line, options);
     cli::declareSeeds(line, options.footprint);
+    cli::declareShapeMaps(line, maps);
     cli::declareRun(line);
 }
 
@@ -88,7 +118,8 @@ cli::ShapeOptions parse(const std::vector<std::string>& arguments)
 {
     cli::CommandLine line({"droplet-shape", "", "", ""});
     cli::ShapeOptions options;
-    declare(line, options);
+    cli::ShapeMapOptions maps;
+    declare(line, options, maps);
     std::vector<const char*> words{"droplet-shape"};
     for (const std::string& argument : arguments) {
         words.push_back(argument.c_str());
@@ -98,6 +129,7 @@ cli::ShapeOptions parse(const std::vector<std::string>& arguments)
     options.input = "mask";
     options.output = "droplet.glb";
     cli::readShapes(line, options, "OUTPUT");
+    options.maps = cli::readShapeMaps(line, maps);
     if (options.run.config || options.settings.ground.path) {
         throw Error(ErrorCode::InvalidArgument,
                     "--config and height maps of --surface need files, which the module cannot read");
@@ -119,7 +151,7 @@ std::variant<cli::DewCommandOptions, std::string> parseDew(const std::vector<std
 droplet::Mask maskOf(const Given& given, const cli::FootprintOptions& footprint)
 {
     if (given.kind == MaskKind::Png) {
-        return droplet::decodeMask(given.bytes, cli::readMaskOptions(footprint));
+        return cli::decodedMask(given.bytes, cli::readMaskOptions(footprint));
     }
     if (footprint.seeds) {
         throw Error(ErrorCode::InvalidArgument, "--seeds needs a picture, not coverage");
@@ -156,7 +188,10 @@ void make(Result& result, const std::vector<std::string>& arguments, const Given
 {
     cli::StageClock clock;
     clock.begin(droplet::Stage::Read);
-    const cli::ShapeOptions options = parse(arguments);
+    cli::ShapeOptions options = parse(arguments);
+    // What a file needs of the object is read when one is written: Studio makes droplets with every stroke.
+    result.with_object = std::exchange(options.settings.with_object, false);
+    result.object = options.settings.onto;
     const cli::Surroundings around = cli::readSurroundings(options.settings);
     const droplet::Mask mask = maskOf(given, options.footprint);
     cli::DropletSettings settings = cli::completeSettings(mask, around, options);
@@ -176,11 +211,28 @@ void make(Result& result, const std::vector<std::string>& arguments, const Given
     result.report.input = std::move(made.input);
     result.report.output = cli::describeOutput(made.droplet.surface, "", droplet::Format::Glb);
     result.surface = std::move(made.droplet.surface);
+    result.extent = made.droplet.domain.extent;
+    result.ground = settings.droplet.solve.ground;
     result.material = settings.material;
     result.unit = settings.unit;
     result.report.time = clock.times();
     result.report.time_total = clock.total();
     result.report.peak_memory = memory();
+}
+
+/// Makes maps, as --maps does.
+void makeMaps(Result& result, const std::vector<std::string>& arguments)
+{
+    const cli::ShapeMapOptions options = parse(arguments).maps.value();
+    const auto maps = std::make_shared<const droplet::DropletMaps>(droplet::dropletMaps(
+        result.surface,
+        {.extent = result.extent, .width = options.width, .is_tile = options.is_tile, .ground = result.ground}));
+    result.maps.clear();
+    for (const cli::OutputFile& file : cli::mapFiles(maps, options, cli::whiteOf(*maps, options))) {
+        std::ostringstream out;
+        file.write(out);
+        result.maps.push_back({file.path, std::move(out).str()});
+    }
 }
 
 void makeMask(Result& result, const std::vector<std::string>& arguments, const Given& given)
@@ -237,6 +289,21 @@ std::vector<float> floats(const std::vector<Vector>& vectors)
         }
     }
     return result;
+}
+
+/// Writes a file of droplets, with the object that they lie on if it is wanted.
+void writeDroplets(const Result& result, const std::string& name, std::ostream& out)
+{
+    droplet::WriteOptions options;
+    options.material = result.material;
+    options.unit = result.unit;
+    options.closed = result.report.output.topology.closed;
+    const droplet::Format format = droplet::formatNamed(name);
+    if (result.object && result.with_object && droplet::isAnimated(format)) {
+        writeOnObject(result.surface, droplet::readObjectStand(*result.object), out, format, options);
+    } else {
+        writeSurface(result.surface, out, format, options);
+    }
 }
 
 /// Calls a function, and keeps what it throws as the result's message.
@@ -304,6 +371,8 @@ std::span<const std::byte> arrayOf(Result& result, Array array)
             return std::as_bytes(std::span(result.message));
         case Array::Coverage:
             return std::as_bytes(std::span(result.mask.coverage));
+        case Array::Name:
+            return std::as_bytes(std::span(result.name));
         case Array::Code:
             break;
     }
@@ -369,17 +438,38 @@ EMSCRIPTEN_KEEPALIVE Result* droplet_dew(const char* arguments, std::size_t argu
     });
 }
 
-/// Sets how files of a covered object are written.
-/// @param arguments  those of droplet_dew, with other options of files
-EMSCRIPTEN_KEEPALIVE void droplet_dew_form(Result* result, const char* arguments, std::size_t argument_bytes)
+/// Sets how files of droplets are written.
+/// @param arguments  those of droplet_make or droplet_dew, with other options of files
+EMSCRIPTEN_KEEPALIVE void droplet_form(Result* result, const char* arguments, std::size_t argument_bytes)
 {
     result->code.clear();
     result->message.clear();
     guarded(*result, [&] {
+        if (!result->dew) {
+            result->with_object = parse(wordsOf(arguments, argument_bytes)).settings.with_object;
+            return;
+        }
         const auto parsed = parseDew(wordsOf(arguments, argument_bytes));
         const auto* const options = std::get_if<cli::DewCommandOptions>(&parsed);
         result->dew->options.file = options->file;
     });
+}
+
+/// Makes maps of droplets; returns their number.
+/// @param arguments  those of droplet_make, with those of maps
+EMSCRIPTEN_KEEPALIVE std::size_t droplet_maps(Result* result, const char* arguments, std::size_t argument_bytes)
+{
+    result->code.clear();
+    result->message.clear();
+    guarded(*result, [&] { makeMaps(*result, wordsOf(arguments, argument_bytes)); });
+    return result->maps.size();
+}
+
+/// Takes one of them, for Array::Name and Array::File.
+EMSCRIPTEN_KEEPALIVE void droplet_map(Result* result, std::size_t number)
+{
+    result->name = std::move(result->maps[number].name);
+    result->file = std::move(result->maps[number].bytes);
 }
 
 /// Writes a file in a format, for Array::File.
@@ -392,11 +482,7 @@ EMSCRIPTEN_KEEPALIVE void droplet_write(Result* result, const char* format)
         if (result->dew) {
             writeDew(*result->dew, format, out);
         } else {
-            droplet::WriteOptions options;
-            options.material = result->material;
-            options.unit = result->unit;
-            options.closed = result->report.output.topology.closed;
-            droplet::writeSurface(result->surface, out, droplet::formatNamed(format), options);
+            writeDroplets(*result, format, out);
         }
         result->file = std::move(out).str();
     });
@@ -426,7 +512,8 @@ EMSCRIPTEN_KEEPALIVE const char* droplet_help()
     static const std::string text = [] {
         cli::CommandLine line({"droplet-shape", "", "", ""});
         cli::ShapeOptions options;
-        declare(line, options);
+        cli::ShapeMapOptions maps;
+        declare(line, options, maps);
         return line.helpJson();
     }();
     return text.c_str();

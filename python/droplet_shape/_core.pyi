@@ -74,6 +74,7 @@ class Droplet(Surface):
         compress: _Compress = "none",
         nodes: _Nodes = "one",
         materials: Optional[_Path] = None,
+        droplets_only: bool = False,
         no_clobber: bool = False,
     ) -> None: ...
     def to_bytes(
@@ -85,6 +86,7 @@ class Droplet(Surface):
         compress: _Compress = "none",
         nodes: _Nodes = "one",
         materials: Optional[_Path] = None,
+        droplets_only: bool = False,
     ) -> bytes: ...
 
 class Animation:

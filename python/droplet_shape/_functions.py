@@ -227,7 +227,8 @@ def make_droplet(
       surface_depth [m]: Height of white above black in the height map; samples that are floating-point numbers are
         metres without it
       no_penetration: Keep the liquid above the ground; where it would sink in, the ground stays dry
-      onto: Lay the droplets on the object in a .glb or .gltf file by its texture coordinates
+      onto: Lay the droplets on the object in a .glb or .gltf file by its texture coordinates; a .glb, .gltf, .usda or
+        .usdz has the object with them, other formats the droplets alone
       advancing [rad]: Advancing contact angle; with receding the report says whether droplets slide
       receding [rad]: Receding contact angle, at most advancing
 
@@ -380,7 +381,8 @@ def glyphs(
       surface_depth [m]: Height of white above black in the height map; samples that are floating-point numbers are
         metres without it
       no_penetration: Keep the liquid above the ground; where it would sink in, the ground stays dry
-      onto: Lay the droplets on the object in a .glb or .gltf file by its texture coordinates
+      onto: Lay the droplets on the object in a .glb or .gltf file by its texture coordinates; a .glb, .gltf, .usda or
+        .usdz has the object with them, other formats the droplets alone
       advancing [rad]: Advancing contact angle; with receding the report says whether droplets slide
       receding [rad]: Receding contact angle, at most advancing
 

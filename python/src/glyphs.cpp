@@ -63,6 +63,7 @@ std::shared_ptr<Droplet> glyphs(const std::filesystem::path& path, const std::st
     const Work work(options.shape.run.threads);
     const droplet::Font font = droplet::readFont(options.font, options.face);
     cli::DropletSettings& settings = options.shape.settings;
+    settings.with_object = false;  // save() reads what files need of it
     const cli::Surroundings around = cli::readSurroundings(settings);
     droplet::GlyphOptions& glyph = options.type.glyph;
     if (around.object && !options.sized) {

@@ -85,6 +85,7 @@ std::shared_ptr<Droplet> makeFrom(const py::handle& from, const Arguments& argum
     Arguments all = arguments;
     all.insert(all.end(), {"INPUT", "droplet.glb"});
     auto options = parsed(cli::parseShape, all);
+    options.settings.with_object = false;  // save() reads what files need of it
     return options.footprint.by_colour ? makeByColour(pngOf(from), std::move(options), clock)
                                        : makeOfMask(maskOf(from), std::move(options), clock);
 }
@@ -122,10 +123,10 @@ struct Members<Figures> {
 };
 
 std::shared_ptr<const Stand> standOf(const droplet::BaseSurface& ground, const cli::Surroundings& around,
-                                     droplet::Vec2 extent)
+                                     droplet::Vec2 extent, const std::string& path)
 {
     if (around.object) {
-        return std::make_shared<const Stand>(Stand{around.object->mesh, true});
+        return std::make_shared<const Stand>(Stand{around.object->mesh, true, path});
     }
     return ground.flat() ? nullptr : std::make_shared<const Stand>(Stand{droplet::groundMesh(ground, extent), false});
 }
@@ -148,10 +149,10 @@ std::shared_ptr<Droplet> Droplet::make(droplet::Droplet droplet, const cli::Drop
     report.peak_memory = cli::peakMemory();
     std::vector<droplet::DropletReport> droplets = report.droplets;
     std::vector<std::string> warnings = report.warnings;
-    return std::shared_ptr<Droplet>(
-        new Droplet({std::move(droplet.surface), settings.material, std::move(warnings)},
-                    standOf(settings.droplet.solve.ground, source.around, droplet.domain.extent), std::move(report),
-                    std::move(droplets)));
+    return std::shared_ptr<Droplet>(new Droplet(
+        {std::move(droplet.surface), settings.material, std::move(warnings)},
+        standOf(settings.droplet.solve.ground, source.around, droplet.domain.extent, settings.onto.value_or("")),
+        std::move(report), std::move(droplets)));
 }
 
 std::shared_ptr<Droplet> Droplet::ofState(const py::handle& state)
@@ -244,16 +245,19 @@ Made by make_droplet() and glyphs(); for the arrays see Surface.)")
             "save",
             [](const Droplet& self, const py::object& path, std::optional<std::string> format,
                std::optional<std::string> material, std::string unit, std::string compress, const std::string& nodes,
-               const std::optional<std::filesystem::path>& materials, bool no_clobber) {
-                const auto options =
+               const std::optional<std::filesystem::path>& materials, bool droplets_only, bool no_clobber) {
+                auto options =
                     optionsOf(self, {std::move(format), std::move(material), std::move(unit), std::move(compress)},
                               nodes, materials);
+                options.droplets_only = droplets_only;
                 saveSurface(self, path, options, no_clobber);
             },
             py::arg("path"), py::kw_only(), py::arg("format") = py::none(), py::arg("material") = py::none(),
             py::arg("unit") = "mm", py::arg("compress") = "none", py::arg("nodes") = "one",
-            py::arg("materials") = py::none(), py::arg("no_clobber") = false,
+            py::arg("materials") = py::none(), py::arg("droplets_only") = false, py::arg("no_clobber") = false,
             R"(Writes the droplets to a file, completely or not at all, or to a file object.
+A .glb, .gltf, .usda or .usdz has the object of onto with them, which is read
+anew; other formats have the droplets alone.
 
 path        ends in .glb, .gltf, .obj (with its .mtl), .ply, .stl, .usda or
             .usdz; or an object that is open for bytes, such as io.BytesIO()
@@ -267,6 +271,7 @@ nodes       one, or each for a node of every droplet in glTF and USD, with its
             figures
 materials   TOML file with a material, colour, roughness or index of refraction
             for single droplets
+droplets_only  leave the object out
 no_clobber  refuse to replace a file
 
 Warns if materials names a droplet that does not exist. Raises InvalidArgument
@@ -274,14 +279,17 @@ for another extension or format, OutputFailed if the file cannot be written.)")
         .def(
             "to_bytes",
             [](const Droplet& self, std::string format, std::optional<std::string> material, std::string unit,
-               std::string compress, const std::string& nodes, const std::optional<std::filesystem::path>& materials) {
-                return bytesOf(
-                    self,
+               std::string compress, const std::string& nodes, const std::optional<std::filesystem::path>& materials,
+               bool droplets_only) {
+                auto options =
                     optionsOf(self, {std::move(format), std::move(material), std::move(unit), std::move(compress)},
-                              nodes, materials));
+                              nodes, materials);
+                options.droplets_only = droplets_only;
+                return bytesOf(self, options);
             },
             py::arg("format") = "glb", py::kw_only(), py::arg("material") = py::none(), py::arg("unit") = "mm",
             py::arg("compress") = "none", py::arg("nodes") = "one", py::arg("materials") = py::none(),
+            py::arg("droplets_only") = false,
             R"(Bytes of a file. The arguments are those of save().
 
 Raises InvalidArgument for another format.)")

@@ -30,8 +30,9 @@ struct DropletSource {
 
 /// What a surface lies on; nothing if the ground is flat.
 /// @param extent  of the picture [m]
+/// @param path    of the object's file, if there is one
 std::shared_ptr<const Stand> standOf(const droplet::BaseSurface& ground, const cli::Surroundings& around,
-                                     droplet::Vec2 extent);
+                                     droplet::Vec2 extent, const std::string& path = {});
 
 /// Droplet with its report.
 class Droplet : public Surface {

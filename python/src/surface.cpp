@@ -7,11 +7,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <tuple>
 #include <utility>
 
 #include "droplet/io/output.h"
+#include "droplet/render/object_stand.h"
 #include "files.h"
 #include "option_values.h"
 #include "preview.h"
@@ -97,6 +99,18 @@ droplet::Format formatOf(const SaveOptions& options)
     return cli::forOption("format", [&] { return droplet::formatNamed(*options.format); });
 }
 
+/// The object that a file has below the droplets, read anew; nothing if it has none.
+/// @throws droplet::Error InvalidInput
+std::optional<droplet::ObjectStand> objectFor(const Surface& surface, droplet::Format format,
+                                              const SaveOptions& options)
+{
+    const auto& stand = surface.stand();
+    if (!stand || !stand->is_object || options.droplets_only || !droplet::isAnimated(format)) {
+        return std::nullopt;
+    }
+    return cli::forOption("onto", [&] { return droplet::readObjectStand(stand->path); });
+}
+
 /// Picture in a notebook, as PNG; None for a surface without triangles.
 py::object pictureOf(const Surface& self)
 {
@@ -153,7 +167,7 @@ struct Members<droplet::TexturedMesh> {
 
 template <>
 struct Members<Stand> {
-    static constexpr std::tuple list{&Stand::mesh, &Stand::is_object};
+    static constexpr std::tuple list{&Stand::mesh, &Stand::is_object, &Stand::path};
 };
 
 template <>
@@ -210,7 +224,13 @@ py::bytes bytesOf(const Surface& surface, const SaveOptions& options)
     std::ostringstream out;
     {
         const py::gil_scoped_release release;
-        droplet::writeSurface(surface.surface(), out, formatOf(options), writeOptions(surface, options));
+        const droplet::Format format = formatOf(options);
+        const auto object = objectFor(surface, format, options);
+        std::uint64_t bytes = 0;
+        cli::surfaceFiles(surface.surface(), {"", format, writeOptions(surface, options), object ? &*object : nullptr},
+                          bytes)
+            .front()
+            .write(out);
     }
     return out.str();
 }
@@ -227,9 +247,12 @@ void saveSurface(const Surface& surface, const py::object& file, const SaveOptio
     const auto format = options.format ? formatOf(options) : cli::forOption("path: '" + name + "'", [&] {
         return droplet::formatNamed(path.extension().string());
     });
+    const auto object = objectFor(surface, format, options);
     std::uint64_t bytes = 0;
-    cli::writeTogether(cli::surfaceFiles(surface.surface(), {name, format, writeOptions(surface, options)}, bytes),
-                       {no_clobber});
+    cli::writeTogether(
+        cli::surfaceFiles(surface.surface(),
+                          {name, format, writeOptions(surface, options), object ? &*object : nullptr}, bytes),
+        {no_clobber});
 }
 
 py::object reportOf(const char* name, const std::string& json)

@@ -20,6 +20,7 @@ namespace binding {
 struct Stand {
     droplet::TexturedMesh mesh;
     bool is_object = false;  ///< false: curved ground
+    std::string path = {};   ///< of the object's file
 };
 
 /// Parts of a Surface.
@@ -63,6 +64,7 @@ struct SaveOptions {
     std::string compress = "none";
     droplet::Nodes nodes = droplet::Nodes::One;
     std::vector<droplet::FileDroplet> droplets = {};  ///< as in WriteOptions
+    bool droplets_only = false;                       ///< leave out the object that they lie on
 };
 
 /// Material of a file.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "droplet/flow_io/flow_object.h"
@@ -10,9 +9,6 @@
 #include "scene/scene.h"
 
 namespace droplet {
-
-/// Material without transmission, seen from both sides.
-SceneMaterial opaqueMaterial(const std::string& name, double roughness);
 
 /// Adds an object, with a material for each name in its file, and its node; returns the node.
 /// @param changes  morph targets; may be empty

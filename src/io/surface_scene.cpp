@@ -90,8 +90,9 @@ std::vector<SceneProperty> figuresOf(const FileDroplet& droplet)
 
 /// Adds a mesh, and its node.
 /// @param droplet  name and figures of the node; empty: of all droplets
-void addNode(Scene& scene, std::vector<SceneGeometry> geometries, const Surface& surface,
-             const std::optional<FileDroplet>& droplet)
+/// @param parent   of the node; empty: none
+void addNode(Scene& scene, std::optional<std::size_t> parent, std::vector<SceneGeometry> geometries,
+             const Surface& surface, const std::optional<FileDroplet>& droplet)
 {
     SceneMesh mesh{droplet ? droplet->name : "droplet", std::move(geometries)};
     if (surface.refill) {
@@ -101,7 +102,87 @@ void addNode(Scene& scene, std::vector<SceneGeometry> geometries, const Surface&
     if (droplet) {
         node.properties = figuresOf(*droplet);
     }
-    scene.addNode(std::move(node));
+    scene.addNode(std::move(node), parent);
+}
+
+/// Adds the nodes and meshes of a surface with fewer triangles.
+/// @param level       scene of that surface, with the same materials as the surface
+/// @param first_node  of the surface
+/// @param number      from 1
+/// @param materials   in front of the surface's own
+void addLevel(Scene& scene, std::size_t first_node, Scene level, std::size_t number, std::size_t materials)
+{
+    const std::string suffix = "_lod" + std::to_string(number);
+    const std::size_t first = scene.meshes.size();
+    for (SceneMesh& mesh : level.meshes) {
+        mesh.name += suffix;
+        for (SceneGeometry& geometry : mesh.geometries) {
+            for (ScenePart& part : geometry.parts) {
+                part.material += materials;
+            }
+        }
+        scene.addMesh(std::move(mesh));
+    }
+    for (std::size_t i = 0; i < level.nodes.size(); ++i) {
+        SceneNode node{level.nodes[i].name + suffix, first + *level.nodes[i].mesh};
+        scene.nodes[first_node + i].levels.push_back(scene.nodes.size());
+        scene.nodes.push_back(std::move(node));
+    }
+}
+
+/// Adds the surfaces with fewer triangles.
+/// @param first_node      of the surface
+/// @param first_material  of the surface
+void addLevels(Scene& scene, std::size_t first_node, std::size_t first_material, const Surface& surface,
+               const SurfaceSceneOptions& options)
+{
+    std::vector<double> coverage;
+    const std::size_t nodes = scene.nodes.size() - first_node;
+    const std::size_t materials = scene.materials.size() - first_material;
+    SurfaceSceneOptions alone = options;
+    alone.levels = {};
+    for (std::size_t k = 0; k < options.levels.size(); ++k) {
+        const Surface& level = options.levels[k];
+        Scene own = sceneOf(level, alone);
+        if (own.nodes.size() != nodes || own.materials.size() != materials) {
+            throw Error(ErrorCode::InvalidArgument,
+                        "options.levels[" + std::to_string(k) + "] must have the parts of the surface");
+        }
+        addLevel(scene, first_node, std::move(own), k + 1, first_material);
+        coverage.push_back(static_cast<double>(level.triangles.size()) / static_cast<double>(surface.triangles.size()));
+    }
+    coverage.push_back(0.0);  // the last one is never left out
+    for (std::size_t i = 0; i < nodes; ++i) {
+        scene.nodes[first_node + i].properties.emplace_back("MSFT_screencoverage", coverage);
+    }
+}
+
+void addTo(Scene& scene, std::optional<std::size_t> parent, const Surface& surface, const SurfaceSceneOptions& options)
+{
+    validateUnlessDry(surface);
+    const std::vector<PartGroup> groups = groupParts(surface, options);
+    const std::size_t first_node = scene.nodes.size();
+    const std::size_t first_material = scene.materials.size();
+    std::vector<SceneGeometry> geometries;
+    for (const PartGroup& group : groups) {
+        const std::optional<Surface> own =
+            groups.size() == 1 ? std::nullopt : std::optional(extract(surface, group.parts));
+        const Surface& part = own ? *own : surface;
+        const double thickness = options.closed ? part.mean_height : 0.0;
+        geometries.push_back(geometryOf(part, scene.addMaterial(liquidMaterial(group.look, thickness))));
+        if (group.droplet) {
+            addNode(scene, parent, std::exchange(geometries, {}), part, group.droplet);
+        }
+    }
+    if (!geometries.empty()) {
+        addNode(scene, parent, std::move(geometries), surface, {});
+    }
+    if (!groups.empty() && !options.texture.empty()) {
+        scene.picture = ScenePicture{"picture", options.texture, true, first_material};
+    }
+    if (!options.levels.empty()) {
+        addLevels(scene, first_node, first_material, surface, options);
+    }
 }
 
 }  // namespace
@@ -138,27 +219,14 @@ SceneGeometry geometryOf(const Surface& surface, std::size_t material)
 
 Scene sceneOf(const Surface& surface, const SurfaceSceneOptions& options)
 {
-    validateUnlessDry(surface);
-    const std::vector<PartGroup> groups = groupParts(surface, options);
     Scene scene;
-    std::vector<SceneGeometry> geometries;
-    for (const PartGroup& group : groups) {
-        const std::optional<Surface> own =
-            groups.size() == 1 ? std::nullopt : std::optional(extract(surface, group.parts));
-        const Surface& part = own ? *own : surface;
-        const double thickness = options.closed ? part.mean_height : 0.0;
-        geometries.push_back(geometryOf(part, scene.addMaterial(liquidMaterial(group.look, thickness))));
-        if (group.droplet) {
-            addNode(scene, std::exchange(geometries, {}), part, group.droplet);
-        }
-    }
-    if (!geometries.empty()) {
-        addNode(scene, std::move(geometries), surface, {});
-    }
-    if (!groups.empty() && !options.texture.empty()) {
-        scene.picture = ScenePicture{"picture", options.texture};
-    }
+    addTo(scene, {}, surface, options);
     return scene;
+}
+
+void addSurface(Scene& scene, std::size_t parent, const Surface& surface, const SurfaceSceneOptions& options)
+{
+    addTo(scene, parent, surface, options);
 }
 
 }  // namespace droplet

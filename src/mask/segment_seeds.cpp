@@ -184,8 +184,11 @@ LevelPlane coverageOf(const cv::Mat& probability, int width, int height)
 Seeds decodeSeeds(std::span<const std::byte> encoded)
 {
     const Image image = decodeImage(encoded, {});
+    constexpr std::size_t kLevels = 256;
+    constexpr std::size_t kAlike = 8;  // levels by which even grey differs after JPEG
     Seeds seeds{image.width, image.height, {}};
     seeds.pixels.reserve(image.luma.size());
+    std::array<std::size_t, kLevels> open{};  // opaque pixels that are open, by their level
     for (std::size_t i = 0; i < image.luma.size(); ++i) {
         const int alpha = image.alpha.empty() ? 65535 : image.alpha[i];
         const int luma = image.premultiplied && alpha > 0
@@ -195,7 +198,15 @@ Seeds decodeSeeds(std::span<const std::byte> encoded)
                                : luma >= 49151 ? Seed::Liquid
                                : luma <= 16384 ? Seed::Dry
                                                : Seed::Open);
+        open[std::min(static_cast<std::size_t>(luma) / 257, kLevels - 1)] +=
+            alpha >= 32768 && seeds.pixels.back() == Seed::Open ? 1 : 0;
     }
+    const auto most = static_cast<std::size_t>(std::max_element(open.begin(), open.end()) - open.begin());
+    std::size_t others = 0;
+    for (std::size_t level = 0; level < kLevels; ++level) {
+        others += std::max(level, most) - std::min(level, most) > kAlike ? open[level] : 0;
+    }
+    seeds.varied = static_cast<double>(others) / static_cast<double>(seeds.pixels.size());
     return seeds;
 }
 
@@ -208,13 +219,14 @@ Segmented segmentSeeds(const Image& image, const Seeds& seeds)
 {
     if (seeds.width != image.width || seeds.height != image.height) {
         const auto size = [](int width, int height) { return std::to_string(width) + " x " + std::to_string(height); };
-        throw Error(ErrorCode::InvalidInput, "the seeds have " + size(seeds.width, seeds.height) + " pixels, must be " +
-                                                 size(image.width, image.height) + ", as the picture");
+        throw Error(ErrorCode::InvalidInput, "options.seeds has " + size(seeds.width, seeds.height) +
+                                                 " pixels, must be " + size(image.width, image.height) +
+                                                 ", as the picture");
     }
     for (const auto& [seed, stroke] :
          {std::pair{Seed::Liquid, "light stroke, on liquid"}, {Seed::Dry, "dark stroke, on dry ground"}}) {
         if (std::find(seeds.pixels.begin(), seeds.pixels.end(), seed) == seeds.pixels.end()) {
-            throw Error(ErrorCode::InvalidInput, std::string("the seeds must have a ") + stroke);
+            throw Error(ErrorCode::InvalidInput, std::string("options.seeds must have a ") + stroke);
         }
     }
     const double scale = std::min(1.0, static_cast<double>(kLongest) / std::max(image.width, image.height));

@@ -99,11 +99,13 @@ ObjectStand readObjectStand(const std::filesystem::path& path, StandParts parts)
             object.warnings.clear();
             taken.looks = hasHoles(taken.looks) ? std::move(taken.looks) : std::vector<StandLook>{};
         }
+        object.material_names = std::move(scene.material_names);
         object.is_open = !openEdges(weldedTriangles(scene.triangles, scene.weld)).empty();
         object.mesh = {std::move(scene.vertices), std::move(scene.normals), std::move(scene.uvs),
                        std::move(scene.triangles)};
         if (!taken.looks.empty() && !scene.materials.empty()) {
             object.looks = std::move(taken.looks);
+            object.images = std::move(taken.images);
             object.materials = std::move(scene.materials);
             object.colours = std::move(scene.colours);
         }

@@ -137,7 +137,7 @@ const char* name(Compression compression)
     return nameOf(kNames, compression, "compression");
 }
 
-CompressionError compressionError(const Surface& surface, Compression compression)
+CompressionError compressionError(const Surface& surface, Compression compression, std::span<const Vec3> beside)
 {
     CompressionError error;
     const std::vector<Vec3> vertices = inFloats(surface.vertices);
@@ -152,7 +152,9 @@ CompressionError compressionError(const Surface& surface, Compression compressio
             longest = std::max({longest, std::abs(change.x), std::abs(change.y), std::abs(change.z)});
         }
     }
-    const QuantizationCube cube = cubeAround(vertices, longest);
+    std::vector<Vec3> all = inFloats({beside.begin(), beside.end()});
+    all.insert(all.end(), vertices.begin(), vertices.end());
+    const QuantizationCube cube = cubeAround(all, longest);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const Vec3 off = cube.place(cube.quantized(vertices[i])) - yUp(surface.vertices[i]);
         error.position = std::max(error.position, length(off));

@@ -13,6 +13,15 @@ SceneMaterial liquidMaterial(const Look& look, double thickness)
     return {look, thickness > 0.0 ? std::optional(thickness) : std::nullopt};
 }
 
+SceneMaterial opaqueMaterial(const std::string& name, double roughness)
+{
+    Look look;
+    look.name = name;
+    look.roughness = roughness;
+    look.transmission = 0.0;
+    return {.look = std::move(look), .both_sides = true};
+}
+
 std::size_t Scene::addNode(SceneNode node, std::optional<std::size_t> parent)
 {
     const std::size_t index = nodes.size();

@@ -46,6 +46,9 @@ struct SceneMaterial {
 /// @param thickness  under a closed surface [m]; 0: no inside
 SceneMaterial liquidMaterial(const Look& look, double thickness);
 
+/// Material without transmission, seen from both sides.
+SceneMaterial opaqueMaterial(const std::string& name, double roughness);
+
 /// Triangles of one material.
 struct ScenePart {
     std::size_t material = 0;  ///< index
@@ -91,7 +94,8 @@ struct SceneNode {
     std::array<double, 4> rotation = {0.0, 0.0, 0.0, 1.0};  ///< quaternion, x first, w last
     std::array<double, 3> scale = {1.0, 1.0, 1.0};
     std::vector<SceneProperty> properties = {};
-    std::vector<std::size_t> levels = {};  ///< nodes that take its place from afar, the nearest first; no roots
+    std::vector<std::size_t> levels =
+        {};  ///< nodes that take its place from afar, the nearest first; no parent has them
 };
 
 /// Vertices in place of a mesh's own.
@@ -159,7 +163,8 @@ struct SceneTrack {
 struct ScenePicture {
     std::string name;
     std::string png;        ///< bytes of the file
-    bool is_colour = true;  ///< whether it multiplies the colours of all materials; otherwise it is data, not smoothed
+    bool is_colour = true;  ///< whether it multiplies the colours of materials; otherwise it is data, not smoothed
+    std::size_t first_material = 0;  ///< of those: index; all that follow are, too
 };
 
 struct Scene {

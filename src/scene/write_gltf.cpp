@@ -821,9 +821,6 @@ private:
         model_.images.push_back(std::move(image));
         model_.samplers.push_back(std::move(sampler));
         model_.textures.push_back(std::move(texture));
-        for (tinygltf::Material& material : model_.materials) {
-            material.pbrMetallicRoughness.baseColorTexture.index = is_colour ? 0 : -1;
-        }
     }
 
     /// Images of single materials; those that are equal once.
@@ -851,9 +848,10 @@ private:
         for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
             const SceneMaterial& from = scene_.materials[m];
             tinygltf::Material& material = model_.materials[m];
-            if (!scene_.picture) {
-                material.pbrMetallicRoughness.baseColorTexture.index = index_of(from.image);
-            }
+            const bool has_picture = scene_.picture && m >= scene_.picture->first_material;
+            material.pbrMetallicRoughness.baseColorTexture.index = !has_picture                ? index_of(from.image)
+                                                                   : scene_.picture->is_colour ? 0
+                                                                                               : -1;
             material.pbrMetallicRoughness.metallicRoughnessTexture.index = index_of(from.finish_image);
             material.normalTexture.index = index_of(from.normal_image);
             material.normalTexture.scale = from.relief;

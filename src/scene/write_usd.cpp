@@ -613,7 +613,8 @@ public:
             writeClass(k);
         }
         for (const std::size_t i : written_materials_) {
-            const Coloured coloured = scene_.picture    ? Coloured::ByPicture
+            const bool has_picture = scene_.picture && i >= scene_.picture->first_material;
+            const Coloured coloured = has_picture       ? Coloured::ByPicture
                                       : has_colours_[i] ? Coloured::ByVertices
                                                         : Coloured::ByLook;
             writeMaterial(scene_.materials[i], material_names_[i], coloured, bytes_);

@@ -6,12 +6,13 @@ import { loadGlb } from '../html/model.js';
 import { say } from '../html/words.js';
 import { blank, drawShape, whole } from './coverage.js';
 import { boundsOf, largestPlace } from './largest_place.js';
+import { mainOf } from './object_files.js';
 import { placed } from './pictures.js';
 
 const kRoom = 0.8;  // part of its place that a drawing takes
 
-/** Whether a file can carry drawings: one file, with texture coordinates and their pictures. */
-export const carriesDrawings = ({ name }) => /\.glb$/i.test(name);
+/** Whether the object among files can carry drawings: it states where its texture coordinates lie. */
+export const carriesDrawings = (files) => /\.(glb|gltf)$/i.test(mainOf(files)?.name ?? '');
 
 /** Gives a mesh what the view needs: an index, normals, and a material that light falls on. */
 function complete(mesh) {

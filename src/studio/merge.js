@@ -3,7 +3,12 @@
 import { joined } from '../../npm/bytes.js';
 import { glbPieces, partsOf } from '../html/glb.js';
 
-/** Joins GLB files of one scene each; nodes and meshes get the layers' names. */
+const kDroplet = 'droplet';  // name of the droplets' node and mesh in a file
+
+/**
+ * Joins GLB files of one scene each; the droplets' nodes and meshes get the layers' names. The first file may have the object that all
+ * droplets lie on, with its pictures: then all are below its node.
+ */
 function mergeGlb(files, names) {
     const whole = { asset: undefined, scene: 0, scenes: [{ nodes: [] }], buffers: [{}], extensionsUsed: [] };
     const lists = ['accessors', 'bufferViews', 'materials', 'meshes', 'nodes'];
@@ -19,16 +24,25 @@ function mergeGlb(files, names) {
         whole.bufferViews.push(...json.bufferViews.map((view) => ({ ...view, byteOffset: (view.byteOffset ?? 0) + at })));
         whole.accessors.push(...json.accessors.map((each) => ({ ...each, bufferView: each.bufferView + first.bufferViews })));
         whole.materials.push(...json.materials);
+        for (const list of ['images', 'textures', 'samplers']) {
+            if (json[list]) {
+                whole[list] = json[list];  // of the first file, whose indices stay
+            }
+        }
         whole.meshes.push(...json.meshes.map((mesh) => ({
-            ...mesh, name: names[which],
+            ...mesh, name: mesh.name === kDroplet ? names[which] : mesh.name,
             primitives: mesh.primitives.map((primitive) => ({
                 ...primitive,
                 attributes: Object.fromEntries(Object.entries(primitive.attributes).map(([name, k]) => [name, k + first.accessors])),
                 indices: primitive.indices + first.accessors, material: primitive.material + first.materials,
             })),
         })));
-        whole.nodes.push(...json.nodes.map((node) => ({ ...node, name: names[which], mesh: node.mesh + first.meshes })));
-        whole.scenes[0].nodes.push(...json.scenes[0].nodes.map((k) => k + first.nodes));
+        whole.nodes.push(...json.nodes.map((node) => ({
+            ...node, name: node.name === kDroplet ? names[which] : node.name, mesh: node.mesh + first.meshes,
+            ...node.children && { children: node.children.map((k) => k + first.nodes) },
+        })));
+        const object = whole.nodes[0].children;
+        (which > 0 && object ? object : whole.scenes[0].nodes).push(...json.scenes[0].nodes.map((k) => k + first.nodes));
         const padded = new Uint8Array(Math.ceil(binary.length / 4) * 4);
         padded.set(binary);
         binaries.push(padded);

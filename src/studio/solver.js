@@ -199,18 +199,31 @@ export class Solver {
         return !this.drafting && [...this.jobs.values()].every((job) => this.wholes.get(job.id) === job);
     }
 
-    /** Bytes of the whole meshes' files, in the order of these layers; a layer without a droplet throws its error. */
-    async files(ids, format) {
+    /**
+     * Bytes of the whole meshes' files, in the order of these layers; a layer without a droplet throws its error.
+     * @param with_object  whether the first one has the object that the droplets lie on
+     */
+    files(ids, format, with_object) {
+        return this.#ofWhole(ids, async (id, k) => (await this.finisher.ask('file', { id, format, with_object: with_object && k === 0 })).bytes);
+    }
+
+    /** Maps of the whole meshes, by name, in the order of these layers. */
+    maps(ids, path) {
+        return this.#ofWhole(ids, async (id) => (await this.finisher.ask('maps', { id, path })).files);
+    }
+
+    /** Asks for each of these layers, when its whole mesh is made. */
+    async #ofWhole(ids, ask) {
         await this.#finish();
-        const files = [];
+        const answers = [];
         for (const id of ids) {
             const job = this.jobs.get(id);
             if (this.kept.get(id) !== job) {
                 await this.finisher.solve(job, false);
                 this.kept.set(id, job);
             }
-            files.push((await this.finisher.ask('file', { id, format })).bytes);
+            answers.push(await ask(id, answers.length));
         }
-        return files;
+        return answers;
     }
 }

@@ -163,9 +163,13 @@ const acts = {
         const sheet = { width, height, data: new Uint8Array(width * height) };
         return { width: width * solver.readMask(sheet, { onto: object }).pixelSize };
     },
-    file({ id, format }) {
-        const bytes = droplets.get(id).file(format);
+    file({ id, format, with_object }) {
+        const bytes = droplets.get(id).file(format, { dropletsOnly: !with_object });
         return [{ bytes }, [bytes.buffer]];
+    },
+    maps({ id, path }) {
+        const files = droplets.get(id).maps({ path });
+        return [{ files }, Object.values(files).map(({ buffer }) => buffer)];
     },
 };
 

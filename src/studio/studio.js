@@ -19,7 +19,7 @@ import markup from './markup.html';
 import { inkOf, lookOf } from './looks.js';
 import { commandOf, kLayerFields, kSceneFields, liquidOf, optionsOf } from './physics.js';
 import { buildForm } from './physics_form.js';
-import { readObject } from './object_files.js';
+import { asGlb, mainOf, readObject } from './object_files.js';
 import { fitted, levelsOf, maskOfLevels } from './pictures.js';
 import { kName, newLayer, newProject, objectBelow, projectOf, selectedLayer, shownName, withLayer } from './project.js';
 import { save } from './save.js';
@@ -150,6 +150,8 @@ class Studio {
         }
         document.title = `${shownName(project.name)} – Droplet Studio`;
         find('laid').hidden = !objectBelow(project);
+        find('saves').querySelectorAll('[data-laid]').forEach((each) => { each.hidden = !objectBelow(project); });
+        find('saves').querySelector('[data-save=maps]').hidden = objectBelow(project) !== undefined;
         find('paper').classList.toggle('laid', objectBelow(project) !== undefined);
         find('laid-name').textContent = project.object?.name ?? '';
         this.#showObject(objectBelow(project));
@@ -488,13 +490,13 @@ class Studio {
 
     /** Lays the sheet on an object, whose texture it becomes. */
     async #lay(files) {
-        const [{ name }] = files;
+        const name = mainOf(files)?.name ?? files[0].name;
         find('trouble').hidden = true;
         try {
-            if (!carriesDrawings(files[0])) {
-                throw new Error(say('only a .glb with texture coordinates can carry drawings'));
+            if (!carriesDrawings(files)) {
+                throw new Error(say('only a .glb or .gltf with texture coordinates can carry drawings'));
             }
-            const [object, { width, height, scene, layers }] = [await readObject(files), this.project];
+            const [object, { width, height, scene, layers }] = [asGlb(await readObject(files)), this.project];
             const [shown, metres] = await Promise.all([loadObject(object), this.solver.widthOn(object, width, height)]);
             this.objects.set(object, shown);
             const masks = withinLayout(shown, layers.map(({ mask }) => mask));
@@ -660,9 +662,9 @@ class Studio {
             return;
         }
         if (this.dew.takes(files)) {
-            const use = this.dew.is_shown || this.#is_empty || !carriesDrawings(file) ? 'dew' : await this.#askObject(file.name);
+            const use = this.dew.is_shown || this.#is_empty || !carriesDrawings(files) ? 'dew' : await this.#askObject(mainOf(files).name);
             if (use !== 'dew') {
-                return use === 'lay' ? this.#lay([file]) : undefined;
+                return use === 'lay' ? this.#lay(files) : undefined;
             }
             this.#show('dew');
             this.dew.open(files);

@@ -220,7 +220,7 @@ Surface withPlate(Surface droplets, std::size_t number, const PlateOptions& opti
     return droplets;
 }
 
-std::optional<std::string> thinWarning(const std::vector<ShapeFigures>& droplets, double thickness)
+std::optional<std::string> printWarning(const std::vector<ShapeFigures>& droplets, const PlateOptions& plate)
 {
     constexpr double kNozzle = 0.4e-3;
     constexpr double kLayer = 0.2e-3;
@@ -229,9 +229,16 @@ std::optional<std::string> thinWarning(const std::vector<ShapeFigures>& droplets
                (figures.height_max < kLayer || 2.0 * figures.footprint_area / figures.rim_length < kNozzle);
     });
     std::string text;
-    if (thickness < 2.0 * kLayer) {
-        text = fmt::format("the plate is {} mm thick, which is less than two layers of 0.2 mm; make it thicker",
-                           numberText(thickness / kMillimetre, 3));
+    const double side = std::max(plate.extent.x, plate.extent.y);
+    const std::string thick = numberText(plate.thickness / kMillimetre, 6);
+    if (plate.thickness < 2.0 * kLayer) {
+        text = fmt::format("the plate is {} mm thick, which is less than two layers of 0.2 mm; make it thicker", thick);
+    } else if (2.0 * kMargin * plate.thickness > side) {
+        text = fmt::format(
+            "the plate is {} mm thick and two thicknesses wider than the liquid on every side, so its margins are "
+            "wider "
+            "than the picture of {} mm; make it thinner",
+            thick, numberText(side / kMillimetre, 3));
     }
     if (thin > 0) {
         text += fmt::format(

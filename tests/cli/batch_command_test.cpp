@@ -125,6 +125,60 @@ TEST_F(BatchTest, WritesTheSameBytesAsSingleRuns)
     }
 }
 
+TEST_F(BatchTest, EveryPictureHasItsOwnStrokesAndMask)
+{
+    const auto strokes = [&](const std::string& name, int side, int light) {
+        writeFile(directory() / name, testing::greymap(side, side, [&](int x, int y) {
+                      return y != side / 2 ? 128 : x == 0 ? 0 : x == light ? 255 : 128;
+                  }));
+    };
+    fs::create_directories(directory() / "strokes");
+    fs::remove(directory() / "masks/b.SVG");
+    strokes("strokes/a.pgm", 20, 10);
+    strokes("strokes/c.pgm", 24, 12);
+    const std::vector<std::string> more{"--seeds", "strokes/{stem}.pgm", "--mask-out", "out/{stem}.png"};
+    EXPECT_EQ(batch(more).exit_code, 0);
+    const auto made = files("out");
+    EXPECT_EQ(made.size(), 4U);
+    for (const std::string stem : {"a", "c"}) {
+        const auto one =
+            run({"masks/" + stem + ".pgm", "one.glb", "--seeds", "strokes/" + stem + ".pgm", "--mask-out", "one.png"});
+        EXPECT_EQ(one.exit_code, 0) << one.error;
+        EXPECT_EQ(made.at(stem + ".glb"), readFile(directory() / "one.glb"));
+        EXPECT_EQ(made.at(stem + ".png"), readFile(directory() / "one.png"));
+    }
+    // Other strokes make a picture again, and it alone.
+    strokes("strokes/c.pgm", 24, 13);
+    EXPECT_EQ(batch(more).exit_code, 0);
+    EXPECT_THAT(statuses(), ElementsAre("skipped", "made"));
+    fs::remove(directory() / "strokes/a.pgm");
+    const auto missing = batch({"--seeds", "strokes/{stem}.pgm", "--keep-going"});
+    EXPECT_EQ(missing.exit_code, 6);
+    EXPECT_THAT(missing.error, HasSubstr("strokes/a.pgm"));
+    EXPECT_EQ(batch({"--mask-out", "-"}).exit_code, 2);
+    EXPECT_THAT(batch({"--seeds", "strokes/{stem}.pgm", "--mask-out", "strokes/{stem}.pgm"}).error,
+                HasSubstr("must be different files"));
+}
+
+// Sheets of files with the object and of those without it differ by the object, which is no liquid.
+TEST_F(BatchTest, ContactSheetShowsTheObjectBelowItsDroplets)
+{
+    ASSERT_EQ(run({"masks/a.pgm", "cap.glb", "--open", "--width", "6cm"}).exit_code, 0);
+    fs::remove(directory() / "masks/b.SVG");
+    writeFile(directory() / "masks/a.pgm", discPicture(20, 3.0));
+    writeFile(directory() / "masks/c.pgm", discPicture(24, 4.0));
+    const auto sheet = [&](const std::string& name, std::vector<std::string> more) {
+        more.insert(more.begin(), {"batch", "masks", "-o", name + "/{stem}.glb", "--onto", "cap.glb", "--contact-sheet",
+                                   name + ".png"});
+        const auto result = run(more);
+        EXPECT_EQ(result.exit_code, 0) << result.error;
+        return readFile(directory() / (name + ".png"));
+    };
+    const std::string both = sheet("both", {});
+    EXPECT_NE(both, sheet("alone", {"--droplets-only"}));
+    EXPECT_EQ(both, sheet("threads", {"-j", "1"}));
+}
+
 TEST_F(BatchTest, ManifestHasARowForEveryPicture)
 {
     ASSERT_EQ(batch({"--recursive", "--liquid", "glycerol", "-q"}).exit_code, 0);

@@ -27,6 +27,7 @@ using ::testing::AllOf;
 using testing::CommandResult;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::readFile;
 using testing::runDroplet;
 using ::testing::StartsWith;
@@ -363,8 +364,24 @@ TEST_F(Liquid2dCommand, TellsOfShortStepsAndOfLostLiquid)
     EXPECT_FALSE(fs::exists(path("x2.svg")));
 }
 
+TEST_F(Liquid2dCommand, SummaryTellsTheShownTimeAndWhatLeft)
+{
+    const auto run = [&](const char* count, const char* output) {
+        return runDroplet({"liquid2d", "--scene", "splash", "--time", "1s", "--fps", "8", "--particle-count", count,
+                           "--frame-width", "160", path(output), "--json", path("r.json")});
+    };
+    const CommandResult many = run("300", "x.svg");
+    const auto report = nlohmann::json::parse(readFile(path("r.json")));
+    EXPECT_THAT(many.error, StartsWith("8 frames, 1 s; "));
+    const auto left = report.at("removed").get<int>();
+    EXPECT_EQ(many.error.find(" left the window") != std::string::npos, left > 0);
+    EXPECT_THAT(many.error, Not(HasSubstr("too few")));
+    EXPECT_THAT(run("100", "few.svg").error, HasSubstr("warning: --particle-count: 100 particles are too few"));
+}
+
 TEST_F(Liquid2dCommand, RefusesWhatCannotBeDrawn)
 {
+    expectRefused({"liquid2d", "x.mp4", "--frame-width", "641"}, 2, "--frame-width: '641' must be even");
     const std::string out = path("x%d.svg");
     expectRefused({"liquid2d", out, "--scene", "splosh"}, 2, "scene is 'splosh', must be one of splash, wave");
     expectRefused({"liquid2d"}, 2, "OUTPUT");

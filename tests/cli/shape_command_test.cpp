@@ -638,6 +638,23 @@ TEST_F(ShapeCommandTest, WritesADatafileForSurfaceEvolver)
                 ElementsAre("a.glb", "b.fe", "b.glb", "c.fe", "c.glb", "c.json", "d.glb", "disc.pgm", "two.pgm"));
 }
 
+// What is wrong with strokes names them, not the picture.
+TEST_F(ShapeCommandTest, StrokesThatDoNotFitAreNamed)
+{
+    const auto with = [&](const char* seeds) { return run({"disc.pgm", "x.glb", "--seeds", seeds}); };
+    writeFile(directory() / "small.pgm", greymap(8, 8, [](int x, int) { return x < 4 ? 0 : 255; }));
+    const auto small = with("small.pgm");
+    EXPECT_EQ(small.exit_code, 3);
+    EXPECT_THAT(small.error,
+                StartsWith("droplet-shape: --seeds: it has 8 x 8 pixels, must be 64 x 64, as the picture"));
+    writeFile(directory() / "dark.pgm", greymap(64, 64, [](int x, int) { return x < 4 ? 0 : 128; }));
+    EXPECT_THAT(with("dark.pgm").error, StartsWith("droplet-shape: --seeds: it must have a light stroke, on liquid"));
+    writeFile(directory() / "photo.pgm", greymap(64, 64, [](int x, int y) { return 2 * (x + y); }));
+    const auto photo = with("photo.pgm");
+    EXPECT_EQ(photo.exit_code, 0) << photo.error;
+    EXPECT_THAT(photo.error, HasSubstr("warning: --seeds: it looks like a photograph"));
+}
+
 // A plate of 10 cm whose picture cuts out its right two fifths, where the disc would lie.
 TEST_F(ShapeCommandTest, LeavesOutDropletsOverHolesOfAnObjectsTexture)
 {
@@ -671,6 +688,110 @@ TEST_F(ShapeCommandTest, LeavesOutDropletsOverHolesOfAnObjectsTexture)
     EXPECT_EQ(left_out("veil.glb"), 1);
     write("plate.glb", "OPAQUE");
     EXPECT_EQ(left_out("plate.glb"), 0);
+}
+
+/// Plate of 10 cm with a picture as its texture, and its normal up.
+std::string texturedPlate(const std::string& picture)
+{
+    testing::Draft draft;
+    draft.addFloats({-0.05F, 0.0F, 0.05F, 0.05F, 0.0F, 0.05F, 0.05F, 0.0F, -0.05F, -0.05F, 0.0F, -0.05F}, "VEC3");
+    draft.addFloats({0.0F, 1.0F, 1.0F, 1.0F, 1.0F, 0.0F, 0.0F, 0.0F}, "VEC2");
+    draft.add(std::string("\0\1\2\0\2\3", 6), 5121, "SCALAR", 6);
+    return draft.file(
+        R"("scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"translation":[0.5,0,0]}],"meshes":[{"primitives":)"
+        R"([{"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,"material":0}]}],"materials":)"
+        R"([{"name":"wood","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"textures":)"
+        R"([{"source":0}],"images":[{"uri":")" +
+        picture + R"("}])");
+}
+
+/// What a GLB says of itself.
+json jsonIn(const std::string& glb)
+{
+    const auto byte = [&](std::size_t k) { return static_cast<std::size_t>(static_cast<unsigned char>(glb[k])); };
+    const std::size_t length = byte(12) + (byte(13) << 8U) + (byte(14) << 16U) + (byte(15) << 24U);
+    return json::parse(glb.substr(20, length));
+}
+
+/// Smallest and largest coordinates of the mesh of a node.
+json boxOf(const json& gltf, const char* node)
+{
+    for (const json& each : gltf["nodes"]) {
+        if (each["name"] == node) {
+            const json& mesh = gltf["meshes"][each["mesh"].get<std::size_t>()];
+            const json& place = gltf["accessors"][mesh["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
+            return {place["min"], place["max"]};
+        }
+    }
+    return nullptr;
+}
+
+// The droplets are where they are without the object, below its node; it has its place, its material and its texture.
+TEST_F(ShapeCommandTest, FilesOfScenesHaveTheObjectWithItsDroplets)
+{
+    std::ostringstream png;
+    writePng(Layer{2, 1, {200, 100, 50, 255, 100, 50, 25, 255}}, png);
+    writeFile(directory() / "wood.png", png.str());
+    writeFile(directory() / "plate.glb", texturedPlate("wood.png"));
+    const std::vector<std::string> onto{"--onto", "plate.glb"};
+    const auto made = [&](const std::string& output, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"two.pgm", output, "--onto", "plate.glb"});
+        make(more);
+        return bytesOf(output);
+    };
+    const std::string both = made("both.glb");
+    const json scene = jsonIn(both);
+    const json alone = jsonIn(made("alone.glb", {"--droplets-only"}));
+    EXPECT_EQ(scene["scenes"][0]["nodes"], json({0}));
+    EXPECT_EQ(scene["nodes"][0]["name"], "object");
+    EXPECT_EQ(scene["nodes"][0]["children"], json({1}));
+    EXPECT_EQ(scene["nodes"][1]["name"], "droplet");
+    EXPECT_EQ(boxOf(scene, "droplet"), boxOf(alone, "droplet"));
+    const json box = boxOf(scene, "object");
+    EXPECT_NEAR(box[0][0], 0.45, 1e-7) << "by the transform of its node";
+    EXPECT_NEAR(box[1][0], 0.55, 1e-7);
+    EXPECT_EQ(scene["materials"][0]["name"], "wood");
+    EXPECT_EQ(scene["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+    EXPECT_FALSE(scene["materials"][1]["pbrMetallicRoughness"].contains("baseColorTexture"));
+    EXPECT_NE(both.find(png.str()), std::string::npos);
+    EXPECT_FALSE(alone.contains("images"));
+    EXPECT_EQ(boxOf(alone, "object"), nullptr);
+
+    const json tinted = jsonIn(made("tinted.glb", {"--colour-map"}));
+    const auto picture_of = [&](std::size_t material) {
+        const json& texture = tinted["materials"][material]["pbrMetallicRoughness"]["baseColorTexture"]["index"];
+        return tinted["textures"][texture.get<std::size_t>()]["source"];
+    };
+    EXPECT_NE(picture_of(0), picture_of(1));
+
+    EXPECT_EQ(run({"two.pgm", "each.glb", "--onto", "plate.glb", "--nodes", "each", "--lod", "4k,1k"}).exit_code, 0);
+    const json each = jsonIn(bytesOf("each.glb"));
+    EXPECT_EQ(each["nodes"][0]["children"], json({1, 2}));
+    EXPECT_EQ(each["nodes"][2]["extensions"]["MSFT_lod"]["ids"], json({4}));
+    EXPECT_FALSE(each["nodes"][0].contains("extensions"));
+
+    made("both.usda");
+    EXPECT_THAT(bytesOf("both.usda"), AllOf(HasSubstr("def Xform \"object\""), HasSubstr("\"droplet\"")));
+    made("tinted.usdz", {"--colour-map"});
+    EXPECT_EQ(made("both.obj"), [&] {
+        std::string text = made("alone.obj");
+        return text.replace(text.find("alone.mtl"), 9, "both.mtl");
+    }());
+
+    const auto error_of = [&](const char* output, std::vector<std::string> more) {
+        more.insert(more.begin(), {"two.pgm", output, "--compress", "meshopt"});
+        more.insert(more.end(), onto.begin(), onto.end());
+        return report(more)["output"]["position_error_m"].get<double>();
+    };
+    const double with_object = error_of("both.glb", {});
+    EXPECT_GT(with_object, error_of("alone.glb", {"--droplets-only"}));
+    EXPECT_LT(with_object, 0.87 * 0.1 / 65535.0);
+
+    const auto refused = run({"two.pgm", "x.stl", "--onto", "plate.glb", "--droplets-only"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.error, HasSubstr("--droplets-only needs a .glb, .gltf, .usda or .usdz as OUTPUT, not 'x.stl'"));
+    EXPECT_THAT(run({"two.pgm", "x.glb", "--triangles", "2k", "--droplets-only"}).error,
+                HasSubstr("--droplets-only has no effect without --onto"));
 }
 
 TEST_F(ShapeCommandTest, LaysDropletsOntoAnObject)

@@ -167,6 +167,11 @@ TEST(Seeds, RefuseWhatDoesNotFit)
     refused(seedsOf(31, [](int, int) { return Seed::Dry; }), "31 x 31 pixels, must be 32 x 32");
     refused(seedsOf(32, [](int, int) { return Seed::Dry; }), "light stroke");
     refused(seedsOf(32, [](int, int) { return Seed::Liquid; }), "dark stroke");
+    EXPECT_LT(readSeeds(inSource("data/raindrops_seeds.png")).varied, 0.01);
+    for (const char* const photograph : {"data/raindrops.jpg", "data/handprint.jpg", "data/shamrock.webp"}) {
+        EXPECT_GT(readSeeds(inSource(photograph)).varied, kVariedSeeds) << photograph;
+    }
+    EXPECT_EQ(decodeSeeds(bytesOf(greymapOf(32, [](double, double) { return 128.0; }))).varied, 0.0);
     // Strokes everywhere leave nothing to find.
     MaskOptions options;
     options.seeds = seedsOf(32, [](int x, int) { return x < 10 ? Seed::Liquid : Seed::Dry; });

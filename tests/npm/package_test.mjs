@@ -122,7 +122,7 @@ test('strokes are refused that are no picture, have another size or lack a kind'
     for (const [picture, seeds, code, message] of [
         [photo, 'strokes.png', 'InvalidArgument', /^seeds: 'strokes\.png' must be the bytes of a picture/],
         [photo, disc(8, 3), 'InvalidArgument', /^seeds: must be the bytes of a picture, or pixels of RGBA/],
-        [photo, strokes(8, 0, 255), 'InvalidInput', /the seeds have 8 x 8 pixels, must be 750 x 800/],
+        [photo, strokes(8, 0, 255), 'InvalidInput', /^seeds: it has 8 x 8 pixels, must be 750 x 800/],
         [square, strokes(8, 0), 'InvalidInput', /must have a light stroke/],
         [square, strokes(8, 255), 'InvalidInput', /must have a dark stroke/],
         [disc(8, 3), strokes(8, 0, 255), 'InvalidArgument', /^seeds needs a picture, not coverage/],
@@ -141,7 +141,7 @@ test('droplets are laid on an object as by the command', () => {
     }
     const name = join(folder, 'dots.png');
     writeFileSync(name, pngOf({ width: size, height: size, data: rgba }));
-    const { report: expected } = command(name, { onto: data('can.glb') });
+    const { report: expected, glb } = command(name, { onto: data('can.glb') });
     const can = { name: 'can.glb', data: png('can.glb') };
     const made = shapeDroplet({ width: size, height: size, data: rgba }, { onto: can });
     assert.equal(expected.onto.droplets_laid, 2);
@@ -154,9 +154,37 @@ test('droplets are laid on an object as by the command', () => {
     // The droplets are at the can, which stands on the ground and is 12 cm high.
     const [low, high] = [0, 1].map((end) => made.surface.positions.reduce((most, value, k) => (k % 3 === 2 ? (end ? Math.max : Math.min)(most, value) : most), end ? -1 : 1));
     assert.ok(low > 0 && high < 0.13 && high - low > 0.01, `${low} to ${high}`);
+    // Files have the object with the droplets on it, as those of the command, or the droplets alone.
+    const names = (bytes) => {
+        const { nodes, materials } = JSON.parse(new TextDecoder().decode(bytes.subarray(20, 20 + new DataView(bytes.buffer, bytes.byteOffset).getUint32(12, true))));
+        return [nodes, materials].map((list) => list.map((each) => each.name));
+    };
+    assert.deepEqual(names(made.file('glb')), names(glb));
+    assert.deepEqual(names(made.file('glb', { dropletsOnly: true })), [['droplet'], ['water']]);
+    assert.deepEqual(names(shapeDroplet({ width: size, height: size, data: rgba }, { onto: can, dropletsOnly: true }).file()), [['droplet'], ['water']]);
+    assert.throws(() => made.file('glb', { compress: 'meshopt' }), { code: 'InvalidArgument', message: /^compress: changes more than a file/ });
+    assert.throws(() => made.maps(), { code: 'InvalidArgument', message: /^maps and onto exclude each other/ });
     assert.throws(() => shapeDroplet(disc(64, 30), { onto: can }), { code: 'NoSuchDroplet' });
     assert.throws(() => shapeDroplet(disc(64, 8), { onto: { name: 'can.obj', data: can.data } }), { code: 'InvalidArgument' });
     assert.throws(() => shapeDroplet(disc(64, 8), { onto: 'can.glb' }), { code: 'InvalidArgument', message: /^onto: must be the bytes of a \.glb/ });
+});
+
+test('maps are those of the command', () => {
+    const path = join(folder, 'map.png');
+    command('ampersand.png', { maps: path, mapWidth: 128 });
+    const maps = shapeDroplet(png('ampersand.png')).maps({ path: 'map.png', mapWidth: 128 });
+    const names = ['height', 'normal', 'thickness', 'coverage', 'wetness', 'occlusion'].map((map) => `map-${map}.png`);
+    assert.deepEqual(Object.keys(maps), names);
+    for (const name of names) {
+        const [ours, theirs] = [Buffer.from(maps[name]), readFileSync(join(folder, name))];
+        assert.deepEqual(ours.subarray(0, 29), theirs.subarray(0, 29), name);  // size and kind
+        assert.ok(Math.abs(ours.length / theirs.length - 1) < 0.02, `${name}: ${ours.length} ${theirs.length}`);
+    }
+    const droplet = shapeDroplet(disc(64, 20));
+    assert.deepEqual(Object.keys(droplet.maps())[0], 'droplet-height.png');
+    assert.throws(() => droplet.maps({ path: 'x.exr' }), { code: 'InvalidArgument', message: /must end in \.png/ });
+    assert.throws(() => droplet.maps({ mapWidth: 4 }), { code: 'InvalidArgument', message: /^mapWidth: '4' must be/ });
+    assert.throws(() => droplet.maps({ width: '1cm' }), { code: 'InvalidArgument', message: /^width: unknown option/ });
 });
 
 // The stairs of a mask without grey are faired until the change is small, by logarithms, whose last bits differ between C

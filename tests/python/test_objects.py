@@ -65,6 +65,14 @@ class Pickles(unittest.TestCase):
                 self.assertFalse(np.shares_memory(other.vertices, drop.vertices))
             self.assertEqual(other._repr_png_(), drop._repr_png_())
 
+    def test_files_have_the_object(self):
+        drop = ds.make_droplet(ds.read_mask(DATA / "dew.png"), onto=DATA / "can.glb", **SMALL)
+        both, alone = drop.to_bytes(), drop.to_bytes(droplets_only=True)
+        self.assertIn(b'"name":"object"', both)
+        self.assertNotIn(b'"name":"object"', alone)
+        self.assertEqual(drop.to_bytes("stl"), drop.to_bytes("stl", droplets_only=True))
+        self.assertEqual(pickle.loads(pickle.dumps(drop)).to_bytes(), both)
+
     def test_attributes_stay(self):
         drop = ds.make_droplet(disc(), **SMALL)
         drop.label = "a"

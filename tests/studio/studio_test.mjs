@@ -426,6 +426,75 @@ studio('a photograph with clear rims is divided as by the command', kDesktop, as
     assert.match(await said(page), /µL of water/);
 });
 
+/** A .gltf with its buffer and its picture beside it, of a GLB without one. */
+function inPieces(glb) {
+    const json = jsonOf(glb);
+    const buffer = glb.subarray(28 + glb.readUInt32LE(12));
+    json.buffers[0].uri = 'a%20can.bin';
+    json.images = [{ uri: 'label.png' }];
+    json.textures = [{ source: 0 }];
+    json.materials[0].pbrMetallicRoughness.baseColorTexture = { index: 0 };
+    return [['can.gltf', 'model/gltf+json', Buffer.from(JSON.stringify(json))], ['a can.bin', '', buffer], ['label.png', 'image/png', data('label.png')]];
+}
+
+studio('an object in several files carries drawings, too', kDesktop, async (page) => {
+    await page.getByRole('button', { name: 'Star', exact: true }).click();
+    await settle(page);
+    const [main, buffer, picture] = inPieces(data('can.glb'));
+    const lay = async (...files) => {
+        await dropFiles(page, '#sheet', ...files);
+        await page.locator('#object').waitFor();
+        await page.getByRole('button', { name: 'Lay the drawing on it' }).click();
+    };
+    await lay(main, buffer);
+    await page.locator('#trouble').waitFor();
+    assert.match(await page.locator('#trouble').textContent(), /can\.gltf.*label\.png.*dropped together/i);
+    await lay(picture, buffer, main);
+    await page.locator('#laid').waitFor();
+    await settle(page);
+    assert.match(await said(page), /of water/);
+    assert.match(await page.locator('#command').textContent(), /--onto can\.gltf$/);
+    const { images, materials, nodes } = jsonOf((await saved(page, 'object')).bytes);
+    assert.equal(images.length, 1);
+    assert.deepEqual([materials[0].name, materials[0].pbrMetallicRoughness.baseColorTexture.index], ['paint', 0]);
+    assert.equal(nodes[0].name, 'object');
+    // A project holds all of it.
+    const project = await saved(page, 'project');
+    await page.locator('#new').click();
+    await settle(page);
+    await drop(page, project.name, 'application/json', project.bytes);
+    await page.locator('#laid').waitFor();
+    await settle(page);
+    assert.equal(jsonOf((await saved(page, 'object')).bytes).images.length, 1);
+});
+
+studio('maps are saved as those of the command', kDesktop, async (page) => {
+    await page.getByRole('button', { name: 'Heart', exact: true }).click();
+    await settle(page);
+    const listed = (zip) => JSON.parse(execFileSync('python3', ['-c',
+        'import json, sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None; z.extractall(sys.argv[2]); print(json.dumps(z.namelist()))',
+        zip, folder]));
+    const kMaps = ['height', 'normal', 'thickness', 'coverage', 'wetness', 'occlusion'];
+    await page.locator('#save').click();
+    assert.deepEqual(await Promise.all(['maps', 'object'].map((kind) => page.locator(`[data-save=${kind}]`).isVisible())), [true, false]);
+    await page.keyboard.press('Escape');
+    const zip = await saved(page, 'maps');
+    assert.equal(zip.name, 'Heart-maps.zip');
+    assert.deepEqual(listed(zip.path), kMaps.map((map) => `Heart-${map}.png`));
+    const footprint = await saved(page, 'footprint');
+    const options = (await page.locator('#command').textContent()).replace(/^\S+ \S+ \S+/, '').trim().split(' ').filter((word) => word !== '');
+    execFileSync(DROPLET_SHAPE, [footprint.path, join(folder, 'heart.glb'), '--quiet', '--maps', join(folder, 'theirs.png'), ...options]);
+    const sizeOf = (png) => [png.readUInt32BE(16), png.readUInt32BE(20), png[24], png[25]];
+    for (const map of kMaps) {
+        const [ours, theirs] = ['Heart', 'theirs'].map((stem) => readFileSync(join(folder, `${stem}-${map}.png`)));
+        assert.deepEqual(sizeOf(ours), sizeOf(theirs));
+        assert.ok(Math.abs(ours.length / theirs.length - 1) < 0.02, `${map}: ${ours.length} ${theirs.length}`);
+    }
+    await page.locator('#layer-copy').click();
+    await settle(page);
+    assert.deepEqual(listed((await saved(page, 'maps')).path), ['Layer 1', 'Layer 2'].flatMap((layer) => kMaps.map((map) => `${layer}/Heart-${map}.png`)));
+});
+
 studio('a drawing is laid on an object', kDesktop, async (page) => {
     await page.getByRole('button', { name: 'Star', exact: true }).click();
     await settle(page);
@@ -456,13 +525,33 @@ studio('a drawing is laid on an object', kDesktop, async (page) => {
     const footprint = await saved(page, 'footprint');
     const [, width] = /--width (\S+)/.exec(await page.locator('#command').textContent());
     const report = JSON.parse(execFileSync(DROPLET_SHAPE, [footprint.path, join(folder, 'laid.glb'), '--quiet', '--json', '-',
-        '--material', 'gold', '--width', width, '--onto', resolve(SOURCES, '../data/can.glb')]));
+        '--material', 'gold', '--width', width, '--onto', resolve(SOURCES, '../data/can.glb'), '--droplets-only']));
     const positions = ({ accessors, meshes }) => accessors[meshes[0].primitives[0].attributes.POSITION];
     const [ours, command] = [jsonOf((await saved(page, 'glb')).bytes), jsonOf(readFileSync(join(folder, 'laid.glb')))].map(positions);
     for (let k = 0; k < 3; ++k) {
         assert.ok(Math.abs(ours.min[k] - command.min[k]) < 2e-4 && Math.abs(ours.max[k] - command.max[k]) < 2e-4, `${ours.min} ${command.min}`);
     }
     assert.equal(report.onto.droplets_laid, 1);
+    // Object and droplets in one file, as the command writes them; those of another layer are below the object, too.
+    execFileSync(DROPLET_SHAPE, [footprint.path, join(folder, 'both.glb'), '--quiet',
+        '--material', 'gold', '--width', width, '--onto', resolve(SOURCES, '../data/can.glb')]);
+    const both = jsonOf((await saved(page, 'object')).bytes);
+    const theirs = jsonOf(readFileSync(join(folder, 'both.glb')));
+    const names = ({ nodes, materials }) => [nodes, materials].map((list) => list.map(({ name }) => name));
+    assert.deepEqual(names(both), names(theirs));
+    assert.deepEqual(names(both), [['object', 'droplet'], ['paint', 'metal', 'gold']]);
+    assert.deepEqual(positions(both).max, positions(theirs).max);  // of the object
+    assert.equal((await saved(page, 'glb')).name, 'Star-droplets.glb');
+    assert.equal(await page.locator('[data-save=maps]').isVisible(), false);
+    await page.locator('#layer-add').click();
+    await stroke(page, [0.6, 0.45], [0.9, 0.45]);
+    await settle(page);
+    const several = jsonOf((await saved(page, 'object')).bytes);
+    assert.deepEqual(names(several)[0], ['object', 'Layer 1', 'Layer 2']);
+    assert.deepEqual(several.nodes[0].children, [1, 2]);
+    assert.deepEqual(several.scenes, [{ nodes: [0] }]);
+    await page.locator('#layer-remove').click();
+    await settle(page);
     // A project holds its object.
     const project = await saved(page, 'project');
     await page.locator('#new').click();

@@ -149,10 +149,15 @@ TEST(Plate, WarnsOfWhatAPrinterLoses)
     low.height_max = 0.1e-3;
     ShapeFigures narrow = good;
     narrow.footprint_area = 3e-6;
-    EXPECT_EQ(thinWarning({good}, 1e-3), std::nullopt);
-    EXPECT_THAT(thinWarning({good}, 0.3e-3).value_or(""), HasSubstr("the plate is 0.3 mm thick"));
-    EXPECT_THAT(thinWarning({good, low, narrow}, 1e-3).value_or(""), HasSubstr("2 of 3 droplets are"));
-    EXPECT_THAT(thinWarning({low, good}, 0.3e-3).value_or(""), HasSubstr("; 1 of 2 droplets is"));
+    const auto of = [](const std::vector<ShapeFigures>& droplets, double thickness) {
+        return printWarning(droplets, {thickness, {20e-3, 10e-3}}).value_or("");
+    };
+    EXPECT_EQ(of({good}, 1e-3), "");
+    EXPECT_EQ(of({good}, 4.9e-3), "");
+    EXPECT_THAT(of({good}, 5.1e-3), HasSubstr("wider than the picture of 20 mm"));
+    EXPECT_THAT(of({good}, 0.3e-3), HasSubstr("the plate is 0.3 mm thick"));
+    EXPECT_THAT(of({good, low, narrow}, 1e-3), HasSubstr("2 of 3 droplets are"));
+    EXPECT_THAT(of({low, good}, 0.3e-3), HasSubstr("; 1 of 2 droplets is"));
 }
 
 }  // namespace

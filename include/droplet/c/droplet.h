@@ -102,7 +102,8 @@ DROPLET_API DropletCode droplet_shape_mesh(const DropletShape* shape, DropletMes
 /// @param json   receives a text that stays until the droplets are ended
 DROPLET_API DropletCode droplet_shape_report(const DropletShape* shape, const char** json);
 
-/// Writes a file, completely or not at all.
+/// Writes a file, completely or not at all. With --onto, a .glb, .gltf, .usda or .usdz has the object, too, unless
+/// --droplets-only is among the options.
 /// @param shape  valid
 /// @param path   ends in .glb, .gltf, .obj, .ply, .stl, .usda, .usdz or .3mf
 /// @return      DROPLET_INVALID_ARGUMENT, DROPLET_OUTPUT_FAILED

@@ -26,13 +26,15 @@ struct LookImages {
 
 /// Object below droplets, with its looks.
 struct ObjectStand {
-    TexturedMesh mesh;                          ///< its triangles
-    std::vector<StandLook> looks = {};          ///< of every material; or empty: the object is plain
-    std::vector<std::uint32_t> materials = {};  ///< in `looks`, of every triangle; empty if `looks` is
-    std::vector<Vec3> colours = {};             ///< of every vertex, as RenderOptions::stand_colours
-    bool is_open = false;                       ///< whether the mesh has an edge with one triangle: its back is seen
-    bool is_plain = false;                      ///< pictures show it plain: `looks` only tell where it is cut out
-    std::vector<std::string> warnings = {};     ///< what its file has that pictures do not show, one line each
+    TexturedMesh mesh;                             ///< its triangles
+    std::vector<StandLook> looks = {};             ///< of every material; or empty: the object is plain
+    std::vector<std::uint32_t> materials = {};     ///< in `looks`, of every triangle; empty if `looks` is
+    std::vector<LookImages> images = {};           ///< of every look, for files; or empty
+    std::vector<std::string> material_names = {};  ///< of every material, from the file
+    std::vector<Vec3> colours = {};                ///< of every vertex, as RenderOptions::stand_colours
+    bool is_open = false;                          ///< whether the mesh has an edge with one triangle: its back is seen
+    bool is_plain = false;                         ///< pictures show it plain: `looks` only tell where it is cut out
+    std::vector<std::string> warnings = {};        ///< what its file has that pictures do not show, one line each
 
     /// Whether most of the object, by area, lets light pass.
     [[nodiscard]] bool isSeenThrough() const;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "droplet/surface/surface.h"
+#include "droplet/vector.h"
 
 namespace droplet {
 
@@ -32,7 +34,8 @@ struct CompressionError {
 /// and twice as much for changes. Vertices at one place stay at one place.
 /// @param surface      valid or empty
 /// @param compression  with None, nothing changes
+/// @param beside       other vertices of the file, in whose common box the grid is
 /// @throws Error       InvalidArgument beyond float's range
-CompressionError compressionError(const Surface& surface, Compression compression);
+CompressionError compressionError(const Surface& surface, Compression compression, std::span<const Vec3> beside = {});
 
 }  // namespace droplet

@@ -44,11 +44,11 @@ Surface onPlate(const std::vector<CapillarySurface>& surfaces, const PlateOption
 /// @throws Error    InvalidArgument: options, or a surface without parts
 Surface withPlate(Surface droplets, std::size_t number, const PlateOptions& options);
 
-/// Warning about parts that are too thin for a printer with a usual nozzle of 0.4 mm and layers of 0.2 mm: a plate of
+/// Warning about what cannot be printed as it is meant, with a usual nozzle of 0.4 mm and layers of 0.2 mm: a plate of
 /// less than two layers, droplets lower than one, and droplets that are narrower than the nozzle, by twice their area
-/// over the length of their rim. Nothing if there are none.
-/// @param droplets   figures of every droplet
-/// @param thickness  of the plate [m]
-std::optional<std::string> thinWarning(const std::vector<ShapeFigures>& droplets, double thickness);
+/// over the length of their rim; or a plate whose margins together are wider than the image. Nothing if there is none.
+/// @param droplets  figures of every droplet
+/// @param plate     valid
+std::optional<std::string> printWarning(const std::vector<ShapeFigures>& droplets, const PlateOptions& plate);
 
 }  // namespace droplet
