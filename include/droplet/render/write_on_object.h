@@ -18,6 +18,7 @@ namespace droplet {
 /// together when the node is moved. A texture of `options` tints the droplets alone; compression has both in one grid.
 /// @param droplets  on the object, in its frame, as of placeOnto(); or empty
 /// @param object    read with StandParts::All
+/// @param out       takes the bytes
 /// @param format    one that holds scenes: see isAnimated()
 /// @param options   of the droplets
 /// @return          bytes handed to the stream, which is left failed if it did not take everything

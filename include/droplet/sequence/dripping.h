@@ -19,9 +19,9 @@ struct DrippingOptions {
 ///
 /// A disc from which as much can hang sheds what W. D. Harkins and F. E. Brown measured at tips of its radius r:
 /// Tate's 2πrσ/ρg times their fraction.
-/// @param largest         largest volume that hangs from the footprint, > 0 [m³]
+/// @param largest           largest volume that hangs from the footprint, > 0 [m³]
 /// @param capillary_length  √(σ/ρg), > 0 [m]
-/// @return                from 0.59 to 0.99
+/// @return                  from 0.59 to 0.99
 double fallingShare(double largest, double capillary_length);
 
 /// Makes the next frame of droplets into which liquid flows, with the footprints of the frame before.
@@ -37,6 +37,8 @@ double fallingShare(double largest, double capillary_length);
 /// @param before    made by firstFrame() or nextDripping()
 /// @param outline   rims, the same ones
 /// @param options   with VolumeMode::Track; hold has no effect
+/// @param dripping  how much flows in, how long, and where drops leave the picture
+/// @param progress  called at every stage; may be empty
 /// @throws Error    as nextFrame(); InvalidArgument unless the plane is a level ceiling and the liquid has a weight;
 ///                  NoSuchDroplet if no volume is found that hangs
 Frame nextDripping(const Frame& before, const Outline& outline, const SequenceOptions& options,
