@@ -28,7 +28,6 @@ const CommandText& commandText()
             "  droplet-shape animate frames/ 'rain-%04d.obj'\n"
             "  droplet-shape animate logo.svg logo.glb --reveal left --frames 72\n"
             "  droplet-shape animate logo.svg logo.glb --drips 7 --material honey\n"
-            "  droplet-shape animate logo.svg tap.glb --feed 1mL --slow 20 --tilt 180deg\n"
             "  ffmpeg -i rain.mp4 -f image2pipe -c:v png - | droplet-shape animate - rain.glb\n"
             "\n"
             "Exit codes:\n"
