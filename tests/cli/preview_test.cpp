@@ -145,7 +145,9 @@ TEST_F(PreviewTest, ObjectsHaveTheirOwnLooks)
     write("plate.glb", "none.png");
     const auto without = made({"--onto", "plate.glb", "--view", "top", "--preview", "onto.png"}).error;
     EXPECT_THAT(without, HasSubstr("plate.glb is shown without a texture: none.png"));
-    EXPECT_THAT(made({"--onto", "plate.glb"}).error, Not(HasSubstr("none.png"))) << "nothing is shown";
+    EXPECT_THAT(made({"--onto", "plate.glb"}).error, HasSubstr("none.png")) << "the file has the object";
+    EXPECT_THAT(made({"--onto", "plate.glb", "--droplets-only"}).error, Not(HasSubstr("none.png")))
+        << "nothing is shown";
 }
 
 TEST_F(PreviewTest, TurntablePicturesAreNumberedAndTurned)
