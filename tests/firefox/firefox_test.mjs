@@ -112,7 +112,7 @@ firefox('a stroke becomes a droplet, and its file is valid', STUDIO, async (page
 
 firefox('the view shows a droplet of the gallery, and undo takes it away', STUDIO, async (page) => {
     await settled(page);
-    await page.click('#gallery ::-p-aria([name="Heart"][role="button"])');
+    await page.locator('#gallery button:nth-of-type(3)').setTimeout(kWait.timeout).click();
     await settled(page);
     await until(page, () => /µL/.test(document.querySelector('#result').textContent));
     const { x, y, width, height } = await (await page.$('#view')).boundingBox();
