@@ -152,13 +152,14 @@ struct GlassMapFrames::Content {
     {
         const auto columns = static_cast<std::size_t>(width());
         const double scale = 65535.0 * WaterPixel::kThickness / options.full_thickness;
-        double wanted = 0.0;  // of all pixels up to here, in steps, as what follows
+        constexpr double kHalf = 0.5;  // as in levelOf()
+        double wanted = 0.0;           // of all pixels up to here, in steps, as what follows
         std::int64_t written = 0;
         for (std::size_t at = row * columns; at < (row + 1) * columns; ++at) {
             const WaterPixel& water = sums.water()[at];
             const double thickness = water.cover != 0 ? static_cast<double>(water.thickness) : 0.0;
             wanted += std::min(std::max(scale * thickness, 0.0), 65535.0);
-            const auto so_far = static_cast<std::int64_t>(wanted + 0.5);
+            const auto so_far = static_cast<std::int64_t>(wanted + kHalf);
             maps.thickness.levels[at] = static_cast<std::uint16_t>(so_far - written);
             written = so_far;
         }

@@ -22,9 +22,9 @@ RunoffRelief::RunoffRelief(Vec2 drift) : noise_(&sampledNoise())
         };
         shifts_[field] = {along(drift.x, kPerMetre[field].x), along(drift.y, kPerMetre[field].y)};
     };
-    run(kLongWaves, 0.5);
-    run(kShortWaves, 1.0);
-    shifts_[kShortWaves].x += 3.0F;  // the four are parts of one field
+    run(LongWaves, 0.5);
+    run(ShortWaves, 1.0);
+    shifts_[ShortWaves].x += 3.0F;  // the four are parts of one field
 }
 
 }  // namespace droplet

@@ -21,7 +21,7 @@ namespace droplet {
 /// over it. rain.glsl draws the same.
 class RunoffRelief {
     /// Random fields of which the relief consists.
-    enum Field : std::size_t { kCoarseRim, kFineRim, kLongWaves, kShortWaves, kFields };
+    enum Field : std::size_t { CoarseRim, FineRim, LongWaves, ShortWaves, FieldCount };
 
 public:
     /// @param drift  way that the waves have run [m]
@@ -40,7 +40,7 @@ public:
     // The same for the pixels of a raster, for which columns are computed once.
 
     /// Place along x.
-    using Column = std::array<SmoothNoise::Place, kFields>;
+    using Column = std::array<SmoothNoise::Place, FieldCount>;
     [[nodiscard]] Column columnOf(float x) const;
     /// Places with one y.
     class Row {
@@ -51,18 +51,18 @@ public:
         [[nodiscard]] Surface at(const Column& column, const Float4& film, float pixel) const;
 
     private:
-        std::array<SmoothNoise::Row, kFields> fields_;
+        std::array<SmoothNoise::Row, FieldCount> fields_;
     };
 
 private:
     /// Units of the fields per metre; waves are longer up the glass, which a driver sees shortened.
-    static constexpr std::array<Vec2f, kFields> kPerMetre{Vec2f{1.0F / 5e-3F, 1.0F / 5e-3F},
-                                                          {1.0F / 1.7e-3F, 1.0F / 1.7e-3F},
-                                                          {1.0F / 5e-3F, 1.0F / 10e-3F},
-                                                          {1.0F / 2.9e-3F, 1.0F / 4.8e-3F}};
+    static constexpr std::array<Vec2f, FieldCount> kPerMetre{Vec2f{1.0F / 5e-3F, 1.0F / 5e-3F},
+                                                             {1.0F / 1.7e-3F, 1.0F / 1.7e-3F},
+                                                             {1.0F / 5e-3F, 1.0F / 10e-3F},
+                                                             {1.0F / 2.9e-3F, 1.0F / 4.8e-3F}};
     static constexpr float kWaves = 0.8F;  ///< height of waves over the thickness
     /// Their heights: of rims over the width of a rim, of waves over the thickness.
-    static constexpr std::array<float, kFields> kHeights{0.9F, 0.5F, kWaves, 0.6F * kWaves};
+    static constexpr std::array<float, FieldCount> kHeights{0.9F, 0.5F, kWaves, 0.6F * kWaves};
 
     /// Factors of a field and of its slopes in its units.
     static constexpr Float4 factorsOf(Field field)
@@ -79,7 +79,7 @@ private:
     }
 
     const SmoothNoise* noise_;
-    std::array<Vec2f, kFields> shifts_{};  ///< that the fields have run, in their units
+    std::array<Vec2f, FieldCount> shifts_{};  ///< that the fields have run, in their units
 };
 
 // Below, all is inlined: small structures of floats that are returned pass through memory.
@@ -97,7 +97,7 @@ template <typename ValueOf>
         return {};
     }
     // Distance from the rim.
-    const Float4 rim = thickness < kWhole ? float4(kPerThickness) * film + value_of(kCoarseRim) + value_of(kFineRim) -
+    const Float4 rim = thickness < kWhole ? float4(kPerThickness) * film + value_of(CoarseRim) + value_of(FineRim) -
                                                 Float4{1.25F, 0.0F, 0.0F, 0.0F}
                                           : Float4{1.0F, 0.0F, 0.0F, 0.0F};
     const float wide = std::max(std::sqrt(rim[1] * rim[1] + rim[2] * rim[2]) * pixel, 0.05F);
@@ -105,7 +105,7 @@ template <typename ValueOf>
     if (!(cover > covered)) {
         return {cover, float4(0.0F)};
     }
-    const Float4 high = value_of(kLongWaves) + value_of(kShortWaves) + Float4{1.0F - 0.8F * kWaves, 0.0F, 0.0F, 0.0F};
+    const Float4 high = value_of(LongWaves) + value_of(ShortWaves) + Float4{1.0F - 0.8F * kWaves, 0.0F, 0.0F, 0.0F};
     const float t = std::min(rim[0] * (1.0F / kRounded), 1.0F);
     const float rounded = t * t * (3.0F - 2.0F * t);
     const float by_rim = 6.0F * t * (1.0F - t) / kRounded;
@@ -126,15 +126,15 @@ template <typename ValueOf>
 inline RunoffRelief::Column RunoffRelief::columnOf(float x) const
 {
     Column column;
-    for (std::size_t field = 0; field < kFields; ++field) {
+    for (std::size_t field = 0; field < FieldCount; ++field) {
         column[field] = SmoothNoise::placeOf(kPerMetre[field].x * x - shifts_[field].x);
     }
     return column;
 }
 
 inline RunoffRelief::Row::Row(const RunoffRelief& relief, float y)
-    : fields_{relief.rowOf(kCoarseRim, y), relief.rowOf(kFineRim, y), relief.rowOf(kLongWaves, y),
-              relief.rowOf(kShortWaves, y)}
+    : fields_{relief.rowOf(CoarseRim, y), relief.rowOf(FineRim, y), relief.rowOf(LongWaves, y),
+              relief.rowOf(ShortWaves, y)}
 {
 }
 
