@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <mutex>
 #include <vector>
 
 #include "droplet/io/read_surface.h"
 #include "droplet/render/contact_sheet.h"
 #include "droplet/render/render.h"
+#include "droplet/surface/simplify.h"
 
 namespace cli {
 namespace {
@@ -27,39 +26,6 @@ double meanHeight(const droplet::Surface& surface)
         area += 0.5 * std::max(0.0, cross(surface.vertices[t[1]] - a, surface.vertices[t[2]] - a).z);
     }
     return area > 0.0 ? std::abs(droplet::enclosedVolume(surface)) / area : 0.0;
-}
-
-/// The droplets of a file that begins with the triangles of the object that they lie on.
-/// @param count  of these triangles
-droplet::Surface withoutFirst(const droplet::Surface& all, std::size_t count)
-{
-    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    droplet::Surface droplets;
-    droplets.triangles.assign(all.triangles.begin() + static_cast<std::ptrdiff_t>(count), all.triangles.end());
-    std::vector<bool> is_kept(all.vertices.size(), false);
-    for (const droplet::Triangle& triangle : droplets.triangles) {
-        for (const std::uint32_t v : triangle) {
-            is_kept[v] = true;
-        }
-    }
-    std::vector<std::uint32_t> number(all.vertices.size(), kNone);
-    std::vector<std::uint32_t> first(all.vertices.size(), kNone);  // of those that are kept, at the place of a vertex
-    droplets.weld.reserve(all.vertices.size());
-    for (std::size_t v = 0; v < all.vertices.size(); ++v) {
-        if (is_kept[v]) {
-            number[v] = static_cast<std::uint32_t>(droplets.vertices.size());
-            droplets.vertices.push_back(all.vertices[v]);
-            droplets.normals.push_back(all.normals[v]);
-            droplets.uvs.push_back(all.uvs[v]);
-            std::uint32_t& place = first[all.weld[v]];
-            place = place == kNone ? number[v] : place;
-            droplets.weld.push_back(place);
-        }
-    }
-    for (droplet::Triangle& triangle : droplets.triangles) {
-        triangle = {number[triangle[0]], number[triangle[1]], number[triangle[2]]};
-    }
-    return droplets;
 }
 
 /// Boxes of one size, each centred on its droplet and standing on the ground.
@@ -112,7 +78,10 @@ void writeContactSheet(const ContactSheet& sheet, const droplet::OutputOptions& 
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         droplet::Surface surface = droplet::readSurface(sheet.droplets[i]).surface;
         if (sheet.object) {
-            surface = withoutFirst(surface, sheet.object->mesh.triangles.size());
+            // The file begins with the object's triangles.
+            const auto first =
+                surface.triangles.begin() + static_cast<std::ptrdiff_t>(sheet.object->mesh.triangles.size());
+            surface = droplet::withTriangles(surface, {first, surface.triangles.end()});
         }
         surface.mean_height = meanHeight(surface);
         droplet::RenderOptions render = alike;

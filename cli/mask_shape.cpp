@@ -151,8 +151,7 @@ std::optional<std::string> seedsWarning(const droplet::MaskOptions& options)
         return std::nullopt;
     }
     return "--seeds: it looks like a photograph, whose light and dark parts are taken for strokes; give a picture with "
-           "the "
-           "strokes alone, on transparent or evenly grey ground";
+           "the strokes alone, on transparent or evenly grey ground";
 }
 
 std::optional<std::string> maskWarning(const droplet::Mask& mask, const std::string& advice)

@@ -251,7 +251,6 @@ export class Dew {
 
     async #cover(job) {
         const servant = this.#servant();
-        await servant.ready;
         if (this.#held !== job.object) {
             await servant.ask('object', { object: job.object });
             this.#held = job.object;

@@ -55,8 +55,7 @@ class Seeker {
         this.wish = undefined;
         this.busy = true;
         const seeds = strokes && seedsOf(strokes, width, height);
-        const answer = await servant.ready.then(() => servant.ask('mask', { picture: { width, height, data }, seeds }))
-            .catch((error) => ({ error }));
+        const answer = await servant.ask('mask', { picture: { width, height, data }, seeds }).catch((error) => ({ error }));
         if (servant === this.servant) {
             this.busy = false;
             this.answered(answer);

@@ -25,7 +25,8 @@ export class Servant {
             this.waiting.forEach(({ reject }) => reject(error));
             this.waiting.clear();
         });
-        this.ready = this.ask('start', { wasm, drafts });
+        this.ready = this.ask('start', { wasm, drafts });  // other acts wait for it there
+        this.ready.catch(() => {});  // they tell, too
     }
 
     ask(act, message, transferred = []) {
@@ -36,7 +37,6 @@ export class Servant {
     }
 
     async solve(job, draft) {
-        await this.ready;
         if (this.object !== job.object) {
             this.object = job.object;
             await this.ask('layOn', { object: job.object });
@@ -185,7 +185,6 @@ export class Solver {
 
     /** Width of a sheet of these sides if it is the texture of an object [m]; throws if it cannot be. */
     async widthOn(object, width, height) {
-        await this.drafter.ready;
         return (await this.drafter.ask('widthOn', { object, width, height })).width;
     }
 

@@ -330,9 +330,9 @@ double longestSide(const Surface& surface)
     return std::max({size.x, size.y, size.z, std::numeric_limits<double>::min()});
 }
 
-/// Surface of some of the triangles, without vertices that have none.
-/// @param triangles  by ascending part
-Surface reduced(const Surface& surface, std::vector<Triangle> triangles)
+}  // namespace
+
+Surface withTriangles(const Surface& surface, std::vector<Triangle> triangles)
 {
     std::vector<std::uint32_t> number(surface.vertices.size(), kNone);
     for (const Triangle& t : triangles) {
@@ -398,8 +398,6 @@ Surface reduced(const Surface& surface, std::vector<Triangle> triangles)
     return result;
 }
 
-}  // namespace
-
 SimplifiedSurface simplify(const Surface& surface, std::size_t triangles)
 {
     surface.validate();
@@ -434,13 +432,13 @@ SimplifiedSurface simplify(const Surface& surface, std::size_t triangles)
     };
     std::stable_sort(kept.begin(), kept.end(),
                      [&](const Triangle& a, const Triangle& b) { return part_of(a) < part_of(b); });
-    return {reduced(surface, std::move(kept)), data.worst * side};
+    return {withTriangles(surface, std::move(kept)), data.worst * side};
 }
 
 Surface welded(const Surface& surface)
 {
     surface.validate();
-    return reduced(surface, weldedTriangles(surface.triangles, surface.weld));
+    return withTriangles(surface, weldedTriangles(surface.triangles, surface.weld));
 }
 
 }  // namespace droplet

@@ -20,35 +20,6 @@ inline std::int32_t floorOf(float value)
     return whole - (value < static_cast<float>(whole) ? 1 : 0);
 }
 
-/// Value of a smooth random field from 0 to 1, and its derivatives.
-struct NoiseValue {
-    float value = 0.0F;
-    float by_u = 0.0F;
-    float by_v = 0.0F;
-};
-
-/// @param number  random numbers of (column, row)
-template <typename Number>
-NoiseValue fieldFrom(float u, float v, const Number& number)
-{
-    const float column = std::floor(u);
-    const float row = std::floor(v);
-    const auto corner = [&](float i, float j) {
-        return number(static_cast<std::int32_t>(column + i), static_cast<std::int32_t>(row + j));
-    };
-    const float x = u - column;
-    const float y = v - row;
-    const float sx = x * x * (3.0F - 2.0F * x);
-    const float sy = y * y * (3.0F - 2.0F * y);
-    const float a = corner(0.0F, 0.0F);
-    const float b = corner(1.0F, 0.0F);
-    const float c = corner(0.0F, 1.0F);
-    const float d = corner(1.0F, 1.0F);
-    const float twist = a - b - c + d;
-    return {a + sx * (b - a) + sy * (c - a) + sx * sy * twist, 6.0F * x * (1.0F - x) * (b - a + sy * twist),
-            6.0F * y * (1.0F - y) * (c - a + sx * twist)};
-}
-
 /// Smooth random field around 0.5, with waves of two to three units in all directions, which repeats: a grid of random
 /// numbers would be seen as one. It is sampled once.
 class SmoothNoise {

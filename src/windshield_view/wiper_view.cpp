@@ -32,6 +32,35 @@ float numberAt(std::int32_t column, std::int32_t row, std::uint32_t seed)
                         static_cast<std::uint32_t>(row) * 0x85ebca6bU + seed * 0xc2b2ae35U);
 }
 
+/// Value of a smooth random field from 0 to 1, and its derivatives.
+struct NoiseValue {
+    float value = 0.0F;
+    float by_u = 0.0F;
+    float by_v = 0.0F;
+};
+
+/// @param number  random numbers of (column, row)
+template <typename Number>
+NoiseValue fieldFrom(float u, float v, const Number& number)
+{
+    const float column = std::floor(u);
+    const float row = std::floor(v);
+    const auto corner = [&](float i, float j) {
+        return number(static_cast<std::int32_t>(column + i), static_cast<std::int32_t>(row + j));
+    };
+    const float x = u - column;
+    const float y = v - row;
+    const float sx = x * x * (3.0F - 2.0F * x);
+    const float sy = y * y * (3.0F - 2.0F * y);
+    const float a = corner(0.0F, 0.0F);
+    const float b = corner(1.0F, 0.0F);
+    const float c = corner(0.0F, 1.0F);
+    const float d = corner(1.0F, 1.0F);
+    const float twist = a - b - c + d;
+    return {a + sx * (b - a) + sy * (c - a) + sx * sy * twist, 6.0F * x * (1.0F - x) * (b - a + sy * twist),
+            6.0F * y * (1.0F - y) * (c - a + sx * twist)};
+}
+
 NoiseValue fieldAt(float u, float v, std::uint32_t seed)
 {
     return fieldFrom(u, v, [&](std::int32_t i, std::int32_t j) { return numberAt(i, j, seed); });

@@ -10,6 +10,7 @@ import { join, resolve } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import puppeteer from 'puppeteer-core';
+import { drawThrough } from './controls.mjs';
 
 const { STUDIO, RAIN, VIEWER, VALIDATOR, FIREFOX = '/usr/bin/firefox-esr' } = process.env;
 const kSize = { width: 1100, height: 640 };
@@ -31,10 +32,11 @@ after(async () => {
     rmSync(downloads, { recursive: true });
 });
 
-/** Runs a test in a page, in which nothing may complain. */
+/** Runs a test in a page, in which nothing may complain, and with nothing kept of other tests. */
 function firefox(name, file, run) {
     test(name, async () => {
-        const page = await browser.newPage();
+        const context = await browser.createBrowserContext();
+        const page = await context.newPage();
         const complaints = [];
         page.on('pageerror', (error) => complaints.push(error.message));
         page.on('console', (message) => {
@@ -48,7 +50,7 @@ function firefox(name, file, run) {
         await page.goto(pathToFileURL(resolve(file)).href);
         await run(page);
         assert.deepEqual(complaints, []);
-        await page.close();
+        await context.close();
     });
 }
 
@@ -89,20 +91,9 @@ async function saved(page, button) {
     return assert.fail(`${button} saves nothing`);
 }
 
-async function stroke(page, ...points) {
-    const box = await (await page.$('#sheet')).boundingBox();
-    const at = ([x, y]) => [box.x + x * box.width, box.y + y * box.height];
-    await page.mouse.move(...at(points[0]));
-    await page.mouse.down();
-    for (const point of points.slice(1)) {
-        await page.mouse.move(...at(point), { steps: 5 });
-    }
-    await page.mouse.up();
-}
-
 firefox('a stroke becomes a droplet, and its file is valid', STUDIO, async (page) => {
     await settled(page);
-    await stroke(page, [0.2, 0.5], [0.5, 0.4], [0.8, 0.5]);
+    await drawThrough(page.mouse, await (await page.$('#sheet')).boundingBox(), [0.2, 0.5], [0.5, 0.4], [0.8, 0.5]);
     await until(page, () => /µL/.test(document.querySelector('#said').textContent));
     await settled(page);
     assert.match(await text(page, '#said'), /^[\d.]+\sµL of water, [\d.]+\sµm high$/);
@@ -112,7 +103,7 @@ firefox('a stroke becomes a droplet, and its file is valid', STUDIO, async (page
 
 firefox('the view shows a droplet of the gallery, and undo takes it away', STUDIO, async (page) => {
     await settled(page);
-    await page.locator('#gallery button:nth-of-type(3)').setTimeout(kWait.timeout).click();
+    await page.locator('#gallery button:nth-of-type(3)').click();
     await settled(page);
     await until(page, () => /µL/.test(document.querySelector('#result').textContent));
     const { x, y, width, height } = await (await page.$('#view')).boundingBox();

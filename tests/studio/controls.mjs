@@ -1,5 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a user does in Studio, for tests and for scripts/screenshots.
+// What a user does in Studio, for tests and for scripts/screenshots. The first is for every program that drives a browser.
+
+/** Draws with a mouse through points, as parts of a box's width and height. */
+export async function drawThrough(mouse, box, ...points) {
+    const at = ([x, y]) => [box.x + x * box.width, box.y + y * box.height];
+    await mouse.move(...at(points[0]));
+    await mouse.down();
+    for (const point of points.slice(1)) {
+        await mouse.move(...at(point), { steps: 5 });
+    }
+    await mouse.up();
+}
 
 /** Waits until all whole meshes are shown and nothing moves. */
 export async function settle(page) {

@@ -6,7 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { dropFiles, folder, jsonOf, kDesktop, kPhone, saved as savedBy, started, studio } from './browser.mjs';
-import { setValue, stateOfDew } from './controls.mjs';
+import { drawThrough, setValue, stateOfDew } from './controls.mjs';
 
 const { DROPLET_SHAPE, VALIDATOR } = process.env;
 
@@ -166,11 +166,7 @@ studio('the object has its colours, and droplets are seen on it', kDesktop, asyn
 });
 
 studio('drawing and dew do not disturb each other', kDesktop, async (page) => {
-    const box = await page.locator('#sheet').boundingBox();
-    await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.5 * box.height);
-    await page.mouse.down();
-    await page.mouse.move(box.x + 0.7 * box.width, box.y + 0.5 * box.height, { steps: 5 });
-    await page.mouse.up();
+    await drawThrough(page.mouse, await page.locator('#sheet').boundingBox(), [0.3, 0.5], [0.7, 0.5]);
     await page.locator('#modes [value=dew]').check({ force: true });
     await stateOfDew(page, 'empty');
     assert.equal(await page.locator('#desk').isVisible(), false);

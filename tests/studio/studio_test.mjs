@@ -9,7 +9,7 @@ import { join, resolve } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { dropFiles, folder, jsonOf, kDesktop, kPhone, kStudio, saved as savedBy, started, studio, watched } from './browser.mjs';
-import { choose, setValue, settle } from './controls.mjs';
+import { choose, drawThrough, setValue, settle } from './controls.mjs';
 
 const { DROPLET_SHAPE, PAGE, SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
 
@@ -17,16 +17,7 @@ const said = (page) => page.locator('#said').textContent();
 const result = (page) => page.locator('#result').textContent();
 
 /** Draws through points, as parts of a sheet's width and height. */
-async function strokeOn(page, sheet, ...points) {
-    const box = await page.locator(sheet).boundingBox();
-    const at = ([x, y]) => [box.x + x * box.width, box.y + y * box.height];
-    await page.mouse.move(...at(points[0]));
-    await page.mouse.down();
-    for (const point of points.slice(1)) {
-        await page.mouse.move(...at(point), { steps: 5 });
-    }
-    await page.mouse.up();
-}
+const strokeOn = async (page, sheet, ...points) => drawThrough(page.mouse, await page.locator(sheet).boundingBox(), ...points);
 const stroke = (page, ...points) => strokeOn(page, '#sheet', ...points);
 
 /** What is drawn in a part of the sheet, {left, top, width, height} as parts of its sides: RGBA. */

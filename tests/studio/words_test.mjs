@@ -5,7 +5,7 @@ import { writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { dropFiles, folder, kDesktop, kPhone, started, studio } from './browser.mjs';
-import { setValue, settle, stateOfDew } from './controls.mjs';
+import { drawThrough, setValue, settle, stateOfDew } from './controls.mjs';
 import { kTables, wordsOfReports, wordsOfSources } from './words.mjs';
 
 const { SOURCES = resolve(import.meta.dirname, '../../src') } = process.env;
@@ -20,14 +20,7 @@ const kSpoken = {
     zh: { locale: 'zh-CN', lang: 'zh-Hans', save: '保存', layer: '图层 1', told: /^水 [\d.]+\sµL，高 [\d.]+\sµm$/ },
 };
 
-async function stroke(page, ...points) {
-    const box = await page.locator('#sheet').boundingBox();
-    const at = ([x, y]) => [box.x + x * box.width, box.y + y * box.height];
-    await page.mouse.move(...at(points[0]));
-    await page.mouse.down();
-    await page.mouse.move(...at(points[1]), { steps: 5 });
-    await page.mouse.up();
-}
+const stroke = async (page, ...points) => drawThrough(page.mouse, await page.locator('#sheet').boundingBox(), ...points);
 
 /** Every text and every attribute that is seen or read aloud, also of what is hidden now. */
 const texts = (page) => page.evaluate(() => {

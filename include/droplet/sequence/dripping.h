@@ -27,9 +27,9 @@ double fallingShare(double largest, double capillary_length);
 /// Makes the next frame of droplets into which liquid flows, with the footprints of the frame before.
 ///
 /// A droplet that reaches the largest volume that hangs from its footprint sheds a drop at that time, within the step:
-/// fallingShare() of its volume. The drop is a ball that falls freely from rest: first its lowest place is where that of
-/// the droplet was, or its highest is below what stays, whichever is lower. The neck breaks within milliseconds, and is
-/// not shown. What stays goes on growing.
+/// fallingShare() of its volume. The drop is a ball that falls freely from rest: first its lowest place is where that
+/// of the droplet was, or its highest is below what stays, whichever is lower. The neck breaks within milliseconds, and
+/// is not shown. What stays goes on growing.
 ///
 /// Guarantees: volumes of droplets and of Frame::falling together are those of the frame before − lost + gained, to
 /// 1e-9; the meshes of drops enclose exactly their volumes; the surface has one part for each drop, after those of the

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "droplet/surface/surface.h"
 
@@ -23,6 +24,12 @@ struct SimplifiedSurface {
 /// @param triangles  largest number of triangles, at least 1; there are more where fewer would change the topology
 /// @throws Error     InvalidArgument
 SimplifiedSurface simplify(const Surface& surface, std::size_t triangles);
+
+/// Leaves out triangles of a surface, and the vertices that only they have. Quadrilaterals become triangles.
+/// @param surface    valid, but its parts may be none
+/// @param triangles  those that stay, of the first part first
+/// @return           surface with as many parts
+Surface withTriangles(const Surface& surface, std::vector<Triangle> triangles);
 
 /// Joins the copies of every vertex to the first, which is the liquid's: one vertex for each place, and smooth shading
 /// across the rim. Quadrilaterals become triangles.
