@@ -14,6 +14,7 @@
 #include "grid_liquid.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -180,21 +181,31 @@ public:
         for (Sides* sides : {&u_, &v_}) {
             forSpans(sides->spans, [&](std::size_t k) { sides->before[k] = sides->value[k]; });
         }
-        // Pressures and displacements that mend the density have the same equations.
-        join(whole_);
-        project(state);
-        extend(u_);
-        extend(v_);
-        restrainAtWalls();
-        spread(state);
         if (walls_.areMoving()) {
-            field_ = walls_.at(state.time + dt, grid_);
+            moved_field_ = walls_.at(state.time + dt, grid_);
         }
-        shift(state);
+        tbb::parallel_invoke(
+            [&] {
+                // Pressures and displacements that mend the density have the same equations.
+                join(whole_);
+                tbb::parallel_invoke(
+                    // The last one is done at once, and is the longest.
+                    [&] { spread(state); },
+                    [&] {
+                        project(state);
+                        extend(u_);
+                        extend(v_);
+                        restrainAtWalls();
+                    });
+            },
+            [&] { shift(state); });
         move(state);
     }
 
 private:
+    /// Walls at the end of a step, where particles go.
+    [[nodiscard]] const WallField& fieldAfter() const { return walls_.areMoving() ? moved_field_ : field_; }
+
     /// Longest way in a step, in spacings.
     [[nodiscard]] double courant() const { return options_.courant.value_or(kCourant); }
 
@@ -242,7 +253,7 @@ private:
         v_ = Sides({0.5, 0.0}, grid_.columns, grid_.rows + 1);
         spans_.clear();
         for (std::vector<double>* values :
-             {&density_, &solid_, &room_, &total_, &filled_, &curvature_, &pressure_, &potential_, &rhs_}) {
+             {&density_, &solid_, &room_, &total_, &filled_, &curvature_, &pressure_, &potential_, &rhs_, &excess_}) {
             values->assign(grid_.cells(), 0.0);
         }
         left_side_.resize(grid_.cells());
@@ -253,6 +264,8 @@ private:
         free_.assign(grid_.cells(), 0);
         whole_ = GridEquations(grid_);
         rest_ = GridEquations(grid_);
+        solving_ = GridEquations::Memory(grid_);
+        spreading_ = GridEquations::Memory(grid_);
         return true;
     }
 
@@ -261,10 +274,18 @@ private:
     {
         const std::size_t count = state.position.size();
         cell_.resize(count);
+        constexpr std::size_t kParticlesPerBlock = 4096;
+        forBlocks(
+            count,
+            [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    cell_[i] = static_cast<std::uint32_t>(places_.at(state.position[i]).cell());
+                }
+            },
+            kParticlesPerBlock);
         begin_.assign(grid_.cells() + 1, 0);
-        for (std::size_t i = 0; i < count; ++i) {
-            cell_[i] = static_cast<std::uint32_t>(places_.at(state.position[i]).cell());
-            ++begin_[cell_[i] + 1];
+        for (const std::uint32_t cell : cell_) {
+            ++begin_[cell + 1];
         }
         for (std::size_t k = 0; k < grid_.cells(); ++k) {
             begin_[k + 1] += begin_[k];
@@ -274,13 +295,18 @@ private:
         for (std::uint32_t i = 0; i < count; ++i) {
             order_[next_[cell_[i]]++] = i;
         }
-        reorder(state.position, order_, sorted_vectors_);
-        reorder(state.velocity, order_, sorted_vectors_);
-        reorder(acceleration_, order_, sorted_vectors_);
-        reorder(state.affine, order_, sorted_gradients_);
-        reorder(state.id, order_, sorted_numbers_);
-        reorder(cell_, order_, sorted_numbers_);
-        reorder(state.pressure, order_, squares_);
+        tbb::parallel_invoke(
+            [&] {
+                reorder(state.position, order_, sorted_vectors_);
+                reorder(state.velocity, order_, sorted_vectors_);
+                reorder(acceleration_, order_, sorted_vectors_);
+            },
+            [&] {
+                reorder(state.affine, order_, sorted_gradients_);
+                reorder(state.id, order_, sorted_numbers_);
+                reorder(cell_, order_, sorted_numbers_);
+                reorder(state.pressure, order_, squares_);
+            });
         flies_.resize(count);
         clearSpans();
         std::vector<Span> columns(grid_.rows);  // of the particles that do not fly
@@ -660,7 +686,7 @@ private:
                 const std::size_t right = left_side_[k];
                 rhs_[k] += swept(u_, right, right + 1) + swept(v_, k, k + grid_.columns);
             }
-            const auto solved = equations.solve(rhs_, pressure, kTolerance * flow);
+            const auto solved = equations.solve({rhs_, kTolerance * flow}, pressure, solving_);
             state.counts.divergence_iterations += static_cast<std::uint64_t>(solved.iterations);
             // Walls do not hold liquid back.
             double highest = 0.0;
@@ -685,7 +711,7 @@ private:
                 break;
             }
         }
-        changeSides(&Sides::value, pressure, capillary);
+        changeSides(&Sides::value, pressure, capillary, [&](std::size_t k) { return free_[k] != 0; });
         for (const std::size_t k : liquid_) {
             pressure[k] *= h / dt_;
             free_[k] = 0;
@@ -739,7 +765,10 @@ private:
     }
 
     /// Adds differences of a potential to values at the sides of liquid cells.
-    void changeSides(std::vector<double> Sides::*values, const std::vector<double>& potential, double capillary)
+    /// @param is_free  (cell): whether the pressure is 0 there
+    template <typename IsFree>
+    void changeSides(std::vector<double> Sides::*values, const std::vector<double>& potential, double capillary,
+                     const IsFree& is_free)
     {
         for (const std::size_t k : liquid_) {
             forSides(k, [&](Sides& sides, std::size_t other, std::size_t s, double sign) {
@@ -750,9 +779,9 @@ private:
                 if (kind_[other] == Cell::Liquid) {
                     value += potential[k] - potential[other];
                 } else {
-                    const double part = free_[k] != 0 ? 1.0 : partTo(k, other);
+                    const double part = is_free(k) ? 1.0 : partTo(k, other);
                     const double beyond = capillary * curvatureAt(k, other, part);
-                    value += sign * (potential[k] - (free_[k] != 0 ? 0.0 : beyond)) / part;
+                    value += sign * (potential[k] - (is_free(k) ? 0.0 : beyond)) / part;
                 }
             });
         }
@@ -765,14 +794,14 @@ private:
         forSpans(sides.spans, [&](std::size_t k) {
             sides.change[k] = sides.solved[k] != 0 ? sides.value[k] - sides.before[k] : 0.0;
         });
-        sides.extend(sides.change, sides.solved);
+        sides.extend(sides.change, sides.solved, sides.of_value);
         forSpans(sides.spans, [&](std::size_t k) {
             if (sides.known[k] == 0 && sides.open[k] > 0.0 && sides.weight[k] > kLeastWeight) {
                 sides.value[k] = sides.before[k] + sides.change[k];
                 sides.known[k] = 1;
             }
         });
-        sides.extend(sides.value, sides.known);
+        sides.extend(sides.value, sides.known, sides.of_value);
     }
 
     /// Gives velocities in walls the walls' part along their normals.
@@ -784,7 +813,7 @@ private:
         for (const bool is_across : {true, false}) {
             Sides& sides = is_across ? u_ : v_;
             forSpans(sides.spans, [&](std::size_t k) {
-                if (sides.open[k] > 0.0 || sides.reached[k] != Reached::Yes) {
+                if (sides.open[k] > 0.0 || sides.of_value.reached[k] != Reached::Yes) {
                     return;
                 }
                 const Vec2 place = sides.placeOf(k, grid_);
@@ -817,17 +846,18 @@ private:
             forSides(k, [&](const Sides& sides, std::size_t other, std::size_t s, double) {
                 is_inside = is_inside && (!(sides.open[s] > 0.0) || kind_[other] == Cell::Liquid);
             });
-            rhs_[k] = h * std::clamp(density - 1.0, is_inside ? -kMostGap : 0.0, kMostCompression);
+            excess_[k] = h * std::clamp(density - 1.0, is_inside ? -kMostGap : 0.0, kMostCompression);
         }
         state.density_error = mean / std::max(static_cast<double>(liquid_.size()), 1.0);
-        const auto solved = whole_.solve(rhs_, potential_, kSpreadTolerance * h);
+        const auto solved = whole_.solve({excess_, kSpreadTolerance * h}, potential_, spreading_);
         state.counts.density_iterations += static_cast<std::uint64_t>(solved.iterations);
-        changeSides(&Sides::shift, potential_, 0.0);
+        changeSides(&Sides::shift, potential_, 0.0, [](std::size_t) { return false; });
         for (const std::size_t k : liquid_) {
             potential_[k] = 0.0;
         }
-        u_.extend(u_.shift, u_.solved);
-        v_.extend(v_.shift, v_.solved);
+        for (Sides* sides : {&u_, &v_}) {
+            sides->extend(sides->shift, sides->solved, sides->of_shift);
+        }
     }
 
     /// Finds displacements that part particles which are closer than on the lattice at rest: the grid does not see how
@@ -923,8 +953,9 @@ private:
         constexpr double kRounding = 1e-6;
         const std::size_t corner = left_side_[cell];  // as many in a row as sides
         const std::size_t above = corner + grid_.cornerColumns();
-        const bool is_far = std::min({field_.distance[corner], field_.distance[corner + 1], field_.distance[above],
-                                      field_.distance[above + 1]}) > (0.5 + kRounding) * reach;
+        const bool is_far =
+            std::min({fieldAfter().distance[corner], fieldAfter().distance[corner + 1], fieldAfter().distance[above],
+                      fieldAfter().distance[above + 1]}) > (0.5 + kRounding) * reach;
         bool is_full = true;
         for (const std::size_t row : {cell - grid_.columns, cell, cell + grid_.columns}) {
             is_full = is_full && std::min({filled_[row - 1], filled_[row], filled_[row + 1]}) > kFirstRow + kRounding;
@@ -937,9 +968,9 @@ private:
     {
         const GridPlace in_grid = places_.at(place);
         const Bilinear corner = in_grid.amongCorners();
-        const double distance = corner.in(field_.distance);
+        const double distance = corner.in(fieldAfter().distance);
         if (2.0 * distance < reach) {
-            const Vec2 slope = corner.slopeIn(field_.distance);
+            const Vec2 slope = corner.slopeIn(fieldAfter().distance);
             const double size = plainLength(slope);
             return size > 0.0 ? displacement + ((reach - 2.0 * std::max(distance, 0.0)) / size) * slope : displacement;
         }
@@ -1054,8 +1085,8 @@ private:
     {
         const std::size_t corner = left_side_[cell];  // as many in a row as sides
         const std::size_t above = corner + grid_.cornerColumns();
-        return std::max(std::min({field_.distance[corner], field_.distance[corner + 1], field_.distance[above],
-                                  field_.distance[above + 1]}) -
+        return std::max(std::min({fieldAfter().distance[corner], fieldAfter().distance[corner + 1],
+                                  fieldAfter().distance[above], fieldAfter().distance[above + 1]}) -
                             grid_.cell,
                         0.0);
     }
@@ -1087,18 +1118,18 @@ private:
         for (int round = 0; round < kRounds; ++round) {
             const Vec2 x = state.position[i];
             const Bilinear at = places_.at(x).amongCorners();
-            const double distance = at.in(field_.distance);
+            const double distance = at.in(fieldAfter().distance);
             if (!(distance < clearance)) {
                 break;
             }
-            const Vec2 slope = at.slopeIn(field_.distance);
+            const Vec2 slope = at.slopeIn(fieldAfter().distance);
             const double size = plainLength(slope);
             if (!(size > 0.0)) {
                 break;
             }
             const Vec2 normal = (1.0 / size) * slope;
             state.position[i] = x + (clearance - distance) * normal;
-            const Vec2 wall = walls_.velocity(field_, field_.wall[at.first], x);
+            const Vec2 wall = walls_.velocity(fieldAfter(), fieldAfter().wall[at.first], x);
             const double inward = dot(state.velocity[i] - wall, normal);
             if (inward < 0.0) {
                 state.velocity[i] = state.velocity[i] - inward * normal;
@@ -1114,13 +1145,16 @@ private:
     double dt_ = 0.0;
     GridShape grid_;
     GridPlaces places_;
-    bool is_first_ = true;     ///< whether the next step begins a run
-    Sides u_;                  ///< across
-    Sides v_;                  ///< up
-    std::vector<Span> spans_;  ///< of cells near particles: what all others have is of no account
-    GridEquations whole_;      ///< of all liquid cells
-    GridEquations rest_;       ///< without those in which the pressure is 0
-    WallField field_;          ///< at the start of a step, and at its end when particles move
+    bool is_first_ = true;             ///< whether the next step begins a run
+    Sides u_;                          ///< across
+    Sides v_;                          ///< up
+    std::vector<Span> spans_;          ///< of cells near particles: what all others have is of no account
+    GridEquations whole_;              ///< of all liquid cells
+    GridEquations rest_;               ///< without those in which the pressure is 0
+    GridEquations::Memory solving_;    ///< for pressures
+    GridEquations::Memory spreading_;  ///< for displacements
+    WallField field_;                  ///< at the start of a step
+    WallField moved_field_;            ///< at its end, if walls are moving
     // Of cells:
     std::vector<std::uint32_t> begin_;      ///< their first particles
     std::vector<std::uint32_t> next_;       ///< where the next particle goes
@@ -1133,7 +1167,8 @@ private:
     std::vector<double> curvature_;         ///< of the surface [1/m]
     std::vector<double> pressure_;          ///< over the density [m²/s²]
     std::vector<double> potential_;         ///< of displacements
-    std::vector<double> rhs_;
+    std::vector<double> rhs_;               ///< of the pressures
+    std::vector<double> excess_;            ///< of density, times a cell [m]
     std::vector<Cell> kind_;
     std::vector<std::uint8_t> free_;   ///< whether the pressure is 0, as walls do not hold liquid back
     std::vector<std::size_t> liquid_;  ///< liquid cells

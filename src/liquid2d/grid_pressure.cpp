@@ -26,8 +26,12 @@ GridEquations::GridEquations(const GridShape& grid)
       diagonal_(grid.cells(), 0.0),
       right_(grid.cells(), 0.0),
       up_(grid.cells(), 0.0),
-      scale_(grid.cells(), 0.0),
-      solution_(grid.cells(), 0.0),
+      scale_(grid.cells(), 0.0)
+{
+}
+
+GridEquations::Memory::Memory(const GridShape& grid)
+    : solution_(grid.cells(), 0.0),
       residual_(grid.cells(), 0.0),
       search_(grid.cells(), 0.0),
       product_(grid.cells(), 0.0),
@@ -38,8 +42,7 @@ GridEquations::GridEquations(const GridShape& grid)
 void GridEquations::clear()
 {
     for (const std::size_t k : cells_) {
-        for (std::vector<double>* values :
-             {&diagonal_, &right_, &up_, &scale_, &solution_, &residual_, &search_, &product_, &lower_}) {
+        for (std::vector<double>* values : {&diagonal_, &right_, &up_, &scale_}) {
             (*values)[k] = 0.0;
         }
     }
@@ -67,14 +70,15 @@ void GridEquations::factorise()
     }
 }
 
-GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::vector<double>& x, double tolerance)
+GridEquations::Solved GridEquations::solve(const Problem& problem, std::vector<double>& x, Memory& memory) const
 {
     Solved solved;
     // Unknowns are y = (1 + L') x, equations those of (1 + L)⁻¹ A (1 + L')⁻¹ y.
-    std::vector<double>& y = solution_;
-    std::vector<double>& r = residual_;
-    std::vector<double>& s = search_;
-    std::vector<double>& t = product_;
+    std::vector<double>& y = memory.solution_;
+    std::vector<double>& r = memory.residual_;
+    std::vector<double>& s = memory.search_;
+    std::vector<double>& t = memory.product_;
+    std::vector<double>& lower = memory.lower_;
     for (const std::size_t k : cells_) {
         y[k] = scale_[k] > 0.0 ? x[k] / scale_[k] : 0.0;
         t[k] = 0.0;
@@ -86,12 +90,12 @@ GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::
                    : 0.0;
     };
     for (const std::size_t k : cells_) {
-        const double own = rhs[k] * scale_[k] - diagonal_[k] * y[k] - right_[k] * y[k + 1] - right_[k - 1] * y[k - 1] -
-                           up_[k] * y[k + columns_] - up_[k - columns_] * y[k - columns_];
+        const double own = problem.rhs[k] * scale_[k] - diagonal_[k] * y[k] - right_[k] * y[k + 1] -
+                           right_[k - 1] * y[k - 1] - up_[k] * y[k + columns_] - up_[k - columns_] * y[k - columns_];
         solved.residual = std::max(solved.residual, scale_[k] > 0.0 ? std::abs(own) / scale_[k] : 0.0);
         r[k] = own - up_[k - columns_] * r[k - columns_] - right_[k - 1] * r[k - 1];
     }
-    if (solved.residual <= tolerance) {
+    if (solved.residual <= problem.tolerance) {
         return solved;
     }
     double rho = 0.0;
@@ -117,8 +121,8 @@ GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::
         beside = 0.0;
         for (const std::size_t k : cells_) {
             beside =
-                s[k] + (diagonal_[k] - 2.0) * t[k] - up_[k - columns_] * lower_[k - columns_] - right_[k - 1] * beside;
-            lower_[k] = beside;
+                s[k] + (diagonal_[k] - 2.0) * t[k] - up_[k - columns_] * lower[k - columns_] - right_[k - 1] * beside;
+            lower[k] = beside;
             t[k] += beside;
             curvature += s[k] * t[k];
         }
@@ -134,7 +138,7 @@ GridEquations::Solved GridEquations::solve(const std::vector<double>& rhs, std::
             next += r[k] * r[k];
             solved.residual = std::max(solved.residual, residual_at(k));  // of cells before and this one alone
         }
-        if (solved.residual <= tolerance) {
+        if (solved.residual <= problem.tolerance) {
             break;
         }
         beta = next / rho;

@@ -11,6 +11,22 @@ namespace droplet {
 /// Symmetric five-point equations for the liquid cells of a grid, and their solution by conjugate gradients.
 class GridEquations {
 public:
+    /// Memory of solve() for cells of a grid. What is solved at the same time needs memory of its own.
+    class Memory {
+    public:
+        Memory() = default;
+        explicit Memory(const GridShape& grid);
+
+    private:
+        friend class GridEquations;
+        // Of the scaled and preconditioned equations:
+        std::vector<double> solution_;
+        std::vector<double> residual_;
+        std::vector<double> search_;
+        std::vector<double> product_;  ///< of the equations and the search direction
+        std::vector<double> lower_;    ///< its part by the lower factor
+    };
+
     GridEquations() = default;
     explicit GridEquations(const GridShape& grid);
 
@@ -42,11 +58,13 @@ public:
         int iterations = 0;
         double residual = 0.0;  ///< greatest of all equations
     };
+    struct Problem {
+        const std::vector<double>& rhs;  ///< for every cell of the grid
+        double tolerance = 0.0;          ///< greatest residual
+    };
     /// Solves the equations.
-    /// @param rhs        for every cell of the grid
-    /// @param x          first guess, and solution; 0 where there is no equation
-    /// @param tolerance  greatest residual
-    Solved solve(const std::vector<double>& rhs, std::vector<double>& x, double tolerance);
+    /// @param x  first guess, and solution; 0 where there is no equation
+    Solved solve(const Problem& problem, std::vector<double>& x, Memory& memory) const;
 
 private:
     std::size_t columns_ = 0;
@@ -55,12 +73,6 @@ private:
     std::vector<double> right_;  ///< coefficient of the cell on the right
     std::vector<double> up_;     ///< of the cell above
     std::vector<double> scale_;  ///< of unknowns and equations
-    // Of the scaled and preconditioned equations:
-    std::vector<double> solution_;
-    std::vector<double> residual_;
-    std::vector<double> search_;
-    std::vector<double> product_;  ///< of the equations and the search direction
-    std::vector<double> lower_;    ///< its part by the lower factor
 };
 
 }  // namespace droplet

@@ -13,7 +13,9 @@ Sides::Sides(Vec2 middle, std::size_t across, std::size_t up) : columns(across),
     }
     solved.assign(count, 0);
     known.assign(count, 0);
-    reached.assign(count, Reached::Outside);
+    for (Continuation* state : {&of_value, &of_shift}) {
+        state->reached.assign(count, Reached::Outside);
+    }
 }
 
 void Sides::clear()
@@ -23,14 +25,22 @@ void Sides::clear()
     }
     fillSpans(spans, solved, std::uint8_t{0});
     fillSpans(spans, known, std::uint8_t{0});
-    fillSpans(spans, reached, Reached::Outside);
+    for (Continuation* state : {&of_value, &of_shift}) {
+        fillSpans(spans, state->reached, Reached::Outside);
+    }
     spans.clear();
 }
 
-void Sides::extend(std::vector<double>& values, const std::vector<std::uint8_t>& given)
+void Sides::extend(std::vector<double>& values, const std::vector<std::uint8_t>& given, Continuation& state) const
 {
-    forSpans(spans, [&](std::size_t k) { reached[k] = given[k] != 0 ? Reached::Yes : Reached::No; });
-    findLayer();
+    std::vector<Reached>& reached = state.reached;
+    std::vector<std::size_t>& layer = state.layer;
+    for (const Span& span : spans) {
+        for (std::size_t k = span.begin; k < span.end; ++k) {
+            reached[k] = given[k] != 0 ? Reached::Yes : Reached::No;
+        }
+    }
+    findLayer(state);
     for (std::size_t pass = 0; pass + 1 < kPad; ++pass) {
         for (const std::size_t k : layer) {
             double sum = 0.0;
@@ -46,22 +56,23 @@ void Sides::extend(std::vector<double>& values, const std::vector<std::uint8_t>&
         for (const std::size_t k : layer) {
             reached[k] = Reached::Yes;
         }
-        next_layer.clear();
+        state.next_layer.clear();
         for (const std::size_t k : layer) {
             for (const std::size_t other : {k - 1, k + 1, k - columns, k + columns}) {
                 if (reached[other] == Reached::No) {
                     reached[other] = Reached::Next;
-                    next_layer.push_back(other);
+                    state.next_layer.push_back(other);
                 }
             }
         }
-        layer.swap(next_layer);
+        layer.swap(state.next_layer);
     }
 }
 
 /// Finds the sides that have no value beside ones that have. Of eight in a row mostly none is one.
-void Sides::findLayer()
+void Sides::findLayer(Continuation& state) const
 {
+    std::vector<Reached>& reached = state.reached;
     constexpr std::size_t kMany = 8;
     constexpr std::uint64_t kLowest = 0x0101010101010101U;
     const auto many = [&](std::size_t k) {
@@ -69,7 +80,11 @@ void Sides::findLayer()
         std::memcpy(&bytes, reached.data() + k, kMany);
         return bytes;
     };
-    layer.clear();
+    const auto is_beside_reached = [&](std::size_t k) {
+        return reached[k - 1] == Reached::Yes || reached[k + 1] == Reached::Yes ||
+               reached[k - columns] == Reached::Yes || reached[k + columns] == Reached::Yes;
+    };
+    state.layer.clear();
     for (const Span& span : spans) {
         for (std::size_t k = span.begin; k < span.end;) {
             if (k + kMany <= span.end &&
@@ -77,19 +92,13 @@ void Sides::findLayer()
                 k += kMany;
                 continue;
             }
-            if (reached[k] == Reached::No && isBesideReached(k)) {
+            if (reached[k] == Reached::No && is_beside_reached(k)) {
                 reached[k] = Reached::Next;
-                layer.push_back(k);
+                state.layer.push_back(k);
             }
             ++k;
         }
     }
-}
-
-bool Sides::isBesideReached(std::size_t k) const
-{
-    return reached[k - 1] == Reached::Yes || reached[k + 1] == Reached::Yes || reached[k - columns] == Reached::Yes ||
-           reached[k + columns] == Reached::Yes;
 }
 
 double openPart(double a, double b)

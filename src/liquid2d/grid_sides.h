@@ -48,6 +48,13 @@ enum class Reached : std::uint8_t {
     Outside = 4,  ///< of the spans
 };
 
+/// How far values have been continued. What is continued at the same time needs one of its own.
+struct Continuation {
+    std::vector<Reached> reached;
+    std::vector<std::size_t> layer;
+    std::vector<std::size_t> next_layer;
+};
+
 /// Values on the sides of cells that face one axis.
 struct Sides {
     std::size_t columns = 0;
@@ -62,9 +69,8 @@ struct Sides {
     std::vector<double> shift;         ///< displacement along the axis that mends the density [m]
     std::vector<std::uint8_t> solved;  ///< whether the pressure acts on it
     std::vector<std::uint8_t> known;
-    std::vector<Reached> reached;
-    std::vector<std::size_t> layer;
-    std::vector<std::size_t> next_layer;
+    Continuation of_value;  ///< and of its change
+    Continuation of_shift;
 
     Sides() = default;
     Sides(Vec2 middle, std::size_t across, std::size_t up);
@@ -79,11 +85,10 @@ struct Sides {
     }
 
     /// Gives values that are not given the mean of those beside them, layer by layer.
-    void extend(std::vector<double>& values, const std::vector<std::uint8_t>& given);
+    void extend(std::vector<double>& values, const std::vector<std::uint8_t>& given, Continuation& state) const;
 
 private:
-    void findLayer();
-    [[nodiscard]] bool isBesideReached(std::size_t k) const;
+    void findLayer(Continuation& state) const;
 };
 
 /// Part of a side outside of walls, from the distances of its ends in cells.

@@ -51,7 +51,8 @@ TEST(GridEquations, SolvePoissonsEquationWithSecondOrder)
             rhs[k] = 2.0 * std::numbers::pi * std::numbers::pi * h * h * exact[k];
         }
         std::vector<double> solution(square.grid.cells());
-        const auto solved = square.all.solve(rhs, solution, 1e-12);
+        GridEquations::Memory memory(square.grid);
+        const auto solved = square.all.solve({rhs, 1e-12}, solution, memory);
         EXPECT_LE(solved.residual, 1e-12);
         // The factor makes the iterations grow as the root of the cells across, and not as their number.
         EXPECT_LT(solved.iterations, 60);
@@ -79,7 +80,8 @@ TEST(GridEquations, SolveEnclosedLiquid)
     rhs[left] = 1.0;
     rhs[left + 1] = -1.0;
     std::vector<double> solution(grid.cells());
-    equations.solve(rhs, solution, 1e-9);
+    GridEquations::Memory memory(grid);
+    equations.solve({rhs, 1e-9}, solution, memory);
     EXPECT_NEAR(solution[left] - solution[left + 1], 2.0, 1e-6);
 }
 
