@@ -16,6 +16,7 @@
 #include "droplet/error.h"
 #include "render/panorama.h"
 #include "require.h"
+#include "wide_vectors.h"
 #include "windshield_view/body_relief.h"
 #include "windshield_view/defocus.h"
 #include "windshield_view/running_rays.h"
@@ -436,6 +437,53 @@ struct DriversView::Content {
         }
     }
 
+    /// Pixels of a tile that show films.
+    struct ThroughFilms {
+        std::size_t count = 0;
+        std::array<std::uint8_t, kTilePixels> pixel;   ///< in the tile
+        std::array<std::uint8_t, kTilePixels> alpha;   ///< of all pixels
+        std::array<std::uint32_t, kTilePixels> level;  ///< packed
+    };
+
+    /// What is seen through the films of a tile.
+    [[nodiscard]] DROPLET_WIDE_VECTORS ThroughFilms lookThrough(const WaterLeft& left,
+                                                                const ViewContext::TilePlaces& places,
+                                                                const FilmLevels& through) const
+    {
+        ThroughFilms seen;
+        // Places of the picture that all pixels show.
+        std::array<std::int32_t, kTilePixels> pixels;
+        std::array<std::int32_t, kTilePixels> belows;
+        std::array<float, kTilePixels> acrosses;
+        const auto max_x = static_cast<float>(scene.eye.width() - 1);
+        const auto max_y = static_cast<float>(scene.eye.height() - 1);
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            const float x = static_cast<float>(places.left + static_cast<int>(k % kTile)) + left.shift_x[k];
+            const float y = static_cast<float>(places.top + static_cast<int>(k / kTile)) + left.shift_y[k];
+            const PlaceBetween place =
+                placeBetween(std::min(std::max(x, 0.0F), max_x), std::min(std::max(y, 0.0F), max_y));
+            pixels[k] = place.pixel;
+            belows[k] = place.below;
+            acrosses[k] = place.across;
+        }
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            seen.alpha[k] = level8(left.cover[k]);
+        }
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            seen.pixel[seen.count] = static_cast<std::uint8_t>(k);
+            seen.count += left.cover[k] > 0.0F ? 1 : 0;  // without a branch, which would be guessed wrong
+        }
+        for (std::size_t j = 0; j < seen.count; ++j) {
+            const std::size_t k = seen.pixel[j];
+            const Int4 behind = levelsAt({pixels[k], belows[k], acrosses[k]});
+            const auto level = [&](int c) {
+                return through.levels[static_cast<std::size_t>(c)][static_cast<std::size_t>(behind[c])];
+            };
+            seen.level[j] = packed(level(0), level(1), level(2));
+        }
+        return seen;
+    }
+
     /// Draws films, and other water that wipers have left, below the light.
     /// @param through  of the last tile, or new
     /// @param writer   gets pixels that show nothing but a film, which need no light
@@ -472,42 +520,10 @@ struct DriversView::Content {
                 }
             }
         }
-        // Places of the picture that all pixels show.
-        std::array<std::int32_t, kTilePixels> pixels;
-        std::array<std::int32_t, kTilePixels> belows;
-        std::array<float, kTilePixels> acrosses;
-        const auto max_x = static_cast<float>(scene.eye.width() - 1);
-        const auto max_y = static_cast<float>(scene.eye.height() - 1);
-        for (std::size_t k = 0; k < kTilePixels; ++k) {
-            const float x = static_cast<float>(places.left + static_cast<int>(k % kTile)) + left.shift_x[k];
-            const float y = static_cast<float>(places.top + static_cast<int>(k / kTile)) + left.shift_y[k];
-            const PlaceBetween place =
-                placeBetween(std::min(std::max(x, 0.0F), max_x), std::min(std::max(y, 0.0F), max_y));
-            pixels[k] = place.pixel;
-            belows[k] = place.below;
-            acrosses[k] = place.across;
-        }
-        std::size_t count = 0;
-        std::array<std::uint8_t, kTilePixels> wet;
-        std::array<std::uint8_t, kTilePixels> alphas;
-        for (std::size_t k = 0; k < kTilePixels; ++k) {
-            alphas[k] = level8(left.cover[k]);
-        }
-        for (std::size_t k = 0; k < kTilePixels; ++k) {
-            wet[count] = static_cast<std::uint8_t>(k);
-            count += left.cover[k] > 0.0F ? 1 : 0;  // without a branch, which would be guessed wrong
-        }
-        std::array<std::uint32_t, kTilePixels> seen;
-        for (std::size_t j = 0; j < count; ++j) {
-            const Int4 behind = levelsAt({pixels[wet[j]], belows[wet[j]], acrosses[wet[j]]});
-            const auto level = [&](int c) {
-                return through.levels[static_cast<std::size_t>(c)][static_cast<std::size_t>(behind[c])];
-            };
-            seen[j] = packed(level(0), level(1), level(2));
-        }
-        for (std::size_t j = 0; j < count; ++j) {
-            const std::size_t k = wet[j];
-            const StraightPixel straight{seen[j], alphas[k]};
+        const ThroughFilms seen = lookThrough(left, places, through);
+        for (std::size_t j = 0; j < seen.count; ++j) {
+            const std::size_t k = seen.pixel[j];
+            const StraightPixel straight{seen.level[j], seen.alpha[k]};
             if (is_lit[k]) {
                 light[k] += float4((1.0F - light[k][3]) * left.cover[k]) *
                             lightOf(straight.red(), straight.green(), straight.blue());

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hashed_number.h"
+#include "wide_vectors.h"
 #include "windshield_view/smooth_noise.h"
 
 namespace droplet {
@@ -377,7 +378,8 @@ void WiperView::renew(const WiperState& one, FilmPixels& film, const ViewContext
     film.shifts_y[pixel] = shifted(optics.by_x.y * slope.x + optics.by_y.y * slope.y);
 }
 
-void WiperView::addFilm(const WiperState& one, const FilmPixels& film, bool is_first, WaterLeft& left) const
+DROPLET_WIDE_VECTORS void WiperView::addFilm(const WiperState& one, const FilmPixels& film, bool is_first,
+                                             WaterLeft& left) const
 {
     const auto since = static_cast<float>(one.since);
     const float later = since + static_cast<float>(one.wiper.period);
