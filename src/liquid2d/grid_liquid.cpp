@@ -36,6 +36,7 @@
 #include "plain_length.h"
 #include "reorder.h"
 #include "wall_distance.h"
+#include "wide_vectors.h"
 
 namespace droplet {
 namespace {
@@ -433,11 +434,7 @@ private:
                 const std::size_t band = 2 * pair + parity;
                 const std::uint32_t first = begin_[band * kBand * grid_.columns];
                 const std::uint32_t last = begin_[std::min((band + 1) * kBand, grid_.rows) * grid_.columns];
-                for (std::uint32_t i = first; i < last; ++i) {
-                    if (flies_[i] == 0) {
-                        collectOne(state, i);
-                    }
-                }
+                collectSome(state, first, last);
             });
         }
         for (Sides* sides : {&u_, &v_}) {
@@ -449,7 +446,16 @@ private:
         }
     }
 
-    void collectOne(const FluidState& state, std::size_t i)
+    DROPLET_WIDE_VECTORS void collectSome(const FluidState& state, std::size_t begin, std::size_t end)
+    {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (flies_[i] == 0) {
+                collectOne(state, i);
+            }
+        }
+    }
+
+    [[gnu::always_inline]] void collectOne(const FluidState& state, std::size_t i)
     {
         const GridPlace place = places_.at(state.position[i]);
         constexpr double kShare = 1.0 / (kCell * kCell);
@@ -864,36 +870,38 @@ private:
     /// they lie in a cell.
     void shift(const FluidState& state)
     {
-        const double reach = latticeStep(scene_.spacing);
-        placeLanes(state, reach);
+        placeLanes(state, latticeStep(scene_.spacing));
         shift_.resize(state.position.size());
         constexpr std::size_t kParticlesPerBlock = 1024;
         forBlocks(
-            state.position.size(),
-            [&](std::size_t begin, std::size_t end) {
-                std::size_t cell = grid_.cells();
-                bool is_inner = false;  // of most cells: particles are sorted by them
-                std::array<float, 2> corner{};
-                for (std::size_t i = begin; i < end; ++i) {
-                    if (flies_[i] != 0) {
-                        continue;
-                    }
-                    if (cell_[i] != cell) {
-                        cell = cell_[i];
-                        is_inner = isInner(cell, reach);
-                        const std::size_t row = cell / grid_.columns;
-                        const std::size_t column = cell % grid_.columns;
-                        const Vec2 place = grid_.placeOf(static_cast<double>(column), static_cast<double>(row));
-                        corner = {static_cast<float>(place.x / reach), static_cast<float>(place.y / reach)};
-                    }
-                    const Vec2 apart = reach * overlap(i, reach, corner);
-                    const Vec2 sum = is_inner ? apart : beside(state.position[i], apart, reach);
-                    const double square = dot(sum, sum);
-                    const double most = kMostShift / kShift * scene_.spacing;
-                    shift_[i] = (square > most * most ? kShift * most / std::sqrt(square) : kShift) * sum;
-                }
-            },
+            state.position.size(), [&](std::size_t begin, std::size_t end) { shiftSome(state, begin, end); },
             kParticlesPerBlock);
+    }
+
+    DROPLET_WIDE_VECTORS void shiftSome(const FluidState& state, std::size_t begin, std::size_t end)
+    {
+        const double reach = latticeStep(scene_.spacing);
+        std::size_t cell = grid_.cells();
+        bool is_inner = false;  // of most cells: particles are sorted by them
+        std::array<float, 2> corner{};
+        for (std::size_t i = begin; i < end; ++i) {
+            if (flies_[i] != 0) {
+                continue;
+            }
+            if (cell_[i] != cell) {
+                cell = cell_[i];
+                is_inner = isInner(cell, reach);
+                const std::size_t row = cell / grid_.columns;
+                const std::size_t column = cell % grid_.columns;
+                const Vec2 place = grid_.placeOf(static_cast<double>(column), static_cast<double>(row));
+                corner = {static_cast<float>(place.x / reach), static_cast<float>(place.y / reach)};
+            }
+            const Vec2 apart = reach * overlap(i, reach, corner);
+            const Vec2 sum = is_inner ? apart : beside(state.position[i], apart, reach);
+            const double square = dot(sum, sum);
+            const double most = kMostShift / kShift * scene_.spacing;
+            shift_[i] = (square > most * most ? kShift * most / std::sqrt(square) : kShift) * sum;
+        }
     }
 
     /// Sets the particles' places in units of a reach.
@@ -914,7 +922,8 @@ private:
 
     /// Sum over the neighbours within a reach of what lacks to it, away from them, in reaches.
     /// @param corner  the lower left one of the particle's cell, in reaches
-    [[nodiscard]] Vec2 overlap(std::size_t i, double reach, const std::array<float, 2>& corner) const
+    [[nodiscard, gnu::always_inline]] Vec2 overlap(std::size_t i, double reach,
+                                                   const std::array<float, 2>& corner) const
     {
         using Lanes = Eigen::Array<float, kLanes, 1>;
         // At a distance q, (1 - q)/q of the way between the two is wanted: within 0.02 q that is, from q = 1/2 on, the
@@ -983,7 +992,7 @@ private:
         return displacement;
     }
 
-    [[nodiscard]] Vec2 velocityAt(Vec2 place) const
+    [[nodiscard, gnu::always_inline]] Vec2 velocityAt(Vec2 place) const
     {
         const GridPlace in_grid = places_.at(place);
         return {in_grid.amongLeftSides().in(u_.value), in_grid.amongLowerSides().in(v_.value)};
@@ -1014,7 +1023,7 @@ private:
 
     /// Moves a few particles; returns how many came into walls. Each stage is done for all of them: a particle's places
     /// follow from one another, so that a processor would wait for each.
-    [[nodiscard]] std::uint64_t moveSome(FluidState& state, std::size_t begin, std::size_t end)
+    [[nodiscard]] DROPLET_WIDE_VECTORS std::uint64_t moveSome(FluidState& state, std::size_t begin, std::size_t end)
     {
         for (std::size_t i = begin; i < end; ++i) {
             if (flies_[i] == 0) {
@@ -1092,7 +1101,7 @@ private:
     }
 
     /// Takes what the grid has at a particle.
-    void take(FluidState& state, std::size_t i)
+    [[gnu::always_inline]] void take(FluidState& state, std::size_t i)
     {
         const GridPlace place = places_.at(state.position[i]);
         const Bilinear across = place.amongLeftSides();

@@ -139,7 +139,7 @@ public:
     {
     }
 
-    [[nodiscard]] GridPlace at(Vec2 place) const
+    [[nodiscard, gnu::always_inline]] GridPlace at(Vec2 place) const
     {
         // NaN is the least, too.
         const auto inside = [](double x, double least, double most) { return std::min(std::max(least, x), most); };
