@@ -252,7 +252,7 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
         extras.shown = lowered(*extras.in_file, -*base);
         // Pictures take what copies of the rim lead to for ground; here that is the underside alone.
         std::iota(extras.shown->weld.begin(), extras.shown->weld.end(), 0U);
-        if (auto warning = droplet::printWarning(made.droplet.figures, plate)) {
+        if (auto warning = droplet::printWarning(made.droplet.meshes, made.droplet.figures, plate)) {
             report.warnings.push_back(*std::move(warning));
         }
     }

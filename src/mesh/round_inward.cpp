@@ -12,6 +12,7 @@
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
 #include "mesh/mean_edge.h"
+#include "mesh/polygon_offset.h"
 #include "mesh/rim_corner.h"
 
 namespace droplet {
@@ -74,21 +75,13 @@ bool hasInnerCorner(const std::vector<std::vector<Vec2>>& loops)
     });
 }
 
-Paths offset(const Paths& paths, double distance)
-{
-    ClipperLib::ClipperOffset offsetter(2.0, kChord * kUnits);
-    offsetter.AddPaths(paths, ClipperLib::jtRound, ClipperLib::etClosedPolygon);
-    Paths result;
-    offsetter.Execute(result, distance);
-    return result;
-}
-
 /// Closing of a polygon: never less than the polygon, whose other corners stay sharp.
 Paths closed(const Paths& paths)
 {
     ClipperLib::Clipper clipper;
     clipper.AddPaths(paths, ClipperLib::ptSubject, true);
-    clipper.AddPaths(offset(offset(paths, kUnits), -kUnits), ClipperLib::ptSubject, true);
+    clipper.AddPaths(offset(offset(paths, kUnits, kChord * kUnits), -kUnits, kChord * kUnits), ClipperLib::ptSubject,
+                     true);
     Paths result;
     clipper.Execute(ClipperLib::ctUnion, result, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
     ClipperLib::CleanPolygons(result, kDropped * kUnits);

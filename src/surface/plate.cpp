@@ -6,7 +6,7 @@
 
 #include "droplet/surface/plate.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +19,7 @@
 #include "droplet/mesh/triangulate.h"
 #include "droplet/surface/loft.h"
 #include "droplet/units.h"
+#include "mesh/narrow_parts.h"
 #include "number_text.h"
 #include "surface/open_edges.h"
 
@@ -220,33 +221,46 @@ Surface withPlate(Surface droplets, std::size_t number, const PlateOptions& opti
     return droplets;
 }
 
-std::optional<std::string> printWarning(const std::vector<ShapeFigures>& droplets, const PlateOptions& plate)
+std::optional<std::string> printWarning(const std::vector<PlanarMesh>& footprints,
+                                        const std::vector<ShapeFigures>& droplets, const PlateOptions& plate)
 {
     constexpr double kNozzle = 0.4e-3;
     constexpr double kLayer = 0.2e-3;
-    const auto thin = std::count_if(droplets.begin(), droplets.end(), [&](const ShapeFigures& figures) {
-        return figures.volume > 0.0 &&
-               (figures.height_max < kLayer || 2.0 * figures.footprint_area / figures.rim_length < kNozzle);
-    });
-    std::string text;
+    std::vector<std::string> texts;
     const double side = std::max(plate.extent.x, plate.extent.y);
     const std::string thick = numberText(plate.thickness / kMillimetre, 6);
     if (plate.thickness < 2.0 * kLayer) {
-        text = fmt::format("the plate is {} mm thick, which is less than two layers of 0.2 mm; make it thicker", thick);
+        texts.push_back(
+            fmt::format("the plate is {} mm thick, which is less than two layers of 0.2 mm; make it thicker", thick));
     } else if (2.0 * kMargin * plate.thickness > side) {
-        text = fmt::format(
+        texts.push_back(fmt::format(
             "the plate is {} mm thick and two thicknesses wider than the liquid on every side, so its margins are "
-            "wider "
-            "than the picture of {} mm; make it thinner",
-            thick, numberText(side / kMillimetre, 3));
+            "wider than the picture of {} mm; make it thinner",
+            thick, numberText(side / kMillimetre, 3)));
     }
-    if (thin > 0) {
-        text += fmt::format(
-            "{}{} of {} droplets {} lower than a layer of 0.2 mm, or narrower than a nozzle of 0.4 mm, "
-            "so a print may lose {}; make the picture wider",
-            text.empty() ? "" : "; ", thin, droplets.size(), thin == 1 ? "is" : "are", thin == 1 ? "it" : "them");
+    const auto low = std::count_if(droplets.begin(), droplets.end(), [](const ShapeFigures& figures) {
+        return figures.volume > 0.0 && figures.height_max < kLayer;
+    });
+    std::size_t narrow = 0;
+    double narrow_area = 0.0;
+    for (const PlanarMesh& footprint : footprints) {
+        const double area = narrowArea(footprint, kNozzle);
+        narrow += area > 0.0 ? 1 : 0;
+        narrow_area += area;
     }
-    return text.empty() ? std::nullopt : std::optional(text);
+    const auto are = [](auto count) { return count == 1 ? "is" : "are"; };
+    if (low > 0) {
+        texts.push_back(
+            fmt::format("{} of {} droplets {} lower than a layer of 0.2 mm", low, droplets.size(), are(low)));
+    }
+    if (narrow > 0) {
+        texts.push_back(fmt::format("{} of {} droplets {} narrower than a nozzle of 0.4 mm on {} mm²", narrow,
+                                    footprints.size(), are(narrow), numberText(1e6 * narrow_area, 2)));
+    }
+    if (low > 0 || narrow > 0) {
+        texts.back() += ", so a print may lose that; make the picture wider";
+    }
+    return texts.empty() ? std::nullopt : std::optional(fmt::format("{}", fmt::join(texts, "; ")));
 }
 
 }  // namespace droplet

@@ -137,27 +137,34 @@ TEST(Plate, RefusesWhatCannotLieOnIt)
     EXPECT_THROW(onPlate(surfaces, {0.1, {2, 2}}), Error);
 }
 
+PlanarMesh rectangle(double width, double height)
+{
+    return {{{0, 0}, {width, 0}, {width, height}, {0, height}}, {}, {0, 4}, {}};
+}
+
 TEST(Plate, WarnsOfWhatAPrinterLoses)
 {
     // Strokes 2 mm wide and 0.5 mm high; then one too low, and one too narrow.
+    const PlanarMesh wide = rectangle(10e-3, 2e-3);
+    const PlanarMesh narrow = rectangle(10e-3, 0.35e-3);
     ShapeFigures good;
-    good.footprint_area = 20e-6;
-    good.rim_length = 20e-3;
     good.volume = 1e-9;
     good.height_max = 0.5e-3;
     ShapeFigures low = good;
     low.height_max = 0.1e-3;
-    ShapeFigures narrow = good;
-    narrow.footprint_area = 3e-6;
-    const auto of = [](const std::vector<ShapeFigures>& droplets, double thickness) {
-        return printWarning(droplets, {thickness, {20e-3, 10e-3}}).value_or("");
+    const auto of = [](const std::vector<PlanarMesh>& footprints, const std::vector<ShapeFigures>& droplets,
+                       double thickness) {
+        return printWarning(footprints, droplets, {thickness, {20e-3, 10e-3}}).value_or("");
     };
-    EXPECT_EQ(of({good}, 1e-3), "");
-    EXPECT_EQ(of({good}, 4.9e-3), "");
-    EXPECT_THAT(of({good}, 5.1e-3), HasSubstr("wider than the picture of 20 mm"));
-    EXPECT_THAT(of({good}, 0.3e-3), HasSubstr("the plate is 0.3 mm thick"));
-    EXPECT_THAT(of({good, low, narrow}, 1e-3), HasSubstr("2 of 3 droplets are"));
-    EXPECT_THAT(of({low, good}, 0.3e-3), HasSubstr("; 1 of 2 droplets is"));
+    EXPECT_EQ(of({wide}, {good}, 1e-3), "");
+    EXPECT_EQ(of({wide}, {good}, 4.9e-3), "");
+    EXPECT_THAT(of({wide}, {good}, 5.1e-3), HasSubstr("wider than the picture of 20 mm"));
+    EXPECT_THAT(of({wide}, {good}, 0.3e-3), HasSubstr("the plate is 0.3 mm thick"));
+    EXPECT_THAT(of({wide, wide}, {good, low}, 1e-3), HasSubstr("1 of 2 droplets is lower"));
+    EXPECT_THAT(of({wide, narrow, narrow}, {good, good, good}, 1e-3),
+                HasSubstr("2 of 3 droplets are narrower than a nozzle of 0.4 mm on 7 mm²"));
+    EXPECT_THAT(of({narrow, wide}, {low, good}, 0.3e-3),
+                HasSubstr("; 1 of 2 droplets is lower than a layer of 0.2 mm; 1"));
 }
 
 }  // namespace

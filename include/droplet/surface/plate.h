@@ -45,10 +45,12 @@ Surface onPlate(const std::vector<CapillarySurface>& surfaces, const PlateOption
 Surface withPlate(Surface droplets, std::size_t number, const PlateOptions& options);
 
 /// Warning about what cannot be printed as it is meant, with a usual nozzle of 0.4 mm and layers of 0.2 mm: a plate of
-/// less than two layers, droplets lower than one, and droplets that are narrower than the nozzle, by twice their area
-/// over the length of their rim; or a plate whose margins together are wider than the image. Nothing if there is none.
-/// @param droplets  figures of every droplet
-/// @param plate     valid
-std::optional<std::string> printWarning(const std::vector<ShapeFigures>& droplets, const PlateOptions& plate);
+/// less than two layers, or one whose margins together are wider than the image; droplets lower than a layer; and parts
+/// of them in which a disc as wide as the nozzle has no room. Points of corners do not count. Nothing if there is none.
+/// @param footprints  of the droplets; their loops alone are used
+/// @param droplets    figures of every droplet
+/// @param plate       valid
+std::optional<std::string> printWarning(const std::vector<PlanarMesh>& footprints,
+                                        const std::vector<ShapeFigures>& droplets, const PlateOptions& plate);
 
 }  // namespace droplet
