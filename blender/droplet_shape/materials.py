@@ -45,8 +45,7 @@ def make_material(look, scale, clear_shadows):
         volume.inputs["Density"].default_value = largest / scale
         material.node_tree.links.new(volume.outputs["Volume"], output.inputs["Volume"])
     if look.transmission > 0:
-        if hasattr(material, "use_screen_refraction"):  # renamed in 4.2, where the old name stays
-            material.use_screen_refraction = True
+        refract_in_eevee(material)
         if hasattr(material, "refraction_depth"):
             material.refraction_depth = 2 * look.thickness * scale
     material.diffuse_color = (*look.base_colour[:3], 1.0)
@@ -98,6 +97,12 @@ def let_light_through(material):
     return changed
 
 
+def refract_in_eevee(material):
+    """Lets Eevee show through clear matter what is behind it; the scene must be prepared, too."""
+    if hasattr(material, "use_screen_refraction"):  # renamed in 4.2, where the old name stays
+        material.use_screen_refraction = True
+
+
 def _surface(material, look, colour, target, y):
     nodes = material.node_tree.nodes
     shader = nodes.new("ShaderNodeBsdfPrincipled")
@@ -117,10 +122,8 @@ def _surface(material, look, colour, target, y):
     return output
 
 
-def prepare_eevee(scene, look):
+def prepare_eevee(scene):
     """Switches on refraction, which Eevee needs to show clear liquid."""
-    if look.transmission == 0:
-        return
     for setting in ("use_ssr", "use_ssr_refraction", "use_raytracing"):  # 3.4 to 4.1; from 4.2 on
         if hasattr(scene.eevee, setting):
             setattr(scene.eevee, setting, True)

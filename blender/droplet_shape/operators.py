@@ -279,7 +279,8 @@ class MESH_OT_droplet_add(bpy.types.Operator, DropletSettings):
         _leave_edit_mode(context)
         mesh = meshes.make_mesh(part, welded, "Droplet")
         mesh.materials.append(materials.make_material(result.model.look, scale, self.clear_shadows))
-        materials.prepare_eevee(context.scene, result.model.look)
+        if result.model.look.transmission > 0:
+            materials.prepare_eevee(context.scene)
         droplet = _add_droplet(context, mesh, result.model.look, self.clear_shadows)
         droplet.matrix_world = matrix
         meshes.add_shape_keys(droplet, part, welded)  # those of --fill-range
@@ -383,7 +384,8 @@ class MESH_OT_droplet_sequence_add(bpy.types.Operator, DropletSettings):
         result = command.run(command.find_program(settings.program), settings.timeout, arguments, inputs)
 
         material = materials.make_material(result.model.look, self.scale, self.clear_shadows)
-        materials.prepare_eevee(context.scene, result.model.look)
+        if result.model.look.transmission > 0:
+            materials.prepare_eevee(context.scene)
         parent = _add(context, None, "Droplet")
         parent.matrix_world = self.sunk(frame @ Matrix.Scale(self.scale, 4))
         for part in result.model.parts:
@@ -477,7 +479,8 @@ class MESH_OT_droplet_dew_add(bpy.types.Operator, Maker):
         (part,) = result.model.parts
         mesh = meshes.make_mesh(part, glb.weld(part), "Dew")
         mesh.materials.append(materials.make_material(result.model.look, self.scale, self.clear_shadows))
-        materials.prepare_eevee(context.scene, result.model.look)
+        if result.model.look.transmission > 0:
+            materials.prepare_eevee(context.scene)
         dew = _add_droplet(context, mesh, result.model.look, self.clear_shadows)
         dew.matrix_world = ground.frame @ Matrix.Scale(self.scale, 4)
         dew.parent = target
@@ -488,7 +491,8 @@ class MESH_OT_droplet_dew_add(bpy.types.Operator, Maker):
 
 
 class OBJECT_OT_droplet_clear_shadows(bpy.types.Operator):
-    """Let light pass clear materials of the selected objects straight on, such as those of imported glTF files"""
+    """Let light pass clear materials of the selected objects straight on, such as those of imported glTF files, and
+    refract in Eevee"""
 
     bl_idname = "object.droplet_clear_shadows"
     bl_label = "Clear Shadows"
@@ -500,8 +504,12 @@ class OBJECT_OT_droplet_clear_shadows(bpy.types.Operator):
 
     def execute(self, context):
         worn = {slot.material for item in context.selected_objects for slot in item.material_slots if slot.material}
-        count = sum(materials.let_light_through(material) for material in worn)
-        self.report({"INFO"}, f"materials whose shadows are clear now: {count}")
+        changed = [material for material in worn if materials.let_light_through(material)]
+        for material in changed:
+            materials.refract_in_eevee(material)
+        if changed:
+            materials.prepare_eevee(context.scene)
+        self.report({"INFO"}, f"materials whose shadows are clear now: {len(changed)}")
         return {"FINISHED"}
 
 

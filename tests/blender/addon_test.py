@@ -446,6 +446,7 @@ class Look(AddonTest):
         (material,) = bpy.context.selected_objects[0].data.materials
         mixed = [node for node in material.node_tree.nodes if node.type == "MIX_SHADER"]
         self.assertEqual(len(mixed), 1)
+        self.assertTrue(material.use_screen_refraction)
         bpy.ops.object.droplet_clear_shadows()  # a second time changes nothing
         self.assertEqual(sum(node.type == "MIX_SHADER" for node in material.node_tree.nodes), 1)
 
