@@ -252,6 +252,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l resolutio
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l frame-width -x -d 'Width of drawings and masks in pixels, up to 16384'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l look -x -a 'flat comic ink night' -d 'Colours and lines'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l line-width -x -d 'Width of outlines, in thousandths of the drawing\'s width'
+complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l least-droplet -x -d 'Diameter of the smallest droplet that is drawn, in thousandths of the drawing\'s width'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l masks -r -F -d 'Masks of all frames, such as masks/%04d.png; - writes them to standard output, for animate'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d' -l particle-cache -r -F -d 'Particles of all frames, such as cache/%04d.bgeo: .bgeo, .vtp, .ply or .csv; or a .usda with all of them, as points over time'
 complete -c droplet-shape -n '__fish_seen_subcommand_from liquid2d morph' -l alpha -d 'Keep the transparency of a drawing in a video: VP9 in .webm and .mkv, ProRes 4444 in .mov; also PNG or QuickTime Animation in .mov, by --codec png or qtrle'

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "liquid_paths.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "brush_line.h"
 #include "require.h"
@@ -46,7 +48,13 @@ LiquidPaths liquidPaths(const LiquidShape& shape, const LiquidView& view, const 
 {
     LiquidPaths paths;
     paths.liquid = pathsOf(shape.liquid, view);
-    paths.droplets = pathsOf(shape.droplets, view);
+    const double least = look.least_droplet * 1e-3 * view.size.x;
+    std::vector<Loop> droplets = shape.droplets;
+    droplets.erase(
+        std::remove_if(droplets.begin(), droplets.end(),
+                       [&](const Loop& loop) { return signedArea(loop) < 0.25 * std::numbers::pi * least * least; }),
+        droplets.end());
+    paths.droplets = pathsOf(droplets, view);
     if (look.foam) {
         paths.foam = pathsOf(shape.foam, view);
     }

@@ -428,4 +428,30 @@ TEST(LiquidDrawing, RefusesUnknownLooksAndEmptyViews)
         ThrowsMessage<Error>(HasSubstr("view.size.x is 0")));
 }
 
+/// A droplet smaller than the look's least one is not drawn, whatever its form; liquid always is.
+TEST(LiquidDrawing, LeavesDustOut)
+{
+    // In a window of 2 m, 2 thousandths are 4 mm.
+    LiquidShape shape;
+    shape.droplets = {ellipse({0.5, 0.5}, {2.1e-3, 2.1e-3}, 24), ellipse({1.0, 0.5}, {4.2e-3, 1.05e-3}, 24)};
+    LiquidShape smaller;
+    smaller.droplets = {ellipse({0.5, 0.5}, {1.9e-3, 1.9e-3}, 24), ellipse({1.0, 0.5}, {3.8e-3, 0.95e-3}, 24)};
+    LiquidShape liquid;
+    liquid.liquid = smaller.droplets;
+    droplet::LiquidLook look = droplet::liquidLookNamed("flat");
+    const auto drawn = [&](const LiquidShape& drawn_shape) {
+        const Layer layer = liquidLayer({drawn_shape, {}}, {{2.0, 1.0}, 1000, 500}, look);
+        std::size_t count = 0;
+        for (std::size_t k = 3; k < layer.rgba.size(); k += 4) {
+            count += layer.rgba[k] > 0 ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_GT(drawn(shape), 0U);
+    EXPECT_EQ(drawn(smaller), 0U);
+    EXPECT_GT(drawn(liquid), 0U);
+    look.least_droplet = 0.0;
+    EXPECT_GT(drawn(smaller), 0U);
+}
+
 }  // namespace

@@ -31,6 +31,8 @@ struct LiquidLook {
     double line_width = 0.0;           ///< of the outlines, at most, in thousandths of the window's width; 0: none
     Colour wall{};                     ///< of walls
     std::optional<Colour> background;  ///< empty: transparent
+    double least_droplet = 2.0;        ///< diameter of a disc with the area of the smallest droplet that is drawn, in
+                                       ///< thousandths of the window's width, ≥ 0: less looks like dust
 };
 
 /// All looks: `flat`, `comic`, `ink`, `night`.
