@@ -26,7 +26,8 @@ GridEquations::GridEquations(const GridShape& grid)
       diagonal_(grid.cells(), 0.0),
       right_(grid.cells(), 0.0),
       up_(grid.cells(), 0.0),
-      scale_(grid.cells(), 0.0)
+      scale_(grid.cells(), 0.0),
+      inverse_(grid.cells(), 0.0)
 {
 }
 
@@ -42,7 +43,7 @@ GridEquations::Memory::Memory(const GridShape& grid)
 void GridEquations::clear()
 {
     for (const std::size_t k : cells_) {
-        for (std::vector<double>* values : {&diagonal_, &right_, &up_, &scale_}) {
+        for (std::vector<double>* values : {&diagonal_, &right_, &up_, &scale_, &inverse_}) {
             (*values)[k] = 0.0;
         }
     }
@@ -61,7 +62,8 @@ void GridEquations::factorise()
             diagonal - left * left - down * down -
             kModified * (left * up_[k - 1] * scale_[k - 1] + down * right_[k - columns_] * scale_[k - columns_]);
         const double pivot = rest < kSafe * diagonal ? diagonal : rest;
-        scale_[k] = pivot > 0.0 ? 1.0 / std::sqrt(pivot) : 0.0;
+        inverse_[k] = std::sqrt(std::max(pivot, 0.0));
+        scale_[k] = pivot > 0.0 ? 1.0 / inverse_[k] : 0.0;
     }
     for (const std::size_t k : cells_) {
         diagonal_[k] *= scale_[k] * scale_[k];
@@ -80,19 +82,17 @@ GridEquations::Solved GridEquations::solve(const Problem& problem, std::vector<d
     std::vector<double>& t = memory.product_;
     std::vector<double>& lower = memory.lower_;
     for (const std::size_t k : cells_) {
-        y[k] = scale_[k] > 0.0 ? x[k] / scale_[k] : 0.0;
+        y[k] = x[k] * inverse_[k];
         t[k] = 0.0;
     }
     // Residuals of the equations as they were joined.
     const auto residual_at = [&](std::size_t k) {
-        return scale_[k] > 0.0
-                   ? std::abs(r[k] + right_[k - 1] * r[k - 1] + up_[k - columns_] * r[k - columns_]) / scale_[k]
-                   : 0.0;
+        return std::abs(r[k] + right_[k - 1] * r[k - 1] + up_[k - columns_] * r[k - columns_]) * inverse_[k];
     };
     for (const std::size_t k : cells_) {
         const double own = problem.rhs[k] * scale_[k] - diagonal_[k] * y[k] - right_[k] * y[k + 1] -
                            right_[k - 1] * y[k - 1] - up_[k] * y[k + columns_] - up_[k - columns_] * y[k - columns_];
-        solved.residual = std::max(solved.residual, scale_[k] > 0.0 ? std::abs(own) / scale_[k] : 0.0);
+        solved.residual = std::max(solved.residual, std::abs(own) * inverse_[k]);
         r[k] = own - up_[k - columns_] * r[k - columns_] - right_[k - 1] * r[k - 1];
     }
     if (solved.residual <= problem.tolerance) {

@@ -70,9 +70,10 @@ private:
     std::size_t columns_ = 0;
     std::vector<std::uint32_t> cells_;
     std::vector<double> diagonal_;
-    std::vector<double> right_;  ///< coefficient of the cell on the right
-    std::vector<double> up_;     ///< of the cell above
-    std::vector<double> scale_;  ///< of unknowns and equations
+    std::vector<double> right_;    ///< coefficient of the cell on the right
+    std::vector<double> up_;       ///< of the cell above
+    std::vector<double> scale_;    ///< of unknowns and equations
+    std::vector<double> inverse_;  ///< of the scale; 0 where that is 0
 };
 
 }  // namespace droplet
