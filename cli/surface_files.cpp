@@ -51,6 +51,10 @@ Levels makeLevels(const droplet::Surface& whole, const DropletSettings& settings
     const std::vector<std::size_t>& wanted = settings.levels;
     const std::vector<std::string> paths = levelPaths(output, format, wanted.size());
     Levels levels;
+    if (whole.triangles.empty()) {
+        levels.surfaces.resize(wanted.size());
+        return levels;
+    }
     for (std::size_t k = 0; k < wanted.size(); ++k) {
         droplet::SimplifiedSurface level = droplet::simplify(whole, wanted[k]);
         if (settings.weld) {

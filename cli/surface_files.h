@@ -34,7 +34,8 @@ struct Levels {
 };
 
 /// Makes the levels of detail that the settings ask for.
-/// @param whole   surface with two copies of its rim, which levels keep as a crease; they are joined if settings.weld
+/// @param whole   surface with two copies of its rim, which levels keep as a crease; they are joined if settings.weld.
+///                One without triangles, a frame without liquid, has levels without any, and no reports
 /// @param output  path of the surface's file
 /// @throws droplet::Error InvalidArgument
 Levels makeLevels(const droplet::Surface& whole, const DropletSettings& settings, const std::string& output,
