@@ -72,7 +72,7 @@ std::string compactList(const std::vector<std::size_t>& numbers)
 std::vector<NumberedPath> patternsOf(const AnimateOptions& options)
 {
     std::vector<NumberedPath> patterns{*options.files};
-    for (const std::string& level : levelPaths(options.output, options.format, options.settings.levels.size())) {
+    for (const std::string& level : levelPaths(options.files->text(), options.format, options.settings.levels.size())) {
         patterns.push_back(*NumberedPath::of(level, "OUTPUT"));
     }
     return patterns;
@@ -81,7 +81,7 @@ std::vector<NumberedPath> patternsOf(const AnimateOptions& options)
 /// Run that can be resumed, if every frame has a file, and the frames are in files.
 std::optional<ResumableRun> resumableRun(const AnimateOptions& options, const Frames& frames)
 {
-    if (!options.files || options.fingerprint.empty()) {
+    if (!options.hasFiles() || options.fingerprint.empty()) {
         return std::nullopt;
     }
     const std::vector<std::size_t> numbers = frames.numbers();
@@ -144,7 +144,14 @@ public:
     droplet::SequenceReport make()
     {
         film_.write(
-            {}, [this](std::ostream* /*table*/) { run(); }, files());
+            options_.archive,
+            [this](std::ostream* archive) {
+                if (archive != nullptr) {
+                    film_.beginArchive(*archive);
+                }
+                run();
+            },
+            files());
         finish();
         return std::move(report_);
     }
@@ -333,7 +340,14 @@ private:
             write(out);
             report_.bytes += bytes_;
         };
-        film_.save(std::move(files));
+        if (!options_.archive) {
+            film_.save(std::move(files));
+            return;
+        }
+        for (OutputFile& file : files) {
+            file.path = std::filesystem::path(file.path).filename().string();
+        }
+        film_.pack(std::move(files));
     }
 
     /// Keeps a frame for the files of the whole run.
@@ -536,6 +550,9 @@ private:
 
     void finish()
     {
+        if (options_.archive) {
+            report_.bytes = film_.archiveBytes();
+        }
         report_.time_total = clock_.total();
         report_.peak_memory = peakMemory();
     }
@@ -677,15 +694,16 @@ RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers)
 {
     RunFiles files;
     addSettings(files, options.settings, options.run);
-    if (options.files) {
+    if (options.hasFiles()) {
         for (const NumberedPath& pattern : patternsOf(options)) {
             files.writesFrames(pattern.text() == options.output ? "OUTPUT" : "OUTPUT's level", pattern, numbers);
         }
         files.writes("OUTPUT's checkpoint", checkpointPath(*options.files));
     } else {
-        files.writes("OUTPUT", options.output);
+        files.writes("OUTPUT", options.archive.value_or(options.output));
     }
-    if (const auto material = options.files ? materialFile(options.output, options.format) : std::nullopt) {
+    if (const auto material = options.files ? materialFile(options.files->text(), options.format) : std::nullopt;
+        material && !options.archive) {
         files.writesFrames("OUTPUT's material", *NumberedPath::of(*material, "OUTPUT"), numbers);
     }
     if (options.preview_files) {
@@ -702,7 +720,8 @@ RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers)
 RunEnd makeAnimation(const AnimateOptions& options, Frames& frames, ProgressDisplay& progress)
 {
     const droplet::SequenceReport report = Sequence(options, frames, progress).make();
-    const std::vector<std::string> levels = levelPaths(options.output, options.format, options.settings.levels.size());
+    const std::vector<std::string> levels = levelPaths(options.files ? options.files->text() : options.output,
+                                                       options.format, options.settings.levels.size());
     return {summaryOf(report, levels, options.run.verbosity == Verbosity::Verbose), report.warnings,
             report.severe_warnings, report.held() > 0};
 }
@@ -717,7 +736,7 @@ int runAnimate(int argc, const char* const* argv)
     AnimateOptions options = std::get<AnimateOptions>(parsed);
     Frames frames =
         options.motion ? Frames(options.inputs.front(), *options.motion, options.frames) : Frames(options.inputs);
-    const bool is_resumable = options.files && !isStream(options.inputs.front());
+    const bool is_resumable = options.hasFiles() && !isStream(options.inputs.front());
     options.fingerprint = is_resumable ? fingerprintOf(options, frames.files()) : "";
     const std::vector<std::size_t> numbers = frames.numbers();
     RunFiles files = filesOf(options, numbers.empty() ? FrameNumbers{} : FrameNumbers{numbers.front(), numbers.back()});

@@ -26,6 +26,7 @@ const CommandText& commandText()
             "  droplet-shape animate frames/%04d.png closing.glb --volume 30uL\n"
             "  droplet-shape animate rain.mp4 rain.glb --volume-mode track\n"
             "  droplet-shape animate frames/ 'rain-%04d.obj'\n"
+            "  droplet-shape animate frames/ 'rain.zip/%04d.obj' --lod 10k,2k\n"
             "  droplet-shape animate logo.svg logo.glb --reveal left --frames 72\n"
             "  droplet-shape animate logo.svg logo.glb --drips 7 --material honey\n"
             "  ffmpeg -i rain.mp4 -f image2pipe -c:v png - | droplet-shape animate - rain.glb\n"
@@ -37,11 +38,27 @@ const CommandText& commandText()
     return text;
 }
 
+/// Reads the path of the frames' files. A zip archive is a folder of them: `frames.zip` is `frames.zip/%04d.glb`.
+/// @return the path, with its placeholder
+std::string readFiles(AnimateOptions& options)
+{
+    constexpr const char* kZip = ".zip";
+    const bool is_archive = lowerExtension(options.output) == kZip;
+    std::string path = options.output + (is_archive ? "/%04d.glb" : "");
+    options.files = NumberedPath::of(path, "OUTPUT");
+    const std::string folder =
+        std::filesystem::path(options.files ? options.files->at(0) : path).parent_path().string();
+    if (lowerExtension(folder) == kZip) {
+        options.archive = folder;
+    }
+    return path;
+}
+
 void readOutput(const CommandLine& line, AnimateOptions& options)
 {
     const std::string subject = "OUTPUT";
-    options.files = NumberedPath::of(options.output, subject);
-    const std::string extension = std::filesystem::path(options.output).extension().string();
+    const std::string path = readFiles(options);
+    const std::string extension = std::filesystem::path(path).extension().string();
     const std::string named = subject + " '" + options.output + "'";
     if (options.output == kStandardStream) {
         return;
@@ -50,7 +67,7 @@ void readOutput(const CommandLine& line, AnimateOptions& options)
         refuse(named + " has no extension that gives the format; an animation is a .glb, .gltf, .usda or .usdz");
     }
     options.format = forOption(named, [&] { return droplet::formatNamed(extension); });
-    if (!options.files && !droplet::isAnimated(options.format)) {
+    if (!options.files && (options.archive || !droplet::isAnimated(options.format))) {
         refuse(named +
                " must be a .glb, .gltf, .usda or .usdz with the animation, or have a placeholder for the frame's "
                "number, as in out/%04d" +
@@ -59,7 +76,7 @@ void readOutput(const CommandLine& line, AnimateOptions& options)
     if (line.value("--lod") && !options.files) {
         refuse("--lod needs a file for every frame as OUTPUT, such as out/%04d.glb: levels are not animated");
     }
-    readLevels(line, options.output, options.format, options.settings);
+    readLevels(line, path, options.format, options.settings);
     options.compression = readCompression(line, options.format);
     warnOfFormat(line, options.format, false, options.settings);
     if (line.value("--fps") && options.files && (!options.preview || options.preview_files)) {
@@ -223,7 +240,8 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
                       "INPUT... is the frames: a pattern such as frames/%04d.png, several pictures, a folder, a "
                       "video, which needs ffmpeg, or -, PNG, PGM or PPM pictures on standard input. OUTPUT is a .glb, "
                       ".gltf, .usda or .usdz that plays, or a pattern for one file per frame "
-                      "such as out/%04d.glb, .gltf, .obj, .ply, .stl, .usda, .usdz or .3mf");
+                      "such as out/%04d.glb, .gltf, .obj, .ply, .stl, .usda, .usdz or .3mf; or a .zip of these "
+                      "files, such as frames.zip or frames.zip/%04d.obj");
     AnimateOptions options;
     declareAnimation(line, options);
     line.add(
@@ -275,7 +293,7 @@ std::variant<AnimateOptions, std::string> parseAnimate(int argc, const char* con
     readMotion(line, drips ? std::optional(dripping) : std::nullopt, inflow ? std::optional(feed) : std::nullopt,
                options);
     readAnimation(line, options);
-    if (options.resume && (!options.files || isStream(options.inputs.front()))) {
+    if (options.resume && (!options.hasFiles() || isStream(options.inputs.front()))) {
         refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.glb, and INPUT in files");
     }
     const VideoEncoding encoding = readVideoEncoding(line, options.hasVideo(), "--preview");

@@ -19,9 +19,10 @@ namespace cli {
 
 /// Options of `droplet-shape animate`. All values are in range; no file but the configuration file has been read.
 struct AnimateOptions {
-    std::vector<std::string> inputs;    ///< one or more, as given
-    std::string output;                 ///< path or kStandardStream
-    std::optional<NumberedPath> files;  ///< set if every frame gets a file
+    std::vector<std::string> inputs;     ///< one or more, as given
+    std::string output;                  ///< as given: path or kStandardStream
+    std::optional<std::string> archive;  ///< path of the zip file that holds the frames
+    std::optional<NumberedPath> files;   ///< set if every frame gets a file; with `archive`, below its path
     droplet::Format format = droplet::Format::Glb;
     droplet::Compression compression = droplet::Compression::None;
     std::optional<FootprintMotion> motion;  ///< of the one input
@@ -39,6 +40,8 @@ struct AnimateOptions {
     DropletSettings settings;
     RunOptions run;
 
+    /// Whether every frame gets a file of its own on disk.
+    [[nodiscard]] bool hasFiles() const { return files && !archive; }
     /// Whether the preview is a video.
     [[nodiscard]] bool hasVideo() const { return preview && !preview_files; }
 };

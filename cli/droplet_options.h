@@ -51,6 +51,7 @@ struct DropletSettings {
     droplet::GroundReport ground;
     std::optional<std::string> onto;  ///< path of the wetted object
     bool with_object = false;         ///< whether files have this object, too: see hasObject()
+    bool page_has_object = false;     ///< whether the page of --html has it
     std::optional<droplet::Hysteresis> hysteresis;
     droplet::Material material = droplet::Material::Water;
     std::optional<Materials> materials;  ///< of single droplets, over `material`

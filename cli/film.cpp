@@ -61,6 +61,21 @@ void Film::save(std::vector<OutputFile> files)
     saving_.run([files = std::move(files), this] { writeTogether(files, treatment_); });
 }
 
+void Film::beginArchive(std::ostream& out)
+{
+    archive_.emplace(out, droplet::ZipOptions{.deflates = true, .zip64 = true});
+}
+
+void Film::pack(std::vector<OutputFile> files)
+{
+    saving_.wait();
+    saving_.run([files = std::move(files), this] {
+        for (const OutputFile& file : files) {
+            archive_->add({file.path, file.write});
+        }
+    });
+}
+
 void Film::write(const std::optional<std::string>& table, const std::function<void(std::ostream*)>& make,
                  std::vector<OutputFile> files)
 {
@@ -69,6 +84,9 @@ void Film::write(const std::optional<std::string>& table, const std::function<vo
             make(out);
             drawing_.wait();
             saving_.wait();
+            if (archive_) {
+                archive_bytes_ = archive_->finish();
+            }
         } catch (...) {
             settle();
             throw;

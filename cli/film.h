@@ -4,6 +4,7 @@
 #include <tbb/task_group.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <iosfwd>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "checkpoint.h"
 #include "common_options.h"
+#include "droplet/zip.h"
 #include "files.h"
 #include "progress_display.h"
 #include "run_command.h"
@@ -71,10 +73,19 @@ public:
     /// Writes files of a frame that is drawn, all or none, while the next one is drawn; within write().
     void save(std::vector<OutputFile> files);
 
+    /// Begins a zip archive, to which pack() adds files of frames; within write(), at whose end it is complete.
+    /// @param out  the archive
+    void beginArchive(std::ostream& out);
+    /// Adds files of a frame that is drawn to the archive, while the next one is drawn; within write().
+    /// @param files  their paths are those in the archive; each is written twice, the same bytes
+    void pack(std::vector<OutputFile> files);
+    /// Size of the archive, after the frames.
+    [[nodiscard]] std::uint64_t archiveBytes() const { return archive_bytes_; }
+
     /// Makes the frames, and writes the files of the whole run after them: all or none. Then the run needs no
     /// checkpoint any more. Nothing is drawn or written any more when it returns or throws.
-    /// @param table           path of a file that is open while the frames are made
-    /// @param make            makes the frames; gets the stream of the table, if there is one
+    /// @param table           path of a file that is open while the frames are made: a table, or an archive
+    /// @param make            makes the frames; gets the stream of that file, if there is one
     /// @throws droplet::Error OutputFailed; whatever `make` and the files throw
     void write(const std::optional<std::string>& table, const std::function<void(std::ostream*)>& make,
                std::vector<OutputFile> files);
@@ -87,6 +98,8 @@ private:
     ProgressDisplay& progress_;
     std::optional<CheckpointFile> checkpoint_;
     std::size_t written_ = 0;  ///< number of frames of an interrupted run
+    std::optional<droplet::ZipWriter> archive_;
+    std::uint64_t archive_bytes_ = 0;
     tbb::task_group drawing_;
     tbb::task_group saving_;
 };

@@ -126,7 +126,9 @@ std::span<const NamedOption> namedOptions()
                                      NamedOption{"use a smaller width", "--map-width"},
                                      NamedOption{"look at the glass", "--look-at"},
                                      NamedOption{"face index", "--face-index"},
-                                     NamedOption{"smooth less", "--smooth"}};
+                                     NamedOption{"smooth less", "--smooth"},
+                                     NamedOption{"let less flow in", "--feed"},
+                                     NamedOption{"take shorter steps", "--slow, --fps"}};
     return kAll;
 }
 
@@ -136,6 +138,7 @@ std::span<const NamedOption> namedFields()
                                      NamedOption{"eye_distance", "--eye-distance"},
                                      NamedOption{"eye", "--eye"},
                                      NamedOption{"look_at", "--look-at"},
+                                     NamedOption{"inflow", "--feed"},
                                      NamedOption{"glass.width", "--glass-width"},
                                      NamedOption{"the glass's area", "--glass-width, --glass-height"}};
     return kAll;

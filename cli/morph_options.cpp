@@ -36,12 +36,12 @@ const CommandText& commandText()
 
 void declare(CommandLine& line, MorphCommandOptions& options)
 {
-    line.addArguments(
-        "FILES",
-        "INPUT... is the footprints: pictures of one size, or SVG files, which are fitted into them. "
-        "OUTPUT is a .glb that plays, or droplets of all frames such as out/%04d.glb, .obj, .ply, "
-        ".stl, .usdz or .3mf; masks such as out/%04d.png; - for masks on standard output; drawings such as "
-        "out/%04d.svg; or a video of drawings, .mp4, .mkv, .mov or .webm, which needs ffmpeg");
+    line.addArguments("FILES",
+                      "INPUT... is the footprints: pictures of one size, or SVG files, which are fitted into them. "
+                      "OUTPUT is a .glb that plays, or droplets of all frames such as out/%04d.glb, .obj, .ply, "
+                      ".stl, .usdz or .3mf, or frames.zip/%04d.glb in an archive; masks such as out/%04d.png; - for "
+                      "masks on standard output; drawings such as "
+                      "out/%04d.svg; or a video of drawings, .mp4, .mkv, .mov or .webm, which needs ffmpeg");
     constexpr const char* kMorph = "Flow";
     line.add(kMorph, "--text", "TEXT", "First footprint, before those of the pictures", into(options.text));
     line.add(kMorph, "--font-family,--font", "FAMILY", "Font of the text, by the name that the system knows",
@@ -127,7 +127,7 @@ std::variant<MorphCommandOptions, std::string> parseMorph(int argc, const char* 
     options.animation.inputs = {kStandardStream};
     options.animation.output = model;
     readAnimation(line, options.animation);
-    if (options.animation.resume && !options.files && !options.animation.files) {
+    if (options.animation.resume && !options.files && !options.animation.hasFiles()) {
         refuse("--resume needs a file for every frame as OUTPUT, such as out/%04d.svg");
     }
     const std::size_t transitions = options.inputs.size() + (options.text ? 1 : 0) - 1;

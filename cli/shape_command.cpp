@@ -22,7 +22,6 @@
 #include "droplet/drawing/picture.h"
 #include "droplet/error.h"
 #include "droplet/io/evolver.h"
-#include "droplet/io/gltf.h"
 #include "droplet/render/droplet_maps.h"
 #include "droplet/surface/onto.h"
 #include "droplet/surface/plate.h"
@@ -120,9 +119,10 @@ struct Extras {
     std::optional<droplet::Refill> page_refill = {};  ///< of the page's slider, if OUTPUT has none
     /// What pictures and the page show, if it is not the droplets alone: on the ground, not below it.
     std::optional<droplet::Surface> shown = {};
+    const droplet::ObjectStand* page_object = nullptr;  ///< below the droplets of the page; null: none
 };
 
-/// Writes the page with the droplet as a GLB.
+/// Writes the page with the droplet as a GLB, on the object if the page shows it.
 void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOptions& options, const Extras& extras,
                const droplet::Report& report)
 {
@@ -132,11 +132,14 @@ void writeHtml(std::ostream& out, const droplet::Surface& surface, const ShapeOp
     };
     writeHtmlPage(out, {is_text ? *report.input.type->text : name(),
                         [&](std::ostream& model) {
-                            droplet::writeGltf(surface, model,
-                                               {.material = options.settings.material,
-                                                .closed = report.output.topology.closed,
-                                                .droplets = extras.droplets,
-                                                .texture = extras.texture});
+                            writeSurface(surface, model,
+                                         {{},
+                                          droplet::Format::Glb,
+                                          {.material = options.settings.material,
+                                           .closed = report.output.topology.closed,
+                                           .droplets = extras.droplets,
+                                           .texture = extras.texture},
+                                          extras.page_object});
                         },
                         [&](std::ostream& json) { droplet::writeReport(json, report); }});
 }
@@ -272,6 +275,7 @@ droplet::Report finish(MadeShape made, const Surroundings& around, const ShapeOp
         extras.in_file = droplet::welded(whole);
     }
     const droplet::ObjectStand* const object = made.settings.with_object ? &around.object.value() : nullptr;
+    extras.page_object = made.settings.page_has_object ? &around.object.value() : nullptr;
     const droplet::Surface& written = extras.in_file ? *extras.in_file : made.droplet.surface;
     report.output = describeOutput(written, options.output, options.format);
     report.output.levels = std::move(levels.reports);

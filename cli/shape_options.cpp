@@ -300,6 +300,7 @@ void readDroplets(const CommandLine& line, ShapeOptions& options, const std::str
     }
     if (options.settings.onto) {
         options.settings.with_object = hasObject(line, options.format, options.output);
+        options.settings.page_has_object = options.html && !line.flag("--droplets-only");
     } else if (line.flag("--droplets-only")) {
         options.settings.warnings.emplace_back("--droplets-only has no effect without --onto");
     }

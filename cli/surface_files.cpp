@@ -51,6 +51,10 @@ Levels makeLevels(const droplet::Surface& whole, const DropletSettings& settings
     const std::vector<std::size_t>& wanted = settings.levels;
     const std::vector<std::string> paths = levelPaths(output, format, wanted.size());
     Levels levels;
+    if (whole.triangles.empty()) {
+        levels.surfaces.resize(wanted.size());
+        return levels;
+    }
     for (std::size_t k = 0; k < wanted.size(); ++k) {
         droplet::SimplifiedSurface level = droplet::simplify(whole, wanted[k]);
         if (settings.weld) {
@@ -78,16 +82,12 @@ droplet::Surface lowered(droplet::Surface surface, double depth)
     return surface;
 }
 
-namespace {
-
-std::uint64_t write(const droplet::Surface& surface, std::ostream& out, const SurfaceTarget& target)
+std::uint64_t writeSurface(const droplet::Surface& surface, std::ostream& out, const SurfaceTarget& target)
 {
     return target.object != nullptr
                ? droplet::writeOnObject(surface, *target.object, out, target.format, target.options)
                : droplet::writeSurface(surface, out, target.format, target.options);
 }
-
-}  // namespace
 
 std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTarget target, std::uint64_t& bytes)
 {
@@ -97,10 +97,11 @@ std::vector<OutputFile> surfaceFiles(const droplet::Surface& surface, SurfaceTar
         target.options.material_file = std::filesystem::path(*material_file).filename().string();
     }
     files.push_back(
-        {target.path, [&surface, &bytes, target](std::ostream& out) { bytes = write(surface, out, target); }});
+        {target.path, [&surface, &bytes, target](std::ostream& out) { bytes = writeSurface(surface, out, target); }});
     const std::vector<std::string> paths = levelPaths(target.path, target.format, target.options.levels.size());
     for (std::size_t k = 0; k < paths.size(); ++k) {
-        files.push_back({paths[k], [k, target](std::ostream& out) { write(target.options.levels[k], out, target); }});
+        files.push_back(
+            {paths[k], [k, target](std::ostream& out) { writeSurface(target.options.levels[k], out, target); }});
     }
     if (material_file) {
         std::vector<droplet::Look> looks = droplet::looksOf(target.options.droplets);

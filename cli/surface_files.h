@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +35,8 @@ struct Levels {
 };
 
 /// Makes the levels of detail that the settings ask for.
-/// @param whole   surface with two copies of its rim, which levels keep as a crease; they are joined if settings.weld
+/// @param whole   surface with two copies of its rim, which levels keep as a crease; they are joined if settings.weld.
+///                One without triangles, a frame without liquid, has levels without any, and no reports
 /// @param output  path of the surface's file
 /// @throws droplet::Error InvalidArgument
 Levels makeLevels(const droplet::Surface& whole, const DropletSettings& settings, const std::string& output,
@@ -51,6 +53,11 @@ struct SurfaceTarget {
     droplet::WriteOptions options;
     const droplet::ObjectStand* object = nullptr;  ///< which the file has, too, with the surface on it; null: none
 };
+
+/// Writes a surface, and the object that it lies on if there is one; the path stays unused.
+/// @return                bytes handed to the stream, which is left failed if it did not take everything
+/// @throws droplet::Error InvalidArgument
+std::uint64_t writeSurface(const droplet::Surface& surface, std::ostream& out, const SurfaceTarget& target);
 
 /// Files of a surface and, in OBJ, its material; and of its levels. `surface`, object, levels and `bytes` must live
 /// until they are written.

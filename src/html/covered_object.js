@@ -9,7 +9,7 @@ const kMostCasting = 4e5;  // triangles of an object whose shadow is drawn
 export class CoveredObject {
     tilt = 68;  // objects are seen from the side, droplets from above
 
-    /** Reads a file of `droplet-shape dew`, whose first mesh is the object. */
+    /** Reads a file of `droplet-shape dew`, or of `--onto`, whose first mesh is the object. */
     static async load(bytes) {
         const { scene, parser } = await loadGlb(bytes);
         return new CoveredObject(scene, (mesh) => parser.associations.get(mesh)?.meshes === 0);

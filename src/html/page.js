@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 import { complain, download, drawScale, fileStem, find, offerGrounds, tabulate } from './controls.js';
+import { CoveredObject } from './covered_object.js';
 import { filledGlb } from './filled_glb.js';
 import { extent, filmOf, length, refilled, rows, sides, volume } from './figures.js';
+import { partsOf } from './glb.js';
 import { decodeBase64, loadDroplet } from './model.js';
 import { Stage } from './stage.js';
 import { WetObject } from './wet_object.js';
@@ -114,6 +116,15 @@ function offerFilm(stage, droplet, still) {
     play(!still);
 }
 
+/** Reads the model: droplets that run over an object, those that lie on one, or droplets alone. */
+function load() {
+    if (report.schema?.startsWith('droplet-shape.flow/')) {
+        return WetObject.load(bytes, filmOf(report).duration);
+    }
+    const lies = report.onto && partsOf(bytes).json.nodes.some(({ name, mesh }) => name === 'object' && mesh === 0);
+    return lies ? CoveredObject.load(bytes) : loadDroplet(bytes);
+}
+
 /** Offers Studio for droplets of a mask: not for films, nor for droplets laid on an object. Back returns to the page. */
 function offerStudio(droplet) {
     if (openInStudio && report.shape && !report.onto && !droplet.duration && report.ground?.kind !== 'height map') {
@@ -133,9 +144,8 @@ async function main() {
     const shown = { fill: 1 };
     offerDownload(shown);
     try {
-        const runs = report.schema?.startsWith('droplet-shape.flow/');
-        const droplet = await (runs ? WetObject.load(bytes, filmOf(report).duration) : loadDroplet(bytes));
-        const flat = !runs && (report.ground?.kind ?? 'flat') === 'flat' && !report.onto;
+        const droplet = await load();
+        const flat = !(droplet instanceof CoveredObject) && (report.ground?.kind ?? 'flat') === 'flat' && !report.onto;
         let frames = 0;
         const still = matchMedia('(prefers-reduced-motion: reduce)').matches;
         const stage = new Stage({

@@ -20,10 +20,10 @@
 #include "droplet/printable.h"
 #include "droplet/units.h"
 #include "droplet/version.h"
+#include "droplet/zip.h"
 #include "image/rgb.h"
 #include "scene/welded_vertices.h"
 #include "xml_text.h"
-#include "zip.h"
 
 namespace droplet {
 namespace {

@@ -21,10 +21,10 @@
 #include "droplet/error.h"
 #include "droplet/printable.h"
 #include "droplet/version.h"
+#include "droplet/zip.h"
 #include "scene/faces.h"
 #include "scene/preview_opacity.h"
 #include "scene/welded_vertices.h"
-#include "zip.h"
 
 namespace droplet {
 namespace {

@@ -171,6 +171,22 @@ void requireHeavy(const ShapeFigures& figures, double capillary_length, std::siz
     }
 }
 
+/// Refuses an inflow that sheds so many drops in a step that no volume is found that hangs after them. Where one falls
+/// at most, what stays is far from what can hang.
+/// @param drops  largest number of them that fall off one droplet in the step
+/// @throws Error NoSuchDroplet
+[[noreturn]] void refuseInflow(const DrippingOptions& dripping, std::size_t drops)
+{
+    const auto parts = static_cast<double>(std::max<std::size_t>(drops, 2));
+    const double most = dripping.inflow / parts / kMicrolitre;
+    const double unit = std::pow(10.0, std::floor(std::log10(most)) - 1.0);  // of two digits, rounded down
+    throw Error(ErrorCode::NoSuchDroplet,
+                fmt::format("inflow of {} uL/s is too much: {} {} off one droplet in a step of {} s, and no volume was "
+                            "found that hangs after that; let less flow in, {} uL/s at most, or take shorter steps",
+                            numberText(dripping.inflow / kMicrolitre), drops, drops == 1 ? "drop falls" : "drops fall",
+                            numberText(dripping.time_step, 3), numberText(std::floor(most / unit) * unit)));
+}
+
 /// Droplet that grows for a step.
 class Growth {
 public:
@@ -278,7 +294,13 @@ Frame nextDripping(const Frame& before, const Outline& outline, const SequenceOp
             break;
         }
         if (k + 1 == kMost) {
-            throw Error(ErrorCode::NoSuchDroplet, "no amount was found that hangs after a drop has fallen");
+            std::size_t most = 1;
+            for (const Ancestry& droplet : next.droplets) {
+                const auto fell = std::count_if(shed.begin(), shed.end(),
+                                                [&](const FallingDrop& drop) { return drop.droplet == droplet.id; });
+                most = std::max(most, static_cast<std::size_t>(fell));
+            }
+            refuseInflow(dripping, most);
         }
         for (const std::size_t i : too_heavy) {
             requireHeavy(next.droplet.figures[i], *capillary_length, i, next.droplets.size());

@@ -333,6 +333,65 @@ TEST_F(AnimateTest, LevelsOfDetailAreInTheFileOfEachFrameOrBesideIt)
     EXPECT_EQ(lod({"out/%04d.obj", "--no-clobber"}).exit_code, 4);
 }
 
+TEST_F(AnimateTest, PutsFramesIntoAnArchive)
+{
+    // A leading frame without liquid is written with the first that has some.
+    writeFile(directory() / "frames" / "f0007.pgm", greymap(64, 48, [](int, int) { return 0; }));
+    const auto told_of = [&](const std::string& output, const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{"animate", "frames/f%04d.pgm", output, "--channel",
+                                           "luma",    "--json",           "told"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        CommandOptions command;
+        command.directory = directory();
+        const auto run = runDroplet(arguments, command);
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        return json::parse(bytesOf("told"));
+    };
+    const auto expect_same = [&](const std::string& archive, const std::string& frames, std::size_t files,
+                                 const std::vector<std::string>& options) {
+        const json told = told_of(archive, options);
+        const json same = told_of(frames, options);
+        const fs::path zip =
+            fs::path(archive).extension() == ".zip" ? fs::path(archive) : fs::path(archive).parent_path();
+        EXPECT_EQ(told["output"]["bytes"], readFile(directory() / zip).size());
+        EXPECT_EQ(told["frames"].size(), same["frames"].size());
+        EXPECT_EQ(told["frames"][3]["output"],
+                  (zip / fs::path(same["frames"][3]["output"].get<std::string>()).filename()).string());
+        const auto run =
+            runProgram({"python3", "-c",
+                        "import zipfile, sys, os\n"
+                        "z = zipfile.ZipFile(sys.argv[1])\n"
+                        "assert z.testzip() is None\n"
+                        "names = [n for n in os.listdir(sys.argv[2]) if n != 'checkpoint.state']\n"
+                        "assert sorted(z.namelist()) == sorted(names), (z.namelist(), names)\n"
+                        "assert all(z.read(n) == open(os.path.join(sys.argv[2], n), 'rb').read() for n in names)\n"
+                        "print(len(names))",
+                        (directory() / zip).string(), (directory() / fs::path(frames).parent_path()).string()});
+        EXPECT_EQ(run.output, std::to_string(files) + "\n") << run.error;
+    };
+    expect_same("all.zip", "glb/%04d.glb", 6, {"--triangles", "800"});
+    expect_same("obj.zip/f%d.obj", "obj/f%d.obj", 6 * 3, {"--lod", "800,200"});
+    expect_same("usd.ZIP/%04d.usdz", "usd/%04d.usdz", 6, {"--triangles", "800", "--threads", "1"});
+    const std::string before = bytesOf("usd.ZIP");
+    told_of("usd.ZIP/%04d.usdz", {"--triangles", "800", "--threads", "2"});
+    EXPECT_EQ(bytesOf("usd.ZIP"), before);
+}
+
+TEST_F(AnimateTest, RefusesArchivesOfWhatIsNoFrame)
+{
+    expectFailure({"frames", "frames.zip/film.glb"}, 2, {"'frames.zip/film.glb'", "placeholder"});
+    expectFailure({"frames", "frames-%04d.zip"}, 2, {"frames-%04d.zip"});
+    expectFailure({"frames", "old.zip/%04d.png"}, 2, {"format is 'png'"});
+    expectFailure({"frames", "frames.zip", "--resume"}, 2, {"--resume needs a file for every frame"});
+    expectFailure({"frames", "frames.zip", "--html", "frames.zip"}, 2, {"the same", "frames.zip"});
+    // What fails leaves the older archive as it was.
+    writeFile(directory() / "frames.zip", "an older file\n");
+    expectFailure({"frames", "frames.zip", "--no-clobber"}, 4, {"frames.zip", "must not be replaced"});
+    writeFile(directory() / "frames" / "f0012.pgm", "damaged");
+    expectFailure({"frames", "frames.zip"}, 3, {"f0012.pgm"});
+    EXPECT_EQ(bytesOf("frames.zip"), "an older file\n");
+}
+
 // A droplet under a ceiling sheds a drop, which falls out of the picture.
 TEST_F(AnimateTest, DropsFallFromACeiling)
 {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include "droplet/io/page.h"
 #include "support/base64.h"
 #include "support/command.h"
+#include "support/paths.h"
 
 namespace droplet {
 namespace {
@@ -131,6 +133,27 @@ TEST_F(HtmlTest, ContainsTheWrittenGlb)
     EXPECT_EQ(modelOf(bytesOf("page.html")), bytesOf("disc.glb"));
     make({"disc.pgm", "disc.glb", "--html", "page.html", "--no-penetration", "--open"});
     EXPECT_EQ(modelOf(bytesOf("page.html")), bytesOf("disc.glb"));
+}
+
+TEST_F(HtmlTest, HasTheObjectBelowTheDroplets)
+{
+    writeFile(directory() / "spot.pgm",
+              testing::greymap(64, 64, [](int x, int y) { return std::hypot(x - 31.5, y - 16.5) < 8.0 ? 255 : 0; }));
+    const std::vector<std::string> onto{"--onto", testing::inSource("data/can.glb"), "--html", "page.html"};
+    const auto page_of = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), onto.begin(), onto.end());
+        make(arguments);
+        return modelOf(bytesOf("page.html"));
+    };
+    const std::string model = page_of({"spot.pgm", "laid.glb"});
+    EXPECT_EQ(gltfOf(model)["nodes"][0]["name"], "object");
+    EXPECT_EQ(gltfOf(model)["materials"][0]["name"], "paint");
+    EXPECT_EQ(model, bytesOf("laid.glb"));
+    // Other formats hold the droplets alone, but the page shows the object all the same.
+    EXPECT_EQ(page_of({"spot.pgm", "laid.stl"}), model);
+    const std::string alone = page_of({"spot.pgm", "alone.glb", "--droplets-only"});
+    EXPECT_EQ(alone, bytesOf("alone.glb"));
+    EXPECT_EQ(gltfOf(alone)["nodes"].size(), 1U);
 }
 
 TEST_F(HtmlTest, MaterialAffectsThePage)

@@ -109,6 +109,11 @@ TEST(LibraryMessages, HaveOptionsInPlaceOfFields)
     EXPECT_EQ(with("pane.glb: cannot be used: eye_distance 0.5 m: too far"),
               "pane.glb: cannot be used: --eye-distance 0.5 m: too far");
     EXPECT_EQ(with("emitter.place is inside the object"), "--emitter is inside the object");
+    EXPECT_EQ(cli::withOptions("logo.png, frame 2: inflow of 20000 uL/s is too much: let less flow in, 1400 uL/s at "
+                               "most, or take shorter steps",
+                               {{"--feed", "--slow", "--fps"}, {"--feed"}}),
+              "logo.png, frame 2: --feed of 20000 uL/s is too much: let less flow in, 1400 uL/s at most, or take "
+              "shorter steps (--slow, --fps)");
     EXPECT_EQ(with("the file eye_distance is 3"), "the file eye_distance is 3") << "no field";
     EXPECT_EQ(cli::withOptions("emitter.place is inside the object", {}), "emitter.place is inside the object");
 }

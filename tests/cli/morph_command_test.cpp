@@ -86,6 +86,9 @@ TEST_F(MorphCommand, MakesDropletsOfTheFlow)
     // The square covers 20 of 60 pixels of 30 mm; the disc is as high as 0.8 of the window.
     EXPECT_NEAR(frames.at(0).at("footprint_area_m2").get<double>(), 1e-4, 1e-6);
     EXPECT_NEAR(frames.at(4).at("footprint_area_m2").get<double>(), 3.14159 * 8e-3 * 8e-3, 2e-6);
+    const CommandResult packed = flow({path("square.pgm"), path("disc.svg"), path("out.zip"), "--triangles", "500"});
+    ASSERT_EQ(packed.exit_code, 0) << packed.error;
+    EXPECT_THAT(readFile(path("out.zip")), ::testing::AllOf(StartsWith("PK"), ::testing::HasSubstr("0005.glb")));
 }
 
 TEST_F(MorphCommand, WritesMasksDrawingsAndAStream)

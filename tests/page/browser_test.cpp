@@ -57,6 +57,25 @@ void makePages(const fs::path& folder)
     make("full.html", {"--json", (folder / "full.json").string(), "--model", "linear"}, "80uL");
     make("exact.html", {"--model", "exact"});
     make("mercury.html", {"--liquid", "mercury"});
+    // A droplet on a red can, and the droplet alone.
+    writeFile(folder / "spot.pgm",
+              testing::greymap(64, 64, [](int x, int y) { return std::hypot(x - 31.5, y - 16.5) < 6.0 ? 255 : 0; }));
+    for (const std::string html : {"can.html", "off_can.html"}) {
+        std::vector<std::string> arguments{(folder / "spot.pgm").string(),
+                                           (folder / "can.glb").string(),
+                                           "--onto",
+                                           testing::inSource("data/can.glb"),
+                                           "--html",
+                                           (folder / html).string(),
+                                           "--triangles",
+                                           "800",
+                                           "-q"};
+        if (html == "off_can.html") {
+            arguments.emplace_back("--droplets-only");
+        }
+        const auto laid = runDroplet(arguments);
+        ASSERT_EQ(laid.exit_code, 0) << laid.error;
+    }
     // A disc on black, red on the left and green on the right.
     std::string halves = "P6 64 64 255\n";
     for (int i = 0; i < 64 * 64; ++i) {
@@ -177,6 +196,11 @@ TEST(PageInBrowser, ControlsWorkWithoutNetworkRequests)
     // Metal mirrors dark walls; without them nothing in the picture is dark.
     const auto& shades = seen["mercury"];
     EXPECT_GT(shades[0].get<double>() + shades[1].get<double>() + shades[2].get<double>(), kSeen);
+
+    EXPECT_GT(seen["laid"]["red"], kSeen) << "the can";
+    EXPECT_LT(seen["laid"]["red_alone"], kNoise);
+    EXPECT_FALSE(seen["laid"]["refill"]);
+    EXPECT_EQ(seen["laid"]["figures"]["Laid on"], "can.glb");
 
     EXPECT_GT(seen["pictured"]["red"], 0.5 * kSeen);
     EXPECT_GT(seen["pictured"]["green"], 0.5 * kSeen);

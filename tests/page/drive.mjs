@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opens pages from disk in a real browser and operates their controls: node drive.mjs CHROMIUM FOLDER FIGURES_JS
-// FOLDER holds full.json, a report, water.html, exact.html, film.html, pictured.html, mercury.html, hostile.html and picture.png. Prints the
-// observations as one JSON object; the test judges them.
+// FOLDER holds full.json, a report, water.html, exact.html, film.html, pictured.html, mercury.html, can.html, off_can.html,
+// hostile.html and picture.png. Prints the observations as one JSON object; the test judges them.
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
@@ -283,19 +283,33 @@ async function film() {
     return seen;
 }
 
+/** Share of pixels in which one colour is clearly stronger than another. */
+const stronger = (pixels, strong, weak) => {
+    let found = 0;
+    for (let i = 0; i < pixels.length; i += 4) {
+        found += pixels[i + strong] > 60 + pixels[i + weak];
+    }
+    return 4 * found / pixels.length;
+};
+
 /** How many pixels are clearly red and clearly green. */
 async function pictured() {
     const page = await open('pictured.html', { viewport: kWide });
     const pixels = await look(page);
-    const count = (strong, weak) => {
-        let found = 0;
-        for (let i = 0; i < pixels.length; i += 4) {
-            found += pixels[i + strong] > 60 + pixels[i + weak];
-        }
-        return 4 * found / pixels.length;
-    };
     await page.context().close();
-    return { red: count(0, 1), green: count(1, 0) };
+    return { red: stronger(pixels, 0, 1), green: stronger(pixels, 1, 0) };
+}
+
+/** How many pixels are clearly red, with a droplet on a red can and with the droplet alone. */
+async function laid() {
+    const page = await open('can.html', { viewport: kWide });
+    const seen = { red: stronger(await look(page), 0, 1), refill: await page.locator('#refill').isVisible(),
+        figures: await figures(page) };
+    await page.context().close();
+    const alone = await open('off_can.html', { viewport: kWide });
+    seen.red_alone = stronger(await look(alone), 0, 1);
+    await alone.context().close();
+    return seen;
 }
 
 async function hostile() {
@@ -323,7 +337,7 @@ async function hostile() {
 
 try {
     const seen = { wide: await wide(), phone: await phone(), exact: await exact(), told_full: await told('full.json'), film: await film(),
-        pictured: await pictured(), mercury: await mercury() };
+        pictured: await pictured(), laid: await laid(), mercury: await mercury() };
     Object.assign(seen, { complaints: [...complaints], outside });
     complaints.length = 0;
     seen.hostile = await hostile();
