@@ -62,7 +62,7 @@ class Liquid {
         this.tool = 'pour';
         this.ends = new AbortController();
         this.pointers = new Map();
-        this.recorders = { video: new Recorder(canvas, 'splash'), lottie: new LottieRecorder(this) };
+        this.recorders = { video: new Recorder(canvas, 'splash', () => this.panel.recordedNothing()), lottie: new LottieRecorder(this) };
         if (!this.recorder.works) {
             this.values.record = 'lottie';
         }

@@ -13,6 +13,7 @@ const kIcons = {
     panel: '<path d="M4 7h9M17 7h3M4 17h3M11 17h9"/><circle cx="15" cy="7" r="2"/><circle cx="9" cy="17" r="2"/>',
 };
 const kCalm = 3500;  // [ms] until the bar hides
+const kHinted = 6500;  // [ms] that a hint is shown
 
 export function element(kind, values = {}, ...content) {
     const made = document.createElement(kind);
@@ -47,13 +48,12 @@ export class Overlay {
         document.activeElement?.blur();  // the button that opened it must not take keys
         this.#makePanel();
         this.#makeBar();
-        this.hint = element('div', { class: 'hint' }, about.hint);
+        this.hint = element('div', { class: 'hint', role: 'status' }, about.hint);
         root.append(this.hint);
-        setTimeout(() => this.hint.classList.add('shown'), 2500);
+        this.#hint(2500);
         for (const gone of ['pointerdown', 'keydown']) {
-            addEventListener(gone, () => this.hint.classList.remove('shown'), { once: true, signal: part.ends.signal, capture: true });
+            addEventListener(gone, () => this.#endHint(), { signal: part.ends.signal, capture: true });
         }
-        setTimeout(() => this.hint.classList.remove('shown'), 9000);
         // Before what lies below, if anything does.
         addEventListener('keydown', (event) => this.#press(event), { signal: part.ends.signal, capture: true });
         for (const kind of ['pointermove', 'pointerdown']) {
@@ -62,6 +62,25 @@ export class Overlay {
         this.wake();
         translate(root);
         this.showAll();
+    }
+
+    #hint(wait) {
+        this.#endHint();
+        this.hinted = setTimeout(() => {
+            this.hint.classList.add('shown');
+            this.hinted = setTimeout(() => this.#endHint(), kHinted);
+        }, wait);
+    }
+
+    #endHint() {
+        clearTimeout(this.hinted);
+        this.hint.classList.remove('shown');
+    }
+
+    /** Says that the browser has recorded nothing. */
+    recordedNothing() {
+        this.hint.textContent = say('This browser has recorded nothing.');
+        this.#hint(0);
     }
 
     #makeBar() {

@@ -95,7 +95,7 @@ class Rain {
             this.values[name] ??= this.windshield.get(name);
         }
         this.backdrop = new Backdrop(this.view, root, this.ends.signal, (name, trouble) => this.panel?.showBackdrop(name, trouble));
-        this.recorder = new Recorder(canvas, 'rain');
+        this.recorder = new Recorder(canvas, 'rain', () => this.panel.recordedNothing());
         this.panel = new Panel(root, this);
         if (given.background) {
             this.backdrop.load(given.background, 'own');
