@@ -3,6 +3,7 @@
 // requests of W3C WebDriver. WEBKIT is the browser.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
+import { once } from 'node:events';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -114,11 +115,6 @@ export async function begin(downloads, { width, height }) {
     const settings = join(downloads, 'settings');
     mkdirSync(settings);
     writeFileSync(join(settings, 'user-dirs.dirs'), `XDG_DOWNLOAD_DIR="${downloads}"\n`);
-    const driver = spawn('WebKitWebDriver', [`--port=${kPort}`], { env: { ...process.env, XDG_CONFIG_HOME: settings }, stdio: 'inherit' });
-    for (let k = 0; !await ask('GET', '/status').catch(() => false); ++k) {
-        assert.ok(k < 100, 'WebKitWebDriver does not answer');
-        await rest(100);
-    }
     const browserOptions = { binary: WEBKIT, args: ['--automation'] };
     return {
         async open(file) {
@@ -126,6 +122,12 @@ export async function begin(downloads, { width, height }) {
             const text = readFileSync(file, 'utf8');
             assert.ok(text.includes(kRule));
             writeFileSync(watched, text.replace(kRule, `${kListener}${kRule}`));
+            // A driver for each: a second session of the same one does not always begin.
+            const driver = spawn('WebKitWebDriver', [`--port=${kPort}`], { env: { ...process.env, XDG_CONFIG_HOME: settings }, stdio: 'inherit' });
+            for (let k = 0; !await ask('GET', '/status').catch(() => false); ++k) {
+                assert.ok(k < 100, 'WebKitWebDriver does not answer');
+                await rest(100);
+            }
             const { sessionId } = await ask('POST', '/session', { capabilities: { alwaysMatch: { 'webkitgtk:browserOptions': browserOptions } } });
             const session = `/session/${sessionId}`;
             const page = new Page(sessionId);
@@ -138,10 +140,12 @@ export async function begin(downloads, { width, height }) {
                 async close() {
                     const complaints = await page.evaluate(() => complaints);
                     await ask('DELETE', session);
+                    driver.kill();
+                    await once(driver, 'exit');
                     return complaints;
                 },
             };
         },
-        end: async () => { driver.kill(); },
+        end: async () => {},
     };
 }
