@@ -5,7 +5,7 @@ import puppeteer from 'puppeteer-core';
 
 const { FIREFOX = '/usr/bin/firefox-esr' } = process.env;
 
-/** Starts Firefox, as webkit.mjs does WebKit. */
+/** Starts Firefox, as webkit.mjs does WebKit; end() ends it. */
 export async function begin(downloads, size) {
     const browser = await puppeteer.launch({
         browser: 'firefox', executablePath: FIREFOX, headless: false,  // Firefox has no WebGL without a display

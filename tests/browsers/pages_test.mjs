@@ -19,7 +19,7 @@ const downloads = mkdtempSync(join(tmpdir(), `${BROWSER}-`));
 let browser;
 before(async () => { browser = await begin(downloads, kSize); });
 after(async () => {
-    await browser?.end();
+    await browser?.end?.();
     rmSync(downloads, { recursive: true });
 });
 

@@ -5,11 +5,11 @@ import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { createServer } from 'node:net';
 import { basename, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 
 const { WEBKIT = '/usr/lib/x86_64-linux-gnu/webkit2gtk-4.1/MiniBrowser' } = process.env;
-const kPort = 4727;
 const kElement = 'element-6066-11e4-a52e-4f735466cecf';  // by which WebDriver marks an element
 const kKeys = { Control: '\uE009' };
 
@@ -25,8 +25,19 @@ const kRule = '<meta http-equiv="Content-Security-Policy"';
 
 const rest = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
 
+let port;  // of the driver
+
+async function freePort() {
+    const server = createServer().listen(0, '127.0.0.1');
+    await once(server, 'listening');
+    const { port: free } = server.address();
+    server.close();
+    await once(server, 'close');
+    return free;
+}
+
 async function ask(method, path, body) {
-    const answer = await fetch(`http://127.0.0.1:${kPort}${path}`, { method, body: body && JSON.stringify(body) });
+    const answer = await fetch(`http://127.0.0.1:${port}${path}`, { method, body: body && JSON.stringify(body) });
     const { value } = await answer.json();
     if (value?.error) {
         throw new Error(`${method} ${path}: ${value.error}: ${value.message}`);
@@ -109,7 +120,7 @@ class Page {
  * @param downloads  folder in which it saves files
  * @param size       of the pages [px]
  * @return open(file), which opens a page with nothing kept of others, and gives it and a function that closes it and
- *         gives what it complained of; and end()
+ *         gives what it complained of
  */
 export async function begin(downloads, { width, height }) {
     const settings = join(downloads, 'settings');
@@ -123,7 +134,9 @@ export async function begin(downloads, { width, height }) {
             assert.ok(text.includes(kRule));
             writeFileSync(watched, text.replace(kRule, `${kListener}${kRule}`));
             // A driver for each: a second session of the same one does not always begin.
-            const driver = spawn('WebKitWebDriver', [`--port=${kPort}`], { env: { ...process.env, XDG_CONFIG_HOME: settings }, stdio: 'inherit' });
+            port = await freePort();
+            const driver = spawn('WebKitWebDriver', [`--port=${port}`], { env: { ...process.env, XDG_CONFIG_HOME: settings }, stdio: 'inherit' });
+            process.once('exit', () => driver.kill());
             for (let k = 0; !await ask('GET', '/status').catch(() => false); ++k) {
                 assert.ok(k < 100, 'WebKitWebDriver does not answer');
                 await rest(100);
@@ -146,6 +159,5 @@ export async function begin(downloads, { width, height }) {
                 },
             };
         },
-        end: async () => {},
     };
 }

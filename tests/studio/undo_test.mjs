@@ -14,6 +14,9 @@ const redo = (page) => page.keyboard.press('Control+y');
 const value = (page, selector) => page.locator(selector).inputValue();
 const pressed = (page, selector) => page.locator(`${selector}[aria-pressed=true]`).evaluateAll((all) => all.map((each) => each.value || each.textContent));
 
+/** The view's ground, or "own" for a picture. */
+const groundOf = (page) => page.evaluate(() => document.querySelector('#swatches :checked')?.value ?? 'own');
+
 /** Drags a slider's thumb to a part of its way. */
 async function drag(page, selector, to) {
     await page.locator(selector).scrollIntoViewIfNeeded();
@@ -53,7 +56,7 @@ studio('every change of the drawing’s settings is a step', kDesktop, async (pa
     await page.locator('#gallery button').nth(2).click();
     const read = async () => ({
         looks: await pressed(page, '.tiles button'), liquid: await value(page, '#liquid-liquid'), tilt: await value(page, '#scene-tilt'),
-        width: await value(page, '#scene-width'), ground: await value(page, '#swatches :checked'), name: await value(page, '#name'),
+        width: await value(page, '#scene-width'), ground: await groundOf(page), name: await value(page, '#name'),
     });
     await backAndForth(page, read,
         () => page.locator('.tiles [value=ink]').click(),
@@ -69,6 +72,10 @@ studio('every change of the drawing’s settings is a step', kDesktop, async (pa
             await page.keyboard.type('35');
         },
         () => page.locator('#swatches label:has([value=white])').click(),
+        async () => {
+            await page.locator('#picture').setInputFiles({ name: 'own.png', mimeType: 'image/png', buffer: await page.screenshot() });
+            await page.waitForFunction(() => document.getElementById('picture').classList.contains('chosen'));
+        },
         () => page.locator('#swatches label:has([value=leaf])').click());
 });
 
@@ -103,7 +110,7 @@ studio('what is opened or emptied can be taken back, and what changes nothing is
 
 studio('dew has its own steps, with its ground', kDesktop, async (page) => {
     await started(page);
-    const ground = () => value(page, '#swatches :checked');
+    const ground = () => groundOf(page);
     const first = await ground();
     await page.locator('#modes label:has([value=dew])').click();
     await page.locator('#dew-bottle').click();
