@@ -10,7 +10,10 @@ function bytesOf(states) {
 }
 
 export class History {
-    /** @param held  bytes that states hold, which are not more than `memory`; without it, the masks of their layers */
+    /**
+     * @param memory  bytes that all states may hold; the oldest go first
+     * @param held    gives the bytes that a list of states holds
+     */
     constructor(state, memory = kMemory, held = bytesOf) {
         Object.assign(this, { memory, held });
         this.reset(state);
@@ -47,9 +50,9 @@ export class History {
     }
 
     /** Ends runs in a part of the page when a pointer goes down or the focus moves: what comes then is another act. */
-    restIn(target, options) {
+    restIn(target) {
         for (const kind of ['pointerdown', 'focusin']) {
-            target.addEventListener(kind, () => { this.run = undefined; }, { ...options, capture: true });
+            target.addEventListener(kind, () => { this.run = undefined; }, { capture: true });
         }
     }
 

@@ -11,8 +11,8 @@ const kIcons = {
     whole: '<path d="M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5"/>',
     record: '<circle cx="12" cy="12" r="5.5" fill="currentcolor" stroke="none"/>',
     picture: '<rect x="4" y="6" width="16" height="13" rx="2"/><circle cx="12" cy="12.5" r="3.3"/><path d="M9 6l1-2h4l1 2"/>',
-    undo: '<path d="M8.500 5 4.300 9.200l4.200 4.200M4.900 9.200h9a5.300 5.300 0 0 1 0 10.600H9.700"/>',
-    redo: '<path d="m15.500 5 4.200 4.200-4.200 4.200M19.100 9.200h-9a5.300 5.300 0 0 0 0 10.600h4.200"/>',
+    undo: '<path d="M8.5 5 4.3 9.2l4.2 4.2M4.9 9.2h9a5.3 5.3 0 0 1 0 10.6H9.7"/>',
+    redo: '<path d="m15.5 5 4.2 4.2-4.2 4.2M19.1 9.2h-9a5.3 5.3 0 0 0 0 10.6h4.2"/>',
     panel: '<path d="M4 7h9M17 7h3M4 17h3M11 17h9"/><circle cx="15" cy="7" r="2"/><circle cx="9" cy="17" r="2"/>',
 };
 const kCalm = 3500;  // [ms] until the bar hides

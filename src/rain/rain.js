@@ -78,7 +78,8 @@ class Rain {
         this.warm_up = given.warm_up ?? 20;
         /** Parameters, and values of the view. Never written to. */
         this.values = {
-            preset: given.preset ?? 'figure-3.12', backdrop: given.background, wind: 0, distance: given.eye_distance ?? 0.3, blur: given.background_blur ?? 2.6 * Math.PI / 180, exposure: 1, runoff: 1,
+            preset: given.preset ?? 'figure-3.12', backdrop: given.background,
+            wind: 0, distance: given.eye_distance ?? 0.3, blur: given.background_blur ?? 2.6 * Math.PI / 180, exposure: 1, runoff: 1,
             ...given.parameters,
         };
         this.fieldOfView = given.field_of_view;
