@@ -46,19 +46,21 @@ function thumbnail(picture) {
 
 /**
  * Offers the grounds in #swatches, and the user's own picture in #picture.
- * @param chosen  key of the first ground; undefined: the first one offered
- * @param chose   called with the key when the user chooses; undefined for a picture
+ * @param first  the first ground: its key, or a picture; undefined: the first one offered
+ * @param chose  called with the ground when the user chooses
+ * @return a function that shows a ground
  */
-export function offerGrounds(stage, chosen, chose = () => {}) {
+export function offerGrounds(stage, first, chose = () => {}) {
     const radios = [];
-    const apply = (marked) => {
+    const show = (chosen) => {
+        const key = typeof chosen === 'object' ? undefined : chosen in kGrounds ? chosen : 'mat';
+        if (key === undefined) {
+            find('picture').nextElementSibling.style.backgroundImage = `url(${thumbnail(chosen)})`;
+        }
+        stage.wear((ground) => (key ? ground.choose(key) : ground.show(chosen, stage.renderer.capabilities.getMaxAnisotropy())));
         find('stage').style.setProperty('--mark', stage.ground.mark);
-        find('picture').classList.toggle('chosen', marked === undefined);
-        radios.forEach((radio) => { radio.checked = radio.value === marked; });
-    };
-    const choose = (key) => {
-        stage.wear((ground) => ground.choose(key));
-        apply(key);
+        find('picture').classList.toggle('chosen', key === undefined);
+        radios.forEach((radio) => { radio.checked = radio.value === key; });
     };
     for (const [key, { name, swatch }] of Object.entries(kGrounds)) {
         const label = document.createElement('label');
@@ -67,7 +69,7 @@ export function offerGrounds(stage, chosen, chose = () => {}) {
         const radio = Object.assign(document.createElement('input'), { type: 'radio', name: 'ground', value: key });
         radio.setAttribute('aria-label', name);
         radio.addEventListener('change', () => {
-            choose(key);
+            show(key);
             chose(key);
         });
         const dot = document.createElement('i');
@@ -84,17 +86,15 @@ export function offerGrounds(stage, chosen, chose = () => {}) {
         }
         try {
             const picture = await readPicture(file);
-            find('picture').nextElementSibling.style.backgroundImage = `url(${thumbnail(picture)})`;
-            stage.wear((ground) => ground.show(picture, stage.renderer.capabilities.getMaxAnisotropy()));
-            apply(undefined);
-            chose(undefined);
+            show(picture);
+            chose(picture);
             find('trouble').hidden = true;
         } catch {
             complain(say('{file} is no picture that this browser can read.', { file: file.name }));
         }
     });
-    choose(chosen in kGrounds ? chosen : 'mat');
-    return choose;
+    show(first);
+    return show;
 }
 
 export function complain(text) {

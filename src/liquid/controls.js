@@ -9,7 +9,7 @@ const squared = { to: (value) => Math.sqrt(value), from: (shown) => shown * show
 export const kSliders = [
     { group: 'Liquid', name: 'gravity', label: 'Gravity', min: 0, max: 20, step: 0.1, ...same, show: (v) => `${decimal(v.toFixed(1))} m/s²` },
     { group: 'Liquid', name: 'surfaceTension', label: 'Surface tension', min: 0, max: 4, step: 0.05, ...squared, show: (v) => (v > 0 ? `${decimal(v.toFixed(v < 1 ? 2 : 1))} N/m` : say('none')) },
-    { group: 'Liquid', name: 'particles', label: 'Particles', min: 1000, max: 20000, step: 500, ...same, show: count, again: true },
+    { group: 'Liquid', name: 'particles', label: 'Particles', min: 1000, max: 20000, step: 500, ...same, show: count },
 ];
 
 /** Scenes: their names, and the styles that suit them. */

@@ -62,14 +62,12 @@ class Liquid {
         this.tool = 'pour';
         this.ends = new AbortController();
         this.pointers = new Map();
-        this.recorders = { video: new Recorder(canvas, 'splash'), lottie: new LottieRecorder(this) };
+        this.recorders = { video: new Recorder(canvas, 'splash', () => this.panel.recordedNothing()), lottie: new LottieRecorder(this) };
         if (!this.recorder.works) {
             this.values.record = 'lottie';
         }
         this.restart();
-        for (const name of ['gravity', 'surfaceTension']) {
-            this.values[name] = this.liquid.get(name);
-        }
+        this.values = { ...this.values, ...Object.fromEntries(['gravity', 'surfaceTension'].map((name) => [name, this.liquid.get(name)])) };
         this.panel = new Panel(root, this);
         if (root.clientWidth >= kWide) {
             this.panel.act('panel');
@@ -109,31 +107,31 @@ class Liquid {
         this.panel?.showAll();
     }
 
-    /** Another scene, in the style that suits it. */
-    begin(preset) {
-        Object.assign(this.values, { preset, style: kPresets[preset][1] });
-        this.restart();
-        this.#fit();
-    }
-
-    set(name, value, { again = false } = {}) {
-        if (name === 'record' && this.recorder.runs) {
+    /** Puts other values into effect; another scene begins at once, another number of particles soon. */
+    take(values) {
+        const before = this.values;
+        const differ = (...names) => names.some((name) => values[name] !== before[name]);
+        if (differ('record') && this.recorder.runs) {
             this.panel.act('record');
         }
-        this.values[name] = value;
-        if (again) {
+        this.values = values;
+        if (differ('preset')) {
+            this.restart();
+            this.#fit();
+        } else if (differ('particles')) {
             clearTimeout(this.soon);
             this.soon = setTimeout(() => this.ends.signal.aborted || this.restart(), 250);
-        } else if (name === 'style') {
-            this.liquid.style = value;
-            this.outlines = this.liquid.outlines();
-        } else if (name === 'look') {
-            this.#dress();
-        } else if (name !== 'record') {
-            this.liquid.set({ [name]: value });
         }
+        if (differ('style')) {
+            this.liquid.style = values.style;
+            this.outlines = this.liquid.outlines();
+        }
+        if (differ('look')) {
+            this.#dress();
+        }
+        const { gravity, surfaceTension } = values;
+        this.liquid.set({ gravity, surfaceTension });
         this.draws = true;
-        this.panel.showAll();
     }
 
     #dress() {

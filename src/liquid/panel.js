@@ -35,10 +35,10 @@ export class Panel extends Overlay {
             return element('div', { class: 'choices' }, ...buttons.values());
         };
         const labels = Object.fromEntries(Object.entries(kPresets).map(([name, [label]]) => [name, label]));
-        groups.get('Liquid').before(element('h2', {}, 'Scene'), choices('preset', labels, (name) => this.part.begin(name)),
-            element('h2', {}, 'Style'), choices('style', kStyles, (name) => this.part.set('style', name)),
-            choices('look', kLooks, (name) => this.part.set('look', name)));
-        this.panel.append(element('h2', {}, 'Record as'), choices('record', kRecords, (name) => this.part.set('record', name)));
+        groups.get('Liquid').before(element('h2', {}, 'Scene'), choices('preset', labels, (name) => (name === this.part.values.preset ? this.part.restart() : this.change({ preset: name, style: kPresets[name][1] }))),
+            element('h2', {}, 'Style'), choices('style', kStyles, (name) => this.change({ style: name })),
+            choices('look', kLooks, (name) => this.change({ look: name })));
+        this.panel.append(element('h2', {}, 'Record as'), choices('record', kRecords, (name) => this.change({ record: name })));
     }
 
     showAll() {

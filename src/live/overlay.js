@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bar and the panel over a simulation that fills the page.
 import { say, translate } from '../html/words.js';
+import { History } from './history.js';
 
 const kIcons = {
     pause: '<path d="M9 5v14M15 5v14"/>',
@@ -10,9 +11,12 @@ const kIcons = {
     whole: '<path d="M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5"/>',
     record: '<circle cx="12" cy="12" r="5.5" fill="currentcolor" stroke="none"/>',
     picture: '<rect x="4" y="6" width="16" height="13" rx="2"/><circle cx="12" cy="12.5" r="3.3"/><path d="M9 6l1-2h4l1 2"/>',
+    undo: '<path d="M8.5 5 4.3 9.2l4.2 4.2M4.9 9.2h9a5.3 5.3 0 0 1 0 10.6H9.7"/>',
+    redo: '<path d="m15.5 5 4.2 4.2-4.2 4.2M19.1 9.2h-9a5.3 5.3 0 0 0 0 10.6h4.2"/>',
     panel: '<path d="M4 7h9M17 7h3M4 17h3M11 17h9"/><circle cx="15" cy="7" r="2"/><circle cx="9" cy="17" r="2"/>',
 };
 const kCalm = 3500;  // [ms] until the bar hides
+const kHinted = 6500;  // [ms] that a hint is shown
 
 export function element(kind, values = {}, ...content) {
     const made = document.createElement(kind);
@@ -31,8 +35,9 @@ export function element(kind, values = {}, ...content) {
 export class Overlay {
     /**
      * @param root   element of the part
-     * @param part   what is shown: `values` by the names of sliders, `set(name, value, {again})`, `tool`, `pause()`,
-     *               `restart()`, `savePicture()`, `recorder`, `leave` or undefined, `ends`, which aborts at its end
+     * @param part   what is shown: `values` by their names, those of sliders among them, never written to; `take(values)`, which
+     *               puts others into effect; `tool`, `pause()`, `restart()`, `savePicture()`, `recorder`, `leave` or undefined,
+     *               `ends`, which aborts at its end
      * @param about  `name`, which ids begin with; `label` of the bar; `title` of the panel; `icons` of its own; `bar`:
      *               icons, what they say, their keys, whether they are tools, whether a gap is before them; `sliders`, as
      *               in controls.js of the rain; `hint`
@@ -42,18 +47,19 @@ export class Overlay {
         this.part = part;
         this.about = about;
         this.icons = { ...kIcons, ...about.icons };
+        this.history = new History(part.values, Infinity, () => 0);
+        this.history.restIn(root);
         this.sliders = new Map();
         this.buttons = new Map();
         document.activeElement?.blur();  // the button that opened it must not take keys
         this.#makePanel();
         this.#makeBar();
-        this.hint = element('div', { class: 'hint' }, about.hint);
+        this.hint = element('div', { class: 'hint', role: 'status' }, about.hint);
         root.append(this.hint);
-        setTimeout(() => this.hint.classList.add('shown'), 2500);
+        this.#hint(2500);
         for (const gone of ['pointerdown', 'keydown']) {
-            addEventListener(gone, () => this.hint.classList.remove('shown'), { once: true, signal: part.ends.signal, capture: true });
+            addEventListener(gone, () => this.#endHint(), { signal: part.ends.signal, capture: true });
         }
-        setTimeout(() => this.hint.classList.remove('shown'), 9000);
         // Before what lies below, if anything does.
         addEventListener('keydown', (event) => this.#press(event), { signal: part.ends.signal, capture: true });
         for (const kind of ['pointermove', 'pointerdown']) {
@@ -62,6 +68,25 @@ export class Overlay {
         this.wake();
         translate(root);
         this.showAll();
+    }
+
+    #hint(wait) {
+        this.#endHint();
+        this.hinted = setTimeout(() => {
+            this.hint.classList.add('shown');
+            this.hinted = setTimeout(() => this.#endHint(), kHinted);
+        }, wait);
+    }
+
+    #endHint() {
+        clearTimeout(this.hinted);
+        this.hint.classList.remove('shown');
+    }
+
+    /** Says that the browser has recorded nothing. */
+    recordedNothing() {
+        this.hint.textContent = say('This browser has recorded nothing.');
+        this.#hint(0);
     }
 
     #makeBar() {
@@ -95,7 +120,13 @@ export class Overlay {
     #makePanel() {
         const { name, title } = this.about;
         this.figures = element('p', {}, '\u00a0');
-        this.panel = element('section', { class: 'panel away', id: `${name}-settings`, 'aria-label': 'Settings' }, element('h1', {}, title), this.figures);
+        this.steps = [['undo', 'Undo', 'Undo (Ctrl+Z)'], ['redo', 'Redo', 'Redo (Ctrl+Y)']].map(([step, label, about]) => {
+            const button = element('button', { type: 'button', id: `${name}-${step}`, title: about, 'aria-label': label, onclick: () => this.#step(step) });
+            this.#draw(button, step);
+            return button;
+        });
+        this.panel = element('section', { class: 'panel away', id: `${name}-settings`, 'aria-label': 'Settings' },
+            element('div', { class: 'steps' }, ...this.steps), element('h1', {}, title), this.figures);
         const groups = new Map();
         for (const slider of this.about.sliders) {
             if (!groups.has(slider.group)) {
@@ -115,10 +146,35 @@ export class Overlay {
     /** Adds to the panel what is special, once. */
     fill() {}
 
-    #slide({ name, from, again }) {
-        const { input } = this.sliders.get(name);
-        this.part.set(name, from(Number(input.value)), { again });
-        this.show(name);
+    #slide({ name, from }) {
+        this.change({ [name]: from(Number(this.sliders.get(name).input.value)) }, name);
+    }
+
+    /**
+     * Puts some other values into effect, as a step that can be undone.
+     * @param run  as of History
+     */
+    change(values, run) {
+        if (Object.entries(values).some(([name, value]) => value !== this.part.values[name])) {
+            this.exchange({ ...this.part.values, ...values }, run);
+        }
+    }
+
+    /** Puts other values into effect in the place of all. */
+    exchange(values, run) {
+        this.history.add(values, run);
+        this.part.take(values);
+        this.history.replace(this.part.values);  // what is not given follows from the others
+        this.showAll();
+    }
+
+    #step(step) {
+        const before = this.history.state;
+        const values = this.history[step]();
+        if (values !== before) {
+            this.part.take(values);
+            this.showAll();
+        }
     }
 
     /** Shows a slider's value. */
@@ -131,6 +187,8 @@ export class Overlay {
     }
 
     showAll() {
+        const { can_undo, can_redo } = this.history;
+        this.steps.forEach((button, k) => { button.disabled = ![can_undo, can_redo][k]; });
         for (const name of this.sliders.keys()) {
             if (this.part.values[name] !== undefined) {
                 this.show(name);
@@ -166,6 +224,12 @@ export class Overlay {
     #press(event) {
         event.stopPropagation();
         this.wake();
+        const step = { z: event.shiftKey ? 'redo' : 'undo', y: 'redo' }[event.key?.toLowerCase?.()];
+        if (step && (event.ctrlKey || event.metaKey)) {
+            event.preventDefault();
+            this.#step(step);
+            return;
+        }
         const chosen = this.about.bar.find(({ key }) => key !== undefined && key === event.key?.toLowerCase?.());
         const is_typed = event.target instanceof HTMLElement && event.target.matches('button, input:not([type=range])') && event.key === ' ';
         if (chosen && !is_typed && !event.ctrlKey && !event.metaKey && !event.altKey && !event.repeat) {

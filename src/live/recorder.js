@@ -14,18 +14,23 @@ export function savePicture(canvas, name) {
     canvas.toBlob((blob) => download(blob, `${name}.png`), 'image/png');
 }
 
+const kTypes = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm', 'video/mp4'];
+
 export class Recorder {
     #recorder;
+    #type = typeof MediaRecorder === 'function' ? kTypes.find((type) => MediaRecorder.isTypeSupported(type)) : undefined;
 
-    /** @param name  of the file, without its ending */
-    constructor(canvas, name) {
-        this.canvas = canvas;
-        this.name = name;
+    /**
+     * @param name   of the file, without its ending
+     * @param empty  called when the browser has recorded nothing
+     */
+    constructor(canvas, name, empty) {
+        Object.assign(this, { canvas, name, empty });
     }
 
-    /** Whether the browser can. */
+    /** Whether the browser says that it can; WebKit for GTK with an older GStreamer says so and records nothing. */
     get works() {
-        return typeof MediaRecorder === 'function' && typeof this.canvas.captureStream === 'function';
+        return this.#type !== undefined && typeof this.canvas.captureStream === 'function';
     }
 
     get runs() {
@@ -33,11 +38,14 @@ export class Recorder {
     }
 
     start() {
-        const type = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/webm', 'video/mp4'].find((kind) => MediaRecorder.isTypeSupported(kind));
+        const type = this.#type;
         const recorder = new MediaRecorder(this.canvas.captureStream(60), { mimeType: type, videoBitsPerSecond: 16e6 });
         const parts = [];
         recorder.addEventListener('dataavailable', ({ data }) => parts.push(data));
-        recorder.addEventListener('stop', () => download(new Blob(parts, { type }), type.startsWith('video/mp4') ? `${this.name}.mp4` : `${this.name}.webm`));
+        recorder.addEventListener('stop', () => {
+            const video = new Blob(parts, { type });
+            video.size > 0 ? download(video, `${this.name}.${type.startsWith('video/mp4') ? 'mp4' : 'webm'}`) : this.empty();
+        });
         recorder.start(1000);
         this.#recorder = recorder;
     }

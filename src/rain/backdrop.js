@@ -6,14 +6,40 @@ import { say } from '../html/words.js';
 const kPanorama = 0.01;
 const kMost = 4096;  // [px] of a picture's longer side
 
+async function videoOf(file) {
+    const video = Object.assign(document.createElement('video'), { src: URL.createObjectURL(file), muted: true, loop: true, playsInline: true });
+    try {
+        await video.play();
+    } catch (error) {
+        URL.revokeObjectURL(video.src);
+        throw error;
+    }
+    return video;
+}
+
+/** A file, or a picture by its URL, as the view shows it. */
+async function pictureOf(what) {
+    if (what instanceof Blob && what.type.startsWith('video/')) {
+        return videoOf(what);
+    }
+    const picture = what instanceof Blob ? what : Object.assign(new Image(), { src: what });
+    await picture.decode?.();
+    const bitmap = await createImageBitmap(picture);
+    const { width, height } = bitmap;
+    const scale = Math.min(kMost / Math.max(width, height), 1);
+    return scale < 1 ?
+        createImageBitmap(bitmap, { resizeWidth: Math.round(scale * width), resizeHeight: Math.round(scale * height), resizeQuality: 'high' }) : bitmap;
+}
+
 export class Backdrop {
     /**
      * @param view   of view.js
      * @param root   element on which files are dropped
      * @param signal ends it
+     * @param chose  called with a file that is dropped or pasted
      * @param shown  called with `street` or `own`, and why a file is not shown
      */
-    constructor(view, root, signal, shown) {
+    constructor(view, root, signal, chose, shown) {
         this.view = view;
         this.shown = shown;
         const drop = document.createElement('div');
@@ -34,13 +60,13 @@ export class Backdrop {
             drop.hidden = true;
             const [file] = event.dataTransfer.files;
             if (file) {
-                this.open(file);
+                chose(file);
             }
         });
         addEventListener('paste', (event) => {
             const [file] = event.clipboardData?.files ?? [];
             if (file) {
-                this.open(file);
+                chose(file);
             }
         }, { signal });
     }
@@ -50,53 +76,23 @@ export class Backdrop {
         return Boolean(this.video);
     }
 
-    street() {
-        this.#end();
-        this.view.setPicture();
-        this.shown('street');
-    }
-
-    /** Shows a file. */
-    async open(file) {
-        const url = URL.createObjectURL(file);
+    /** Shows a file, a picture by its URL, which may be data, or the street if undefined. */
+    async show(what) {
+        this.wanted = what;
         try {
-            await (file.type.startsWith('video/') ? this.#play(url) : this.#show(await createImageBitmap(file)));
-            this.shown('own');
+            const picture = what === undefined ? undefined : await pictureOf(what);
+            if (this.wanted !== what) {
+                return;  // another one was chosen meanwhile
+            }
+            this.#end();
+            this.video = picture instanceof HTMLVideoElement ? picture : undefined;
+            this.view.setPicture(picture, { panorama: !this.video && picture && Math.abs(picture.width / picture.height - 2) < kPanorama * 2 });
+            this.shown(picture ? 'own' : 'street');
         } catch {
-            this.shown('own', say('{file} is not a picture or video that this browser reads', { file: file.name }));
-        } finally {
-            if (!this.video) {
-                URL.revokeObjectURL(url);
+            if (this.wanted === what) {
+                this.shown('own', say('{file} is not a picture or video that this browser reads', { file: what.name }));
             }
         }
-    }
-
-    /** Shows a picture by its URL, which may be data. */
-    async load(url) {
-        const picture = new Image();
-        picture.src = url;
-        await picture.decode();
-        this.#show(await createImageBitmap(picture));
-        this.shown('own');
-    }
-
-    async #show(bitmap) {
-        const { width, height } = bitmap;
-        const scale = Math.min(kMost / Math.max(width, height), 1);
-        const small = scale < 1
-            ? await createImageBitmap(bitmap, { resizeWidth: Math.round(scale * width), resizeHeight: Math.round(scale * height), resizeQuality: 'high' })
-            : bitmap;
-        this.#end();
-        this.view.setPicture(small, { panorama: Math.abs(width / height - 2) < kPanorama * 2 });
-    }
-
-    async #play(url) {
-        const video = document.createElement('video');
-        Object.assign(video, { src: url, muted: true, loop: true, playsInline: true });
-        await video.play();
-        this.#end();
-        this.video = video;
-        this.view.setPicture(video);
     }
 
     #end() {

@@ -34,18 +34,18 @@ export class Panel extends Overlay {
         this.coatings = new Map(Object.keys(kCoatings).map((name) => [name, element('button', { type: 'button', onclick: () => this.coat(name) }, name)]));
         groups.get('Glass').children[0].after(element('div', { class: 'choices' }, ...this.coatings.values()));
         const file = element('input', { type: 'file', accept: 'image/*,video/*', id: 'rain-file', hidden: '', onchange: () => {
-            this.rain.backdrop.open(file.files[0]);
+            this.change({ backdrop: file.files[0] });
             file.value = '';
         } });
         this.backdrops = new Map([
-            ['street', element('button', { type: 'button', 'aria-pressed': 'true', onclick: () => this.rain.backdrop.street() }, 'Evening street')],
+            ['street', element('button', { type: 'button', 'aria-pressed': 'true', onclick: () => this.change({ backdrop: undefined }) }, 'Evening street')],
             ['own', element('button', { type: 'button', 'aria-pressed': 'false', title: 'A picture, a panorama or a video; or drop one on the page', onclick: () => file.click() }, 'Picture or video…')],
         ]);
         this.backdrop_trouble = element('p', { role: 'alert', hidden: '' });
         groups.get('View').children[0].after(element('div', { class: 'choices' }, ...this.backdrops.values(), file), this.backdrop_trouble);
         this.panel.append(element('h2', {}, 'Figures of the thesis'), element('div', { class: 'choices' },
             ...Object.entries(kFigures).map(([figure, what]) => element('button', { type: 'button', title: say('Figure {figure}: {what}', { figure, what: say(what) }), id: `rain-figure-${figure}`,
-                onclick: () => this.rain.show(figure) }, figure))));
+                onclick: () => this.exchange(this.rain.valuesOf(figure)) }, figure))));
     }
 
     show(name) {
@@ -66,10 +66,7 @@ export class Panel extends Overlay {
 
     coat(name) {
         const [degrees, hysteresis, kinetic] = kCoatings[name];
-        this.rain.set('contactAngle', angleOfCoating(degrees));
-        this.rain.set('hysteresis', hysteresis);
-        this.rain.set('kineticFraction', kinetic);
-        this.showAll();
+        this.change({ contactAngle: angleOfCoating(degrees), hysteresis, kineticFraction: kinetic });
     }
 
     showBackdrop(name, trouble) {
@@ -89,8 +86,7 @@ export class Panel extends Overlay {
 
     act(icon) {
         if (icon === 'wipers') {
-            this.rain.set('wiperPeriod', this.rain.values.wiperPeriod > 0 ? 0 : 2.4);
-            this.show('wiperPeriod');
+            this.change({ wiperPeriod: this.rain.values.wiperPeriod > 0 ? 0 : 2.4 });
             return;
         }
         super.act(icon);

@@ -74,11 +74,11 @@ class Rain {
         this.root = root;
         this.canvas = canvas;
         this.make = windshield;
-        this.preset = given.preset ?? 'figure-3.12';
         this.surface = given.surface && meshOf(given.surface);
         this.warm_up = given.warm_up ?? 20;
-        /** What the sliders show: parameters, and those of the view. */
+        /** Parameters, and values of the view. Never written to. */
         this.values = {
+            preset: given.preset ?? 'figure-3.12', backdrop: given.background,
             wind: 0, distance: given.eye_distance ?? 0.3, blur: given.background_blur ?? 2.6 * Math.PI / 180, exposure: 1, runoff: 1,
             ...given.parameters,
         };
@@ -91,14 +91,12 @@ class Rain {
         this.ends = new AbortController();
         this.view = new View(canvas);
         this.restart();
-        for (const name of parametersOf(this.surface)) {
-            this.values[name] ??= this.windshield.get(name);
-        }
-        this.backdrop = new Backdrop(this.view, root, this.ends.signal, (name, trouble) => this.panel?.showBackdrop(name, trouble));
-        this.recorder = new Recorder(canvas, 'rain');
+        this.backdrop = new Backdrop(this.view, root, this.ends.signal, (backdrop) => this.panel.change({ backdrop }),
+            (name, trouble) => this.panel?.showBackdrop(name, trouble));
+        this.recorder = new Recorder(canvas, 'rain', () => this.panel.recordedNothing());
         this.panel = new Panel(root, this);
         if (given.background) {
-            this.backdrop.load(given.background, 'own');
+            this.backdrop.show(given.background);
         }
         this.#followPointer();
         addEventListener('resize', () => this.#fit(), { signal: this.ends.signal });
@@ -111,7 +109,7 @@ class Rain {
     close() {
         this.ends.abort();
         this.recorder.stop();
-        this.backdrop.street();
+        this.backdrop.show(undefined);
         this.view.close();
         this.windshield.free();
         this.root.remove();
@@ -120,8 +118,10 @@ class Rain {
     /** A dry glass, and the rain on it until now. */
     restart() {
         this.windshield?.free();
-        const { wind, distance, blur, exposure, ...parameters } = this.values;
-        this.windshield = this.make({ preset: this.preset, surface: this.surface, ...parameters, mapWidth: this.map_width });
+        const { preset, backdrop, wind, distance, blur, exposure, ...parameters } = this.values;
+        this.windshield = this.make({ preset, surface: this.surface, ...parameters, mapWidth: this.map_width });
+        // Those that are not given are the preset's.
+        this.values = { ...Object.fromEntries(parametersOf(this.surface).map((name) => [name, this.windshield.get(name)])), ...this.values };
         this.#setSpeed();
         this.view.setGlass(this.windshield);
         this.behind = 0;       // time that has passed and was not simulated [s]
@@ -132,27 +132,30 @@ class Rain {
         this.panel?.showAll();
     }
 
-    /** Values of a figure of the thesis. */
-    show(figure) {
-        this.preset = `figure-${figure}`;
-        const { wind, distance, blur, exposure, mist, runoff, splashes, glassWidth, glassHeight, seed } = this.values;
-        this.values = { wind: 0, distance, blur, exposure, mist, runoff, splashes, glassWidth, glassHeight, seed };
-        this.restart();
-        for (const name of parametersOf(this.surface)) {
-            this.values[name] ??= this.windshield.get(name);
-        }
-        this.panel.showAll();
+    /** Values of a figure of the thesis, with what it does not have as it is. */
+    valuesOf(figure) {
+        const { backdrop, distance, blur, exposure, mist, runoff, splashes, glassWidth, glassHeight, seed } = this.values;
+        return { preset: `figure-${figure}`, backdrop, wind: 0, distance, blur, exposure, mist, runoff, splashes, glassWidth, glassHeight, seed };
     }
 
-    set(name, value, { again = false } = {}) {
-        this.values[name] = value;
-        if (again) {
+    /** Puts other values into effect; another preset begins at once, another slope soon. */
+    take(values) {
+        const before = this.values;
+        const lacks = parametersOf(this.surface).some((name) => values[name] === undefined);
+        const differ = Object.keys(values).filter((name) => values[name] !== before[name]);
+        this.values = values;
+        if (lacks || differ.includes('preset')) {
+            this.restart();
+        } else if (differ.includes('slope')) {
             clearTimeout(this.soon);
             this.soon = setTimeout(() => this.ends.signal.aborted || this.restart(), 250);
-        } else if (name === 'speed' || name === 'wind') {
-            this.#setSpeed();
-        } else if (kWindshieldParameters.includes(name)) {
-            this.windshield.set({ [name]: value });
+        }
+        for (const name of differ.filter((each) => each !== 'slope' && kWindshieldParameters.includes(each))) {
+            this.windshield.set({ [name]: values[name] });
+        }
+        this.#setSpeed();
+        if (differ.includes('backdrop')) {
+            this.backdrop.show(values.backdrop);
         }
         this.draws = true;
     }

@@ -5,12 +5,12 @@ import { complain, download, fileStem, find, tabulate } from '../html/controls.j
 import { CoveredObject } from '../html/covered_object.js';
 import { digits, length, volume } from '../html/figures.js';
 import { say, translate } from '../html/words.js';
+import { History } from '../live/history.js';
 import { bottle } from './bottle.js';
 import markup from './dew.html';
 import {
     dewCommandOf, dewFields, dewOptionsOf, formOf, newSettings, settingsFrom, shownSettings, withPreset, withSetting,
 } from './dew_fields.js';
-import { History } from './history.js';
 import { NoObject } from './no_object.js';
 import { hasObject, readObject, sizeOf } from './object_files.js';
 import { buildForm } from './physics_form.js';
@@ -37,7 +37,8 @@ export class Dew {
     #view;
     #say;
     #keeper;
-    #history = new History({ object: undefined, settings: undefined }, kMostHistory, bytesIn);
+    #show_ground;
+    #history = new History({ object: undefined, settings: undefined, ground: undefined }, kMostHistory, bytesIn);
     #shown = false;
 
     /**
@@ -45,12 +46,15 @@ export class Dew {
      * @param view    Studio's view; undefined without 3D
      * @param say     says a sentence to who cannot see
      * @param keeper  as of Studio; or undefined
+     * @param show_ground  shows a ground in the view; undefined: that of the drawing, until one is chosen for dew
      */
-    constructor({ parts, view, say, keeper }) {
+    constructor({ parts, view, say, keeper, show_ground }) {
         this.#parts = parts;
         this.#view = view;
         this.#say = say;
         this.#keeper = keeper;
+        this.#show_ground = show_ground;
+        this.#history.restIn(window);
         const template = document.createElement('template');
         template.innerHTML = markup;
         const [panel, saves] = template.content.children;
@@ -94,7 +98,7 @@ export class Dew {
             this.#buildForms();
             const kept = await this.#keeper?.beside('dew');
             const settings = kept ? settingsFrom(this.#known, kept.settings) : newSettings(this.#known);
-            this.#history.reset({ object: this.#history.state.object ?? kept?.object, settings });
+            this.#history.reset({ object: this.#state.object ?? kept?.object, settings, ground: this.#state.ground ?? kept?.ground });
             this.#solve();
         })();
         return this.#started;
@@ -172,6 +176,11 @@ export class Dew {
         this.#say(say('{file} opened', { file: object.name }));
     }
 
+    /** Takes a ground for the view. */
+    choose(ground) {
+        this.#change({ ground });
+    }
+
     /** Without an object, as at first. */
     clear() {
         if (this.#known) {
@@ -182,10 +191,10 @@ export class Dew {
     #keep() {
         clearTimeout(this.#keeping);
         this.#keeping = setTimeout(() => {
-            const { object, settings } = this.#state;
+            const { object, settings, ground } = this.#state;
             if (this.#known && settings) {
                 const kept = object && sizeOf(object) <= kMostKept ? object : undefined;
-                this.#keeper?.keepBeside('dew', { shown: this.#shown, settings, object: kept });
+                this.#keeper?.keepBeside('dew', { shown: this.#shown, settings, object: kept, ground: typeof ground === 'string' ? ground : undefined });
             }
         }, kRest);
     }
@@ -311,7 +320,8 @@ export class Dew {
         if (!this.#shown || !this.#known) {
             return;
         }
-        const { object, settings } = this.#state;
+        const { object, settings, ground } = this.#state;
+        this.#show_ground(ground);
         const report = this.#made?.object === object ? this.#made?.report : undefined;
         const shown = shownSettings(this.#known, settings, object?.name ?? '', report);
         this.#showFields(shown);
@@ -401,7 +411,7 @@ export class Dew {
     }
 
     #buildForms() {
-        const changed = (name, value) => this.#change({ settings: withSetting(this.#state.settings, name, value) }, name);
+        const changed = (name, value, run) => this.#change({ settings: withSetting(this.#state.settings, name, value) }, run);
         const { fields, presets } = this.#known;
         this.#showFields = buildForm(fields.filter(({ file }) => !file), { plain: find('dew-fields'), more: find('dew-more') }, 'dew', changed);
         this.#showForm = buildForm(fields.filter(({ file }) => file), { plain: find('dew-form') }, 'dew', changed);

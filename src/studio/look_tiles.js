@@ -17,7 +17,7 @@ export function buildTiles(host, { choices }, chose) {
     Object.keys(kLooks).forEach((look, index) => {
         const button = Object.assign(document.createElement('button'), { type: 'button', value: look, title: choices[look] });
         button.setAttribute('aria-label', choices[look]);
-        button.addEventListener('click', () => chose(look));
+        button.addEventListener('click', () => button.ariaPressed === 'true' || chose(look));
         const drop = document.createElement('i');
         Object.assign(drop.style, {
             backgroundImage: `url(${picture})`, backgroundPosition: `${-kPitch / 2 * index}px 0`, backgroundSize: 'auto 100%',

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Strokes on a photograph that say what is liquid and what is dry, and the rim that follows from them.
 import { find } from '../html/controls.js';
+import { History } from '../live/history.js';
 import { rimPath } from './contour.js';
 import { blank, copyOf, isDry } from './coverage.js';
-import { History } from './history.js';
 import { Sheet } from './sheet.js';
 
 const kInks = { liquid: [30, 136, 255], dry: [255, 136, 0] };

@@ -53,7 +53,8 @@ function scaleOf(field) {
  * Builds the controls.
  * @param hosts    {plain, more}: elements for usual and for rare fields
  * @param prefix   of the controls' ids
- * @param changed  called with the name and the new value of a field
+ * @param changed  called with the name and the new value of a field, and the name of the run of which the change is a part,
+ *                 as of History; undefined: it is complete
  * @return a function that shows settings
  */
 export function buildForm(fields, hosts, prefix, changed) {
@@ -75,7 +76,7 @@ export function buildForm(fields, hosts, prefix, changed) {
             slider.setAttribute('aria-label', field.label);
             slider.addEventListener('input', () => {
                 control.value = scale.value(slider.value);
-                changed(field.name, scale.value(slider.value));
+                changed(field.name, scale.value(slider.value), field.name);
             });
             row.append(slider);
         }
@@ -83,7 +84,11 @@ export function buildForm(fields, hosts, prefix, changed) {
             if (!control.checkValidity()) {
                 return;
             }
-            changed(field.name, field.choices ? control.value : control.value === '' ? '' : control.valueAsNumber);
+            if (field.choices) {
+                changed(field.name, control.value);
+            } else {
+                changed(field.name, control.value === '' ? '' : control.valueAsNumber, field.name);
+            }
         });
         const host = field.more ? hosts.more : hosts.plain;
         host.append(row);

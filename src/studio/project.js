@@ -105,8 +105,9 @@ function objectOf({ name, data }) {
 }
 
 export async function textOf(project) {
-    const { layers, object, ...given } = project;
-    const rest = { ...given, ...object && { object: await textOfObject(object) } };
+    const { layers, object, ground, ...given } = project;
+    // A ground of the user's own is a picture, which is not kept.
+    const rest = { ...given, ...typeof ground === 'string' && { ground }, ...object && { object: await textOfObject(object) } };
     const saved = await Promise.all(layers.map(async ({ id, mask, ...layer }) => ({ ...layer, mask: await dataUrl(await pictureOf(mask)) })));
     return JSON.stringify({ format: kFormat, version: kVersion, ...rest, layers: saved }, null, 1);
 }

@@ -5,11 +5,11 @@ import { length, rows, volume } from '../html/figures.js';
 import { readPicture } from '../html/read_picture.js';
 import { roundLength } from '../html/stage.js';
 import { decimal, say, translate } from '../html/words.js';
+import { History } from '../live/history.js';
 import { blank, isDry, overlap } from './coverage.js';
 import { Dew } from './dew.js';
 import { lookNear } from './colours.js';
 import { buildGallery, coverageOf, kDrawings } from './gallery.js';
-import { History } from './history.js';
 import { ImportDialog } from './import_dialog.js';
 import { beginLanguage, offerLanguages } from './language.js';
 import { buildLayers } from './layers.js';
@@ -36,8 +36,10 @@ const kExample = 'example';  // id of the droplet that is shown while there is n
 const kExampleTriangles = 8000;
 const root = document.documentElement;
 
-/** Keys of shortcuts must not act while somebody writes. */
+/** Keys of tools must not act while somebody writes. */
 const writes = (target) => target.matches?.('input:not([type=range], [type=checkbox], [type=radio]), select, textarea');
+/** Where the browser itself undoes what has been written. */
+const undoes = (target) => writes(target) && !target.matches('select, [type=number]');
 
 class Studio {
     constructor({ wasm, worker_url, project, keeper, kept, source }) {
@@ -79,7 +81,9 @@ class Studio {
         this.#offerKeys();
         this.#offerView();
         this.import_dialog = new ImportDialog({ wasm, worker_url });
-        this.dew = new Dew({ parts: { wasm, worker_url }, view: this.view, say: (text) => this.#say(text), keeper });
+        this.dew = new Dew({
+            parts: { wasm, worker_url }, view: this.view, say: (text) => this.#say(text), keeper, show_ground: (ground) => this.#showGround(ground),
+        });
         this.#offerBeginning();
         this.#offerLanguages();
         this.#update(undefined);
@@ -155,6 +159,9 @@ class Studio {
         find('paper').classList.toggle('laid', objectBelow(project) !== undefined);
         find('laid-name').textContent = project.object?.name ?? '';
         this.#showObject(objectBelow(project));
+        if (!this.dew.is_shown) {
+            this.#showGround();
+        }
         this.show_layers(project);
         this.show_liquid(selectedLayer(project).liquid);
         this.show_scene(scene);
@@ -165,6 +172,14 @@ class Studio {
         find('layer-down').disabled = project.selected === 0;
         this.#solve(before);
         this.#settle();
+    }
+
+    /** Shows a ground in the view; undefined: that of the drawing. */
+    #showGround(ground = this.project.ground) {
+        if (ground !== this.ground_shown) {
+            this.ground_shown = ground;
+            this.show_ground?.(ground);
+        }
     }
 
     #extent() {
@@ -308,7 +323,6 @@ class Studio {
         ++this.strokes;
         this.solver.hold(true);
         this.keeper?.wait();
-        this.history.rest();
         find('hint').hidden = true;
         find('kept').hidden = true;
         if (this.known.has(kExample)) {
@@ -464,17 +478,17 @@ class Studio {
     }
 
     #offerForms() {
-        this.show_liquid = buildForm(kLayerFields, { plain: find('liquid'), more: find('liquid-more') }, 'liquid', (name, value) => {
+        this.show_liquid = buildForm(kLayerFields, { plain: find('liquid'), more: find('liquid-more') }, 'liquid', (name, value, run) => {
             const layer = selectedLayer(this.project);
-            this.#change(withLayer(this.project, { liquid: { ...layer.liquid, [name]: value } }), `${layer.id} ${name}`);
+            this.#change(withLayer(this.project, { liquid: { ...layer.liquid, [name]: value } }), run && `${layer.id} ${run}`);
         });
-        this.show_scene = buildForm(kSceneFields, { plain: find('scene') }, 'scene', (name, value) => {
+        this.show_scene = buildForm(kSceneFields, { plain: find('scene') }, 'scene', (name, value, run) => {
             if (value === 'object' && !this.project.object) {
                 this.show_scene(this.project.scene);  // until there is one
                 find('lay-file').click();
                 return;
             }
-            this.#change({ ...this.project, scene: { ...this.project.scene, [name]: value } }, name);
+            this.#change({ ...this.project, scene: { ...this.project.scene, [name]: value } }, run);
         });
         find('name').addEventListener('input', () => this.#change({ ...this.project, name: find('name').value.trim() || kName }, 'name'));
         find('opacity').addEventListener('input', () =>
@@ -527,7 +541,7 @@ class Studio {
         this.show_layers = buildLayers(find('layers'), {
             select: (selected) => this.#select(selected),
             show: (index, visible) => this.#change(withLayer(this.project, { visible }, index)),
-            rename: (index, name) => this.#change(withLayer(this.project, { name }, index)),
+            rename: (index, name) => (name === this.project.layers[index].name ? this.show_layers(this.project) : this.#change(withLayer(this.project, { name }, index))),
         });
         const insert = (layer) => {
             const { layers, selected } = this.project;
@@ -550,8 +564,11 @@ class Studio {
         });
         find('layer-up').addEventListener('click', () => swap(1));
         find('layer-down').addEventListener('click', () => swap(-1));
-        find('layer-clear').addEventListener('click', () =>
-            this.#change(withLayer(this.project, { mask: blank(this.project.width, this.project.height) })));
+        find('layer-clear').addEventListener('click', () => {
+            if (!isDry(selectedLayer(this.project).mask)) {
+                this.#change(withLayer(this.project, { mask: blank(this.project.width, this.project.height) }));
+            }
+        });
         find('layer-remove').addEventListener('click', () => {
             const { layers, selected } = this.project;
             this.#say(say('{layer} removed', { layer: shownName(layers[selected].name) }));
@@ -563,7 +580,6 @@ class Studio {
     #select(selected) {
         const before = this.project;
         this.sheet.cancel();
-        this.history.rest();
         this.history.replace({ ...before, selected });
         this.keeper?.keep(this.project);
         this.#update(before);
@@ -586,12 +602,12 @@ class Studio {
         }
     }
 
-    #replace(project) {
+    /** Shows another project, as a step that can be undone, so nothing is asked. */
+    #replace(project, unsaved) {
         const before = this.project;
-        this.history.reset(project);
-        this.#altered(false);
+        this.history.add(project);
+        this.#altered(unsaved);
         this.#update(before);
-        this.choose_ground?.(project.ground);
     }
 
     async #save(kind) {
@@ -621,10 +637,7 @@ class Studio {
                     this.dew.clear();
                     return;
                 }
-                const before = this.project;
-                this.history.add(newProject());  // it can be undone, so nothing is asked
-                this.#altered(this.unsaved);
-                this.#update(before);
+                this.#replace(newProject(), this.unsaved);
                 this.#say(say('New project'));
             });
         }
@@ -676,7 +689,7 @@ class Studio {
         find('trouble').hidden = true;
         try {
             if (/\.json$/i.test(file.name) || file.type === 'application/json') {
-                this.#replace(await projectOf(await file.text()));
+                this.#replace(await projectOf(await file.text()), false);
                 this.#say(say('{file} opened', { file: shownName(this.project.name) }));
             } else {
                 await this.#import(await readPicture(file, kDrawnSide), file.name);
@@ -743,6 +756,7 @@ class Studio {
     #offerKeys() {
         find('undo').addEventListener('click', () => this.#undo('undo'));
         find('redo').addEventListener('click', () => this.#undo('redo'));
+        this.history.restIn(window);
         addEventListener('keydown', (event) => {
             const key = event.key.toLowerCase();
             if (find('import').open || find('object').open || event.altKey) {
@@ -753,7 +767,7 @@ class Studio {
                     z: () => this.#undo(event.shiftKey ? 'redo' : 'undo'), y: () => this.#undo('redo'),
                     s: () => (this.dew.is_shown ? this.dew.save('glb') : this.#save('project')), o: () => find('file').click(),
                 }[key];
-                if (act && !(writes(event.target) && 'zy'.includes(key))) {
+                if (act && !(undoes(event.target) && 'zy'.includes(key))) {
                     event.preventDefault();
                     act();
                 }
@@ -834,9 +848,10 @@ class Studio {
         this.times = new Times(stage.renderer.getContext());
         window.studioTimes = this.times;
         this.times.learn(() => stage.renderer.render(stage.scene, stage.camera));
-        this.choose_ground = offerGrounds(stage, this.project.ground, (ground) => {
-            this.history.replace({ ...this.project, ground });
-            this.#altered();
+        this.ground_shown = this.project.ground;
+        this.show_ground = offerGrounds(stage, this.ground_shown, (ground) => {
+            this.ground_shown = ground;
+            this.dew.is_shown ? this.dew.choose(ground) : this.#change({ ...this.project, ground });
         });
         find('reset').addEventListener('click', () => stage.reset());
         find('times').addEventListener('toggle', () => this.#showTimes());

@@ -12,7 +12,7 @@ const module = (path) => import(pathToFileURL(resolve(SOURCES, path)).href);
 const { blank, drawPiece, flood, isDry, overlap, shifted } = await module('studio/coverage.js');
 const { rimPath } = await module('studio/contour.js');
 const { coloursOf, lookNear } = await module('studio/colours.js');
-const { History } = await module('studio/history.js');
+const { History } = await module('live/history.js');
 const { kLooks } = await module('studio/looks.js');
 const { commandOf, kLayerFields, kSceneFields, optionsOf, settingsOf } = await module('studio/physics.js');
 const { boundsOf, largestPlace } = await module('studio/largest_place.js');

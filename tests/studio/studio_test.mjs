@@ -749,6 +749,16 @@ if (DROPLET_SHAPE) {
     });
 }
 
+studio('a tablet shows all tools, and the example above the drawings to begin with', { viewport: { width: 1024, height: 768 }, hasTouch: true }, async (page) => {
+    await settle(page);
+    const [begin, stage, setting] = await Promise.all(['#begin', '#stage', '#setting'].map((id) => page.locator(id).boundingBox()));
+    assert.ok(begin.y - stage.y > 0.5 * stage.height);
+    for (const label of await page.locator('#tools label').all()) {
+        const { y, height } = await label.boundingBox();
+        assert.ok(y + height <= setting.y);
+    }
+});
+
 studio('on a phone all controls are reached with a finger', kPhone, async (page) => {
     const overflow = () => page.evaluate(() => Math.max(document.documentElement.scrollWidth, document.body.scrollWidth) - innerWidth);
     assert.equal(await overflow(), 0);

@@ -426,6 +426,7 @@ export const kGerman = new Map(Object.entries({
     'Particles': 'Partikel',
     '{count} particles · {rate} frames/s': '{count} Partikel · {rate} Bilder/s',
     'Simulation and outlines {busy} ms a frame': 'Simulation und Umrisse {busy} ms je Bild',
+    'This browser has recorded nothing.': 'Dieser Browser hat nichts aufgenommen.',
     'Record as': 'Aufnehmen als',
     'Video': 'Video',
     'Lottie': 'Lottie',

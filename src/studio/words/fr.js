@@ -427,6 +427,7 @@ export const kFrench = new Map(Object.entries({
     'Particles': 'Particules',
     '{count} particles · {rate} frames/s': '{count} particules · {rate} images/s',
     'Simulation and outlines {busy} ms a frame': 'Simulation et contours {busy} ms par image',
+    'This browser has recorded nothing.': 'Ce navigateur n’a rien enregistré.',
     'Record as': 'Filmer en',
     'Video': 'Vidéo',
     'Lottie': 'Lottie',

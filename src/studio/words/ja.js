@@ -426,6 +426,7 @@ export const kJapanese = new Map(Object.entries({
     'Particles': '粒子',
     '{count} particles · {rate} frames/s': '粒子 {count} · {rate} フレーム/s',
     'Simulation and outlines {busy} ms a frame': 'シミュレーションと輪郭 1フレーム {busy} ms',
+    'This browser has recorded nothing.': 'このブラウザーでは何も録画されませんでした。',
     'Record as': '録画形式',
     'Video': '動画',
     'Lottie': 'Lottie',

@@ -426,6 +426,7 @@ export const kChinese = new Map(Object.entries({
     'Particles': '粒子',
     '{count} particles · {rate} frames/s': '{count} 个粒子 · {rate} 帧/s',
     'Simulation and outlines {busy} ms a frame': '模拟与轮廓每帧 {busy} ms',
+    'This browser has recorded nothing.': '此浏览器没有录制到任何内容。',
     'Record as': '录制为',
     'Video': '视频',
     'Lottie': 'Lottie',

@@ -1,56 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pages of the command in Firefox, whose engine is not that of the other tests: node --test firefox_test.mjs
-// STUDIO, RAIN and VIEWER are pages, of `studio`, of `windshield --live` and of `--html`; VALIDATOR the script that checks
-// glTF; FIREFOX the browser.
+// The pages of the command in Firefox or WebKit, whose engines are not that of the other tests: node --test pages_test.mjs
+// BROWSER is firefox or webkit; STUDIO, RAIN and VIEWER are pages, of `studio`, of `windshield --live` and of `--html`;
+// VALIDATOR is the script that checks glTF.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { after, before, test } from 'node:test';
-import { pathToFileURL } from 'node:url';
-import puppeteer from 'puppeteer-core';
 import { drawThrough } from './controls.mjs';
 
-const { STUDIO, RAIN, VIEWER, VALIDATOR, FIREFOX = '/usr/bin/firefox-esr' } = process.env;
+const { BROWSER, STUDIO, RAIN, VIEWER, VALIDATOR } = process.env;
+const { begin } = await import(`./${BROWSER}.mjs`);
 const kSize = { width: 1100, height: 640 };
 const kWait = { timeout: 120_000 };  // enough on a busy machine, without a graphics card
 
-const downloads = mkdtempSync(join(tmpdir(), 'firefox-'));
+const downloads = mkdtempSync(join(tmpdir(), `${BROWSER}-`));
 let browser;
-before(async () => {
-    browser = await puppeteer.launch({
-        browser: 'firefox', executablePath: FIREFOX, headless: false,  // Firefox has no WebGL without a display
-        args: [`--width=${kSize.width}`, `--height=${kSize.height + 100}`],
-        extraPrefsFirefox: {
-            'browser.download.dir': downloads, 'browser.download.folderList': 2, 'browser.download.useDownloadDir': true, 'webgl.force-enabled': true,
-        },
-    });
-});
+before(async () => { browser = await begin(downloads, kSize); });
 after(async () => {
-    await browser?.close();
+    await browser?.end?.();
     rmSync(downloads, { recursive: true });
 });
 
 /** Runs a test in a page, in which nothing may complain, and with nothing kept of other tests. */
-function firefox(name, file, run) {
-    test(name, async () => {
-        const context = await browser.createBrowserContext();
-        const page = await context.newPage();
-        const complaints = [];
-        page.on('pageerror', (error) => complaints.push(error.message));
-        page.on('console', (message) => {
-            if (['error', 'assert'].includes(message.type())) {
-                complaints.push(message.text());
-            }
-        });
-        // Firefox tells a page of promises that nobody caught, but not the test.
-        await page.evaluateOnNewDocument(() => addEventListener('unhandledrejection', ({ reason }) => console.error(String(reason))));
-        await page.setViewport(kSize);
-        await page.goto(pathToFileURL(resolve(file)).href);
-        await run(page);
+function inBrowser(name, file, run) {
+    test(`${BROWSER}: ${name}`, async () => {
+        const { page, close } = await browser.open(resolve(file));
+        let complaints;
+        await run(page).finally(async () => { complaints = await close(); });
         assert.deepEqual(complaints, []);
-        await context.close();
     });
 }
 
@@ -76,22 +55,31 @@ async function levels(page, clip) {
     }, png);
 }
 
-/** The file that a button of the menu saves. */
-async function saved(page, button) {
-    const before = readdirSync(downloads);
-    await page.click('#save');
-    await page.click(button);
-    for (let k = 0; k < 600; ++k) {
-        const name = readdirSync(downloads).find((one) => !before.includes(one) && !one.endsWith('.part'));
+const listed = () => readdirSync(downloads).filter((name) => !name.endsWith('.part'));
+
+/** The file that is saved by an act; undefined if that ends with true, without one. */
+async function fileOf(act, without = () => false) {
+    const before = listed();
+    await act();
+    for (const end = performance.now() + kWait.timeout; performance.now() < end; await new Promise((done) => setTimeout(done, 100))) {
+        const name = listed().find((one) => !before.includes(one));
         if (name && statSync(join(downloads, name)).size > 0) {
             return join(downloads, name);
         }
-        await new Promise((done) => setTimeout(done, 100));
+        if (await without()) {
+            return undefined;
+        }
     }
-    return assert.fail(`${button} saves nothing`);
+    return assert.fail(`${act} saves nothing`);
 }
 
-firefox('a stroke becomes a droplet, and its file is valid', STUDIO, async (page) => {
+/** The file that a button of the menu saves. */
+const saved = (page, button) => fileOf(async () => {
+    await page.click('#save');
+    await page.click(button);
+});
+
+inBrowser('a stroke becomes a droplet, and its file is valid', STUDIO, async (page) => {
     await settled(page);
     await drawThrough(page.mouse, await (await page.$('#sheet')).boundingBox(), [0.2, 0.5], [0.5, 0.4], [0.8, 0.5]);
     await until(page, () => /µL/.test(document.querySelector('#said').textContent));
@@ -101,9 +89,9 @@ firefox('a stroke becomes a droplet, and its file is valid', STUDIO, async (page
     assert.match(readFileSync(await saved(page, '[data-save=project]'), 'utf8'), /^\{/);
 });
 
-firefox('the view shows a droplet of the gallery, and undo takes it away', STUDIO, async (page) => {
+inBrowser('the view shows a droplet of the gallery, and undo takes it away', STUDIO, async (page) => {
     await settled(page);
-    await page.locator('#gallery button:nth-of-type(3)').click();
+    await page.click('#gallery button:nth-of-type(3)');
     await settled(page);
     await until(page, () => /µL/.test(document.querySelector('#result').textContent));
     const { x, y, width, height } = await (await page.$('#view')).boundingBox();
@@ -118,31 +106,36 @@ firefox('the view shows a droplet of the gallery, and undo takes it away', STUDI
     assert.ok(Math.abs(wet.contrast - dry.contrast) + Math.abs(wet.mean - dry.mean) > 1, JSON.stringify({ wet, dry }));
 });
 
-firefox('dew covers an object', STUDIO, async (page) => {
+inBrowser('dew covers an object', STUDIO, async (page) => {
     await settled(page);
-    await page.click('::-p-text(Dew)');
+    await page.click('#modes label:has([value=dew])');
     await page.click('#dew-bottle');
     await until(page, () => document.documentElement.dataset.dew === 'ready');
     assert.match(await text(page, '#result'), /^[\d.,]+.*droplets/);
 });
 
-firefox('Splash simulates and draws', STUDIO, async (page) => {
+inBrowser('Splash simulates and draws, and records a video or says that the browser cannot', STUDIO, async (page) => {
     await settled(page);
     await page.click('#liquid2d');
     await until(page, () => document.documentElement.dataset.state === 'running');
     await frames(page, 20);
     const { contrast } = await levels(page, { x: 20, y: 20, width: 700, height: 480 });
     assert.ok(contrast > 5, `${contrast}`);
+    await page.click('#liquid2d-record');
+    await frames(page, 20);
+    const refused = async () => /recorded nothing/.test(await text(page, '.live .hint'));
+    const video = await fileOf(() => page.click('#liquid2d-record'), refused);
+    assert.ok(video ? readFileSync(video).subarray(0, 12).includes(video.endsWith('.mp4') ? 'ftyp' : '\x1AE') : BROWSER === 'webkit');
 });
 
-firefox('it rains in the page of windshield', RAIN, async (page) => {
+inBrowser('it rains in the page of windshield', RAIN, async (page) => {
     await until(page, () => document.documentElement.dataset.state === 'running');
     await frames(page, 30);
     const { contrast } = await levels(page, { x: 100, y: 100, width: 400, height: 300 });
     assert.ok(contrast > 1, `${contrast}`);
 });
 
-firefox('the page of --html shows its droplet', VIEWER, async (page) => {
+inBrowser('the page of --html shows its droplet', VIEWER, async (page) => {
     await until(page, () => document.documentElement.dataset.state === 'resting');
     const { contrast } = await levels(page, { x: 300, y: 120, width: 500, height: 400 });
     assert.ok(contrast > 1, `${contrast}`);

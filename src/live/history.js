@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Undo and redo: states that share what did not change. States are never written to.
+// Undo and redo: states that share what did not change. States are never written to. Each part of Studio has its own.
 
 const kMemory = 96 << 20;  // [bytes]; masks take nearly all of it
 
@@ -10,7 +10,10 @@ function bytesOf(states) {
 }
 
 export class History {
-    /** @param held  bytes that states hold */
+    /**
+     * @param memory  bytes that all states may hold; the oldest go first
+     * @param held    gives the bytes that a list of states holds
+     */
     constructor(state, memory = kMemory, held = bytesOf) {
         Object.assign(this, { memory, held });
         this.reset(state);
@@ -46,9 +49,11 @@ export class History {
         this.states[this.at] = state;
     }
 
-    /** Ends a run. */
-    rest() {
-        this.run = undefined;
+    /** Ends runs in a part of the page when a pointer goes down or the focus moves: what comes then is another act. */
+    restIn(target) {
+        for (const kind of ['pointerdown', 'focusin']) {
+            target.addEventListener(kind, () => { this.run = undefined; }, { capture: true });
+        }
     }
 
     get can_undo() {
