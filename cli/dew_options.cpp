@@ -13,6 +13,7 @@
 #include "force_options.h"
 #include "liquid_options.h"
 #include "object_options.h"
+#include "object_reading.h"
 #include "option_values.h"
 #include "video_writer.h"
 

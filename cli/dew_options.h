@@ -18,7 +18,7 @@ namespace cli {
 struct DewCommandOptions {
     std::string object;  ///< path
     std::string output;  ///< path
-    droplet::FlowObjectOptions reading;
+    droplet::ObjectOptions reading;
     droplet::DewOptions dew;  ///< without the content of files
     droplet::DewFile file;    ///< of any format
     droplet::DewDetail detail = droplet::DewDetail::Medium;

@@ -178,7 +178,7 @@ Dew placeDew(const DewCommandOptions& options, const droplet::Progress& progress
             std::move(model),  std::move(shown),   std::move(report)};
 }
 
-droplet::Surface surfaceFor(droplet::Format format, const Dew& dew, const droplet::FlowObjectOptions& reading)
+droplet::Surface surfaceFor(droplet::Format format, const Dew& dew, const droplet::ObjectOptions& reading)
 {
     droplet::Surface surface = dew.model.surface();
     turnToFile(surface, format, reading);

@@ -43,7 +43,7 @@ Dew placeDew(const DewCommandOptions& options, const droplet::Progress& progress
 
 /// All droplets as they are written in a format that holds one surface.
 /// @param reading  of the object
-droplet::Surface surfaceFor(droplet::Format format, const Dew& dew, const droplet::FlowObjectOptions& reading);
+droplet::Surface surfaceFor(droplet::Format format, const Dew& dew, const droplet::ObjectOptions& reading);
 
 /// Writes the table of --droplets.
 void writeTable(std::ostream& out, droplet::TableFormat format, const Dew& dew);

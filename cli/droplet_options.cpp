@@ -10,11 +10,13 @@
 
 #include "droplet/colours/colour_regions.h"
 #include "droplet/error.h"
+#include "droplet/io/read_surface.h"
 #include "droplet/liquid.h"
 #include "droplet/units.h"
 #include "droplet/wetting.h"
 #include "files.h"
 #include "liquid_options.h"
+#include "object_reading.h"
 
 namespace cli {
 namespace {
@@ -225,10 +227,14 @@ void readGround(const CommandLine& line, DropletSettings& settings)
         settings.ground = groundOf(*surface);
     }
     if (const auto onto = line.value("--onto")) {
-        const std::string ending = lowerExtension(onto->text);
-        if (ending == ".obj" || ending == ".ply" || ending == ".stl") {
-            refuse(*onto,
-                   "a .glb or .gltf file, which states where its uv lies; the commands dew and flow take this one");
+        if (lowerExtension(onto->text) == ".stl") {
+            refuse(*onto, "a .glb, .gltf, .obj or .ply, whose uv place the droplets; dew and flow take an .stl");
+        }
+        forOption("--onto '" + onto->text + "'", [&] { return droplet::readableFormat(onto->text); });
+    }
+    for (const char* option : {"--scale", "--object-size", "--up"}) {
+        if (line.value(option) && !line.value("--onto")) {
+            settings.warnings.push_back(std::string(option) + " has no effect without --onto");
         }
     }
     if (const auto depth = line.value("--surface-depth")) {
@@ -393,9 +399,10 @@ void declareGround(CommandLine& line, DropletSettings& settings)
                  "Keep the liquid above the ground; where it would sink in, the ground stays dry",
                  solve.no_penetration);
     line.add(kGroup, "--onto", "OBJECT",
-             "Lay the droplets on the object in a .glb or .gltf file by its texture coordinates; a .glb, .gltf, .usda "
-             "or .usdz has the object with them, other formats the droplets alone",
+             "Lay the droplets on the object in a .glb, .gltf, .obj or .ply file by its texture coordinates; a .glb, "
+             ".gltf, .usda or .usdz has the object with them, other formats the droplets alone",
              into(settings.onto));
+    declareReading(line, kGroup, settings.reading, "With --onto: ");
     line.add(kGroup, "--advancing", "ANGLE",
              "Advancing contact angle; with --receding the report says whether droplets slide", within(kHalfTurn));
     line.add(kGroup, "--receding", "ANGLE", "Receding contact angle, at most --advancing", within(kHalfTurn));

@@ -10,6 +10,7 @@
 #include "common_options.h"
 #include "droplet/droplet.h"
 #include "droplet/io/gltf.h"
+#include "droplet/io/object.h"
 #include "droplet/io/output.h"
 #include "droplet/io/report.h"
 #include "droplet/mask/mask.h"
@@ -50,6 +51,7 @@ struct DropletSettings {
     droplet::DropletOptions droplet;  ///< all but trace and solve.ground
     droplet::GroundReport ground;
     std::optional<std::string> onto;  ///< path of the wetted object
+    droplet::ObjectOptions reading;   ///< of this object
     bool with_object = false;         ///< whether files have this object, too: see hasObject()
     bool page_has_object = false;     ///< whether the page of --html has it
     std::optional<droplet::Hysteresis> hysteresis;

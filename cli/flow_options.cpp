@@ -17,6 +17,7 @@
 #include "liquid_options.h"
 #include "map_options.h"
 #include "object_options.h"
+#include "object_reading.h"
 #include "option_values.h"
 #include "shape_options.h"
 #include "value_list.h"

@@ -41,7 +41,7 @@ struct FlowOptions {
     std::optional<NumberedPath> files;  ///< set if every frame gets a file
     droplet::AnimatedFile file;         ///< form of the animation, or of every mesh
     std::optional<droplet::FlowPreset> preset;
-    droplet::FlowObjectOptions reading;
+    droplet::ObjectOptions reading;
     std::optional<droplet::Floor> floor;   ///< below the object
     bool keeps_animation = true;           ///< the object moves as its file says
     std::optional<std::string> animation;  ///< of its file, by name

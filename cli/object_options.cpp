@@ -12,23 +12,9 @@
 
 namespace cli {
 
-using droplet::Dimension;
-
-void declareReading(CommandLine& line, const char* group, droplet::FlowObjectOptions& reading)
-{
-    constexpr Range kSize{Dimension::Length, 1e-4, 1e3, "from 0.1mm to 1000m"};
-    line.add(group, "--scale", "NUMBER", "Factor on the lengths of the file [1]",
-             into(reading.scale, NumberRange{1e-9, 1e9, "a number from 1e-9 to 1e9"}));
-    line.add(group, "--object-size,--size", "LENGTH", "Longest side of the object, 0.1mm to 1000m; scales it",
-             into(reading.size, kSize));
-    line.exclude({"--scale", "--object-size"});
-    line.add(group, "--up", "Axis that points up in an .obj, .ply or .stl [y, of .ply z]",
-             into(reading.up, {{"y", droplet::UpAxis::Y}, {"z", droplet::UpAxis::Z}}));
-}
-
 void declarePinning(CommandLine& line, const char* group, droplet::FlowPinning& pinning)
 {
-    constexpr Range kVaries{Dimension::Length, 1e-4, 1.0, "from 0.1mm to 1m"};
+    constexpr Range kVaries{droplet::Dimension::Length, 1e-4, 1.0, "from 0.1mm to 1m"};
     line.add(group, "--pinning", "NUMBER",
              "How much hysteresis varies over the surface, so that droplets stick, slip and wander: standard deviation "
              "of its logarithm, 0 to 1.5",
@@ -45,7 +31,7 @@ void turn(droplet::Vec3& v)
 
 }  // namespace
 
-void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet::FlowObjectOptions& reading)
+void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet::ObjectOptions& reading)
 {
     const bool is_z_up_file = format == droplet::Format::Ply || format == droplet::Format::Stl;
     if (!is_z_up_file || reading.up == droplet::UpAxis::Z) {
@@ -55,7 +41,7 @@ void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet
     std::for_each(surface.normals.begin(), surface.normals.end(), turn);
 }
 
-void turnToFile(std::vector<droplet::FlowPoint>& points, const droplet::FlowObjectOptions& reading)
+void turnToFile(std::vector<droplet::FlowPoint>& points, const droplet::ObjectOptions& reading)
 {
     if (reading.up == droplet::UpAxis::Z) {
         return;

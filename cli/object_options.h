@@ -17,17 +17,14 @@
 
 namespace cli {
 
-/// Declares --scale, --object-size and --up.
-void declareReading(CommandLine& line, const char* group, droplet::FlowObjectOptions& reading);
-
 /// Declares --pinning and --pinning-length.
 void declarePinning(CommandLine& line, const char* group, droplet::FlowPinning& pinning);
 
 /// Turns a surface to the axes of the object's file, for formats that are written z up.
-void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet::FlowObjectOptions& reading);
+void turnToFile(droplet::Surface& surface, droplet::Format format, const droplet::ObjectOptions& reading);
 
 /// The same for points of a PLY.
-void turnToFile(std::vector<droplet::FlowPoint>& points, const droplet::FlowObjectOptions& reading);
+void turnToFile(std::vector<droplet::FlowPoint>& points, const droplet::ObjectOptions& reading);
 
 /// Warns of what is wrong with a mesh that droplets are on.
 /// @param path      of the object, for the words

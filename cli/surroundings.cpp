@@ -30,8 +30,8 @@ Surroundings readSurroundings(const DropletSettings& settings, const std::option
     if (settings.onto) {
         const bool is_shown = preview && showsLooks(*preview);
         const bool has_looks = is_shown || settings.with_object || settings.page_has_object;
-        around.object = droplet::readObjectStand(
-            *settings.onto, has_looks ? droplet::StandParts::All : droplet::StandParts::Holes);
+        around.object = droplet::readObjectStand(*settings.onto, settings.reading,
+                                                 has_looks ? droplet::StandParts::All : droplet::StandParts::Holes);
         around.object->is_plain = !is_shown;
     }
     if (preview && preview->ground) {

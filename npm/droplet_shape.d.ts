@@ -69,8 +69,14 @@ export interface Options {
     surface?: string;
     /** Keep the liquid above the ground; where it would sink in, the ground stays dry */
     noPenetration?: boolean;
-    /** Lay the droplets on the object in a .glb or .gltf file by its texture coordinates; a .glb, .gltf, .usda or .usdz has the object with them, other formats the droplets alone */
+    /** Lay the droplets on the object in a .glb, .gltf, .obj or .ply file by its texture coordinates; a .glb, .gltf, .usda or .usdz has the object with them, other formats the droplets alone */
     onto?: DewObject;
+    /** With onto: Factor on the lengths of the file [1] */
+    scale?: number;
+    /** With onto: Longest side of the object, 0.1mm to 1000m; scales it; a number is in m */
+    objectSize?: string | number;
+    /** With onto: Axis that points up in an .obj, .ply or .stl [y, of .ply z] */
+    up?: 'y' | 'z';
     /** Advancing contact angle; with receding the report says whether droplets slide; a number is in rad */
     advancing?: string | number;
     /** Receding contact angle, at most advancing; a number is in rad */

@@ -84,6 +84,7 @@ struct Result {
     droplet::Material material = droplet::Material::Water;
     droplet::LengthUnit unit = droplet::LengthUnit::Millimetre;
     std::optional<std::string> object;  ///< path of the object that the droplets lie on
+    droplet::ObjectOptions reading;     ///< of this object
     bool with_object = false;           ///< whether files have it, too
     droplet::Vec2 extent;               ///< of the mask [m]
     droplet::BaseSurface ground;
@@ -192,6 +193,7 @@ void make(Result& result, const std::vector<std::string>& arguments, const Given
     // What a file needs of the object is read when one is written: Studio makes droplets with every stroke.
     result.with_object = std::exchange(options.settings.with_object, false);
     result.object = options.settings.onto;
+    result.reading = options.settings.reading;
     const cli::Surroundings around = cli::readSurroundings(options.settings);
     const droplet::Mask mask = maskOf(given, options.footprint);
     cli::DropletSettings settings = cli::completeSettings(mask, around, options);
@@ -300,7 +302,7 @@ void writeDroplets(const Result& result, const std::string& name, std::ostream& 
     options.closed = result.report.output.topology.closed;
     const droplet::Format format = droplet::formatNamed(name);
     if (result.object && result.with_object && droplet::isAnimated(format)) {
-        writeOnObject(result.surface, droplet::readObjectStand(*result.object), out, format, options);
+        writeOnObject(result.surface, droplet::readObjectStand(*result.object, result.reading), out, format, options);
     } else {
         writeSurface(result.surface, out, format, options);
     }

@@ -108,6 +108,9 @@ _MAKE_DROPLET = {
     "surface_depth": "m",
     "no_penetration": "flag",
     "onto": "path",
+    "scale": "number",
+    "object_size": "m",
+    "up": "text",
     "advancing": "rad",
     "receding": "rad",
     "triangles": "number",
@@ -153,6 +156,9 @@ def make_droplet(
     surface_depth: str | float | None = None,
     no_penetration: bool = False,
     onto: Path | None = None,
+    scale: float | None = None,
+    object_size: str | float | None = None,
+    up: Literal["y", "z"] | None = None,
     advancing: str | float | None = None,
     receding: str | float | None = None,
     triangles: str | int | None = None,
@@ -227,8 +233,11 @@ def make_droplet(
       surface_depth [m]: Height of white above black in the height map; samples that are floating-point numbers are
         metres without it
       no_penetration: Keep the liquid above the ground; where it would sink in, the ground stays dry
-      onto: Lay the droplets on the object in a .glb or .gltf file by its texture coordinates; a .glb, .gltf, .usda or
-        .usdz has the object with them, other formats the droplets alone
+      onto: Lay the droplets on the object in a .glb, .gltf, .obj or .ply file by its texture coordinates; a .glb,
+        .gltf, .usda or .usdz has the object with them, other formats the droplets alone
+      scale: With onto: Factor on the lengths of the file (default: 1)
+      object_size [m]: With onto: Longest side of the object, 0.1mm to 1000m; scales it
+      up: y, z: With onto: Axis that points up in an .obj, .ply or .stl (default: y, of .ply z)
       advancing [rad]: Advancing contact angle; with receding the report says whether droplets slide
       receding [rad]: Receding contact angle, at most advancing
 
@@ -280,6 +289,9 @@ _GLYPHS = {
     "surface_depth": "m",
     "no_penetration": "flag",
     "onto": "path",
+    "scale": "number",
+    "object_size": "m",
+    "up": "text",
     "advancing": "rad",
     "receding": "rad",
     "triangles": "number",
@@ -322,6 +334,9 @@ def glyphs(
     surface_depth: str | float | None = None,
     no_penetration: bool = False,
     onto: Path | None = None,
+    scale: float | None = None,
+    object_size: str | float | None = None,
+    up: Literal["y", "z"] | None = None,
     advancing: str | float | None = None,
     receding: str | float | None = None,
     triangles: str | int | None = None,
@@ -381,8 +396,11 @@ def glyphs(
       surface_depth [m]: Height of white above black in the height map; samples that are floating-point numbers are
         metres without it
       no_penetration: Keep the liquid above the ground; where it would sink in, the ground stays dry
-      onto: Lay the droplets on the object in a .glb or .gltf file by its texture coordinates; a .glb, .gltf, .usda or
-        .usdz has the object with them, other formats the droplets alone
+      onto: Lay the droplets on the object in a .glb, .gltf, .obj or .ply file by its texture coordinates; a .glb,
+        .gltf, .usda or .usdz has the object with them, other formats the droplets alone
+      scale: With onto: Factor on the lengths of the file (default: 1)
+      object_size [m]: With onto: Longest side of the object, 0.1mm to 1000m; scales it
+      up: y, z: With onto: Axis that points up in an .obj, .ply or .stl (default: y, of .ply z)
       advancing [rad]: Advancing contact angle; with receding the report says whether droplets slide
       receding [rad]: Receding contact angle, at most advancing
 
@@ -434,6 +452,9 @@ _ANIMATE = {
     "surface": "text",
     "surface_depth": "m",
     "no_penetration": "flag",
+    "scale": "number",
+    "object_size": "m",
+    "up": "text",
     "triangles": "number",
     "edge": "m",
     "grading": "number",
@@ -472,6 +493,9 @@ def animate(
     surface: str | None = None,
     surface_depth: str | float | None = None,
     no_penetration: bool = False,
+    scale: float | None = None,
+    object_size: str | float | None = None,
+    up: Literal["y", "z"] | None = None,
     triangles: str | int | None = None,
     edge: str | float | None = None,
     grading: Literal["auto", 1, 2, 4, 8, 16, 32, 64] | None = None,
@@ -534,6 +558,9 @@ def animate(
       surface_depth [m]: Height of white above black in the height map; samples that are floating-point numbers are
         metres without it
       no_penetration: Keep the liquid above the ground; where it would sink in, the ground stays dry
+      scale: With onto: Factor on the lengths of the file (default: 1)
+      object_size [m]: With onto: Longest side of the object, 0.1mm to 1000m; scales it
+      up: y, z: With onto: Axis that points up in an .obj, .ply or .stl (default: y, of .ply z)
 
     Surface:
       triangles: Number of triangles of the liquid's surface, within 10 %: 5000, 5k, 1M (default: 40k)

@@ -79,7 +79,7 @@ public:
         }
         if (report_.frames.empty()) {
             sequence_ = cli::beginSequence(mask, options_, around_, report_);
-            stand_ = standOf(sequence_.droplet.solve.ground, around_,
+            stand_ = standOf({.droplet = sequence_.droplet}, around_,
                              {report_.pixel_size * mask.width, report_.pixel_size * mask.height});
         } else if (mask.width != report_.width_px || mask.height != report_.height_px) {
             throw Error(ErrorCode::InvalidInput,

@@ -122,12 +122,13 @@ struct Members<Figures> {
                                      &Figures::pressure, &Figures::colour};
 };
 
-std::shared_ptr<const Stand> standOf(const droplet::BaseSurface& ground, const cli::Surroundings& around,
-                                     droplet::Vec2 extent, const std::string& path)
+std::shared_ptr<const Stand> standOf(const cli::DropletSettings& settings, const cli::Surroundings& around,
+                                     droplet::Vec2 extent)
 {
     if (around.object) {
-        return std::make_shared<const Stand>(Stand{around.object->mesh, true, path});
+        return std::make_shared<const Stand>(Stand{around.object->mesh, true, settings.onto.value(), settings.reading});
     }
+    const droplet::BaseSurface& ground = settings.droplet.solve.ground;
     return ground.flat() ? nullptr : std::make_shared<const Stand>(Stand{droplet::groundMesh(ground, extent), false});
 }
 
@@ -149,10 +150,9 @@ std::shared_ptr<Droplet> Droplet::make(droplet::Droplet droplet, const cli::Drop
     report.peak_memory = cli::peakMemory();
     std::vector<droplet::DropletReport> droplets = report.droplets;
     std::vector<std::string> warnings = report.warnings;
-    return std::shared_ptr<Droplet>(new Droplet(
-        {std::move(droplet.surface), settings.material, std::move(warnings)},
-        standOf(settings.droplet.solve.ground, source.around, droplet.domain.extent, settings.onto.value_or("")),
-        std::move(report), std::move(droplets)));
+    return std::shared_ptr<Droplet>(new Droplet({std::move(droplet.surface), settings.material, std::move(warnings)},
+                                                standOf(settings, source.around, droplet.domain.extent),
+                                                std::move(report), std::move(droplets)));
 }
 
 std::shared_ptr<Droplet> Droplet::ofState(const py::handle& state)

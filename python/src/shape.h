@@ -29,10 +29,10 @@ struct DropletSource {
 };
 
 /// What a surface lies on; nothing if the ground is flat.
-/// @param extent  of the picture [m]
-/// @param path    of the object's file, if there is one
-std::shared_ptr<const Stand> standOf(const droplet::BaseSurface& ground, const cli::Surroundings& around,
-                                     droplet::Vec2 extent, const std::string& path = {});
+/// @param settings  with the ground, and the object's file if there is one
+/// @param extent    of the picture [m]
+std::shared_ptr<const Stand> standOf(const cli::DropletSettings& settings, const cli::Surroundings& around,
+                                     droplet::Vec2 extent);
 
 /// Droplet with its report.
 class Droplet : public Surface {

@@ -108,7 +108,7 @@ std::optional<droplet::ObjectStand> objectFor(const Surface& surface, droplet::F
     if (!stand || !stand->is_object || options.droplets_only || !droplet::isAnimated(format)) {
         return std::nullopt;
     }
-    return cli::forOption("onto", [&] { return droplet::readObjectStand(stand->path); });
+    return cli::forOption("onto", [&] { return droplet::readObjectStand(stand->path, stand->reading); });
 }
 
 /// Picture in a notebook, as PNG; None for a surface without triangles.
@@ -166,8 +166,14 @@ struct Members<droplet::TexturedMesh> {
 };
 
 template <>
+struct Members<droplet::ObjectOptions> {
+    static constexpr std::tuple list{&droplet::ObjectOptions::scale, &droplet::ObjectOptions::size,
+                                     &droplet::ObjectOptions::up, &droplet::ObjectOptions::weights};
+};
+
+template <>
 struct Members<Stand> {
-    static constexpr std::tuple list{&Stand::mesh, &Stand::is_object, &Stand::path};
+    static constexpr std::tuple list{&Stand::mesh, &Stand::is_object, &Stand::path, &Stand::reading};
 };
 
 template <>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "droplet/io/file_droplet.h"
+#include "droplet/io/object.h"
 #include "droplet/surface/material.h"
 #include "droplet/surface/surface.h"
 #include "droplet/surface/textured_mesh.h"
@@ -21,6 +22,7 @@ struct Stand {
     droplet::TexturedMesh mesh;
     bool is_object = false;  ///< false: curved ground
     std::string path = {};   ///< of the object's file
+    droplet::ObjectOptions reading = {};
 };
 
 /// Parts of a Surface.

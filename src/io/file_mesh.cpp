@@ -47,6 +47,7 @@ constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 34;
 // ------------------------------------------------------------------------------------------------------- text
 
 constexpr std::string_view kBlank = " \t\r";
+constexpr std::string_view kWithoutUv = " without texture coordinates (uv), which place the droplets; unwrap it first";
 
 std::string_view nextWord(std::string_view& line)
 {
@@ -289,6 +290,9 @@ private:
             mesh_.vertices.push_back(places_[corner.place]);
             mesh_.normals.push_back(corner.direction != kNone ? directions_[corner.direction] : Vec3{});
             mesh_.colours.push_back(corner.place < colours_.size() ? colours_[corner.place] : kWhite);
+            if (options_.needs_uv && corner.uv == kNone) {
+                throw Damage(where + " has a face" + std::string(kWithoutUv));
+            }
             if (options_.uvs) {
                 mesh_.uvs.push_back(corner.uv != kNone ? uvs_[corner.uv] : Vec2{});
                 lacks_uv_ = lacks_uv_ || corner.uv == kNone;
@@ -699,6 +703,9 @@ void complete(FileMesh& mesh, const FileMeshOptions& options)
     if (mesh.triangles.empty()) {
         throw Damage("it has no triangles");
     }
+    if (options.needs_uv && mesh.uvs.empty()) {
+        throw Damage("it is" + std::string(kWithoutUv));
+    }
     mesh.normals.resize(mesh.vertices.size());
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
         const Vec3 p = mesh.vertices[v];
@@ -804,7 +811,8 @@ FileMesh readFileMesh(const std::filesystem::path& path, const FileMeshOptions& 
     FileMesh mesh;
     readFile(path, [&] {
         if (format == Format::Glb || format == Format::Gltf) {
-            mesh = readScene(path, {.motion = options.motion,
+            mesh = readScene(path, {.needs_uv = options.needs_uv,
+                                    .motion = options.motion,
                                     .weights = options.weights,
                                     .creases = options.creases,
                                     .looks = options.looks,

@@ -71,15 +71,16 @@ struct FileSampling {
 };
 
 struct FileMeshOptions {
-    bool uvs = false;      ///< read the texture coordinates of OBJ and PLY
-    bool weights = false;  ///< read the vertices' weights: attribute _WEIGHT of glTF, or red of COLOR_0;
-                           ///< property weight of PLY, or red
-    bool creases = false;  ///< divide vertices without a normal, and all of STL, at creases; see
-                           ///< divideAtCreases. Otherwise those at one place share a normal, and STL has
-                           ///< its facets'
-    bool looks = false;    ///< read materials and their images, and the vertices' colours: COLOR_0 of glTF, unless it
-                           ///< is read as weights; red, green and blue of PLY; six numbers of a vertex of OBJ
-    bool motion = false;   ///< read the animation of the node of a glTF scene that carries all meshes
+    bool uvs = false;       ///< read the texture coordinates of OBJ and PLY
+    bool needs_uv = false;  ///< with `uvs`: reject triangles without them as damage
+    bool weights = false;   ///< read the vertices' weights: attribute _WEIGHT of glTF, or red of COLOR_0;
+                            ///< property weight of PLY, or red
+    bool creases = false;   ///< divide vertices without a normal, and all of STL, at creases; see
+                            ///< divideAtCreases. Otherwise those at one place share a normal, and STL has
+                            ///< its facets'
+    bool looks = false;     ///< read materials and their images, and the vertices' colours: COLOR_0 of glTF, unless it
+                            ///< is read as weights; red, green and blue of PLY; six numbers of a vertex of OBJ
+    bool motion = false;    ///< read the animation of the node of a glTF scene that carries all meshes
     std::optional<FileSampling> sampling = {};  ///< sample an animation of glTF that deforms the mesh: nodes that move
                                                 ///< apart, scales, skins, morph targets
     std::vector<std::uint32_t> fans = {};  ///< FileMesh::fans of another shape of the mesh, which polygons are divided

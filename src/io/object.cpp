@@ -8,22 +8,14 @@
 #include <system_error>
 #include <utility>
 
-#include "file_bytes.h"
-#include "io/gltf_scene.h"
+#include "io/object_mesh.h"
 
 namespace droplet {
 
-TexturedMesh readObject(const std::filesystem::path& path)
+TexturedMesh readObject(const std::filesystem::path& path, const ObjectOptions& options)
 {
-    TexturedMesh mesh;
-    readFile(path, [&] {
-        FileMesh scene = readScene(path, {.needs_uv = true});
-        mesh.vertices = std::move(scene.vertices);
-        mesh.normals = std::move(scene.normals);
-        mesh.uvs = std::move(scene.uvs);
-        mesh.triangles = std::move(scene.triangles);
-    });
-    return mesh;
+    FileMesh mesh = readObjectMesh(path, options, {.uvs = true, .needs_uv = true}).mesh;
+    return {std::move(mesh.vertices), std::move(mesh.normals), std::move(mesh.uvs), std::move(mesh.triangles)};
 }
 
 std::vector<std::filesystem::path> buffersBeside(const std::filesystem::path& path)

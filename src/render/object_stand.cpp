@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "file_bytes.h"
-#include "io/gltf_scene.h"
+#include "io/object_mesh.h"
 #include "render/openness.h"
 #include "render/take_looks.h"
 #include "surface/open_edges.h"
@@ -85,31 +85,29 @@ void ObjectStand::showIn(RenderOptions& options) const
     }
 }
 
-ObjectStand readObjectStand(const std::filesystem::path& path, StandParts parts)
+ObjectStand readObjectStand(const std::filesystem::path& path, const ObjectOptions& options, StandParts parts)
 {
     ObjectStand object;
-    readFile(path, [&] {
-        FileMesh scene = readScene(path, {.needs_uv = true, .looks = true});
-        if (parts == StandParts::Holes) {
-            keepAlpha(scene);
-        }
-        TakenLooks taken = takeLooks(scene, shown(path), object.warnings);
-        if (parts == StandParts::Holes) {
-            object.is_plain = true;
-            object.warnings.clear();
-            taken.looks = hasHoles(taken.looks) ? std::move(taken.looks) : std::vector<StandLook>{};
-        }
-        object.material_names = std::move(scene.material_names);
-        object.is_open = !openEdges(weldedTriangles(scene.triangles, scene.weld)).empty();
-        object.mesh = {std::move(scene.vertices), std::move(scene.normals), std::move(scene.uvs),
-                       std::move(scene.triangles)};
-        if (!taken.looks.empty() && !scene.materials.empty()) {
-            object.looks = std::move(taken.looks);
-            object.images = std::move(taken.images);
-            object.materials = std::move(scene.materials);
-            object.colours = std::move(scene.colours);
-        }
-    });
+    FileMesh scene = readObjectMesh(path, options, {.uvs = true, .needs_uv = true, .looks = true}).mesh;
+    if (parts == StandParts::Holes) {
+        keepAlpha(scene);
+    }
+    TakenLooks taken = takeLooks(scene, shown(path), object.warnings);
+    if (parts == StandParts::Holes) {
+        object.is_plain = true;
+        object.warnings.clear();
+        taken.looks = hasHoles(taken.looks) ? std::move(taken.looks) : std::vector<StandLook>{};
+    }
+    object.material_names = std::move(scene.material_names);
+    object.is_open = !openEdges(weldedTriangles(scene.triangles, scene.weld)).empty();
+    object.mesh = {std::move(scene.vertices), std::move(scene.normals), std::move(scene.uvs),
+                   std::move(scene.triangles)};
+    if (!taken.looks.empty() && !scene.materials.empty()) {
+        object.looks = std::move(taken.looks);
+        object.images = std::move(taken.images);
+        object.materials = std::move(scene.materials);
+        object.colours = std::move(scene.colours);
+    }
     return object;
 }
 

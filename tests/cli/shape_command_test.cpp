@@ -794,6 +794,58 @@ TEST_F(ShapeCommandTest, FilesOfScenesHaveTheObjectWithItsDroplets)
                 HasSubstr("--droplets-only has no effect without --onto"));
 }
 
+// The plate of texturedPlate() as OBJ, in millimetres: a polygon with a picture on it.
+TEST_F(ShapeCommandTest, LaysDropletsOntoAnObj)
+{
+    std::ostringstream png;
+    writePng(Layer{2, 1, {200, 100, 50, 255, 100, 50, 25, 255}}, png);
+    writeFile(directory() / "wood.png", png.str());
+    writeFile(directory() / "plate.glb", texturedPlate("wood.png"));
+    const auto plate = [](const std::string& lowest, const std::string& size) {
+        std::string text = "mtllib plate.mtl\n";
+        for (const char* corner : {"< = >", "> = >", "> = <", "< = <"}) {
+            text += "v ";
+            for (const char* at = corner; *at != '\0'; ++at) {
+                text += *at == '<' ? lowest : *at == '>' ? size : *at == '=' ? "0" : " ";
+            }
+            text += "\n";
+        }
+        return text + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl wood\nf 1/1 2/2 3/3 4/4\n";
+    };
+    writeFile(directory() / "plate.obj", plate("-50", "50"));
+    writeFile(directory() / "small.obj", plate("-0.05", "0.05"));
+    writeFile(directory() / "plate.mtl", "newmtl wood\nKd 1 1 1\nmap_Kd wood.png\n");
+    const auto laid = [&](const std::string& object, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"two.pgm", "laid.glb", "--onto", object, "--width", "10cm"});
+        make(more);
+        return bytesOf("laid.glb");
+    };
+    const json from_gltf = jsonIn(laid("plate.glb"));
+    const std::string file = laid("plate.obj");
+    const json from_obj = jsonIn(file);
+    EXPECT_NEAR(boxOf(from_obj, "object")[1][0].get<double>(), 0.05, 1e-9);
+    const json droplets = boxOf(from_obj, "droplet");
+    const json expected = boxOf(from_gltf, "droplet");
+    for (std::size_t end = 0; end < 2; ++end) {
+        EXPECT_NEAR(droplets[end][0].get<double>(), expected[end][0].get<double>() - 0.5, 1e-7);
+        EXPECT_NEAR(droplets[end][1].get<double>(), expected[end][1].get<double>(), 1e-7);
+        EXPECT_NEAR(droplets[end][2].get<double>(), expected[end][2].get<double>(), 1e-7);
+    }
+    EXPECT_EQ(from_obj["materials"][0]["name"], "wood");
+    EXPECT_EQ(from_obj["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+    EXPECT_NE(file.find(png.str()), std::string::npos);
+    EXPECT_EQ(boxOf(jsonIn(laid("small.obj", {"--object-size", "10cm"})), "object"), boxOf(from_obj, "object"));
+    EXPECT_EQ(boxOf(jsonIn(laid("small.obj", {"--scale", "1000"})), "object"), boxOf(from_obj, "object"));
+
+    fs::remove(directory() / "plate.mtl");
+    const auto plain = run({"two.pgm", "laid.glb", "--onto", "plate.obj", "--width", "10cm", "--triangles", "2k"});
+    EXPECT_EQ(plain.exit_code, 0);
+    EXPECT_THAT(plain.error, HasSubstr("plate.mtl is not a file beside it"));
+    EXPECT_FALSE(jsonIn(bytesOf("laid.glb")).contains("images"));
+    EXPECT_THAT(run({"two.pgm", "x.glb", "--triangles", "2k", "--scale", "2"}).error,
+                HasSubstr("--scale has no effect without --onto"));
+}
+
 TEST_F(ShapeCommandTest, LaysDropletsOntoAnObject)
 {
     // The object is another droplet: an open cap with the texture coordinates of its picture.

@@ -291,7 +291,10 @@ TEST_F(UsageTest, RefusesOptionsThatExcludeEachOther)
 
 TEST_F(UsageTest, RefusesMeshesWithoutUvOnto)
 {
-    expectRefused({"--onto", "bunny.stl"}, {"--onto", "bunny.stl", ".glb or .gltf", "dew and flow"});
+    expectRefused({"--onto", "bunny.stl"}, {"--onto", "bunny.stl", ".glb, .gltf, .obj or .ply", "dew and flow"});
+    expectRefused({"--onto", "bunny.fbx"}, {"--onto", "bunny.fbx", "format is 'fbx'"});
+    expectRefused({"--onto", "can.obj", "--scale", "2", "--object-size", "12cm"},
+                  {"--scale and --object-size exclude each other"});
 }
 
 TEST_F(UsageTest, FillRangesContainTheDropletAndNeedTheLinearModelAndGltf)

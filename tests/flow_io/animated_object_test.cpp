@@ -79,7 +79,7 @@ protected:
     }
 
     [[nodiscard]] DeformingObject read(const std::string& bytes, const ObjectSampling& sampling = {10.0},
-                                       const FlowObjectOptions& options = {}) const
+                                       const ObjectOptions& options = {}) const
     {
         DeformingObject read = readAnimatedObject(write(bytes), sampling, options);
         for (const std::vector<Vec3>& shape : read.vertices) {

@@ -46,7 +46,7 @@ Vec3 worldOf(const ObjectMotion& motion, double time, Vec3 point)
 class FlowObjectFile : public ::testing::Test {
 protected:
     [[nodiscard]] FlowObject read(const std::string& name, const std::string& bytes,
-                                  const FlowObjectOptions& options = {}) const
+                                  const ObjectOptions& options = {}) const
     {
         writeFile(scratch_.path() / name, bytes);
         FlowObject object = readFlowObject(scratch_.path() / name, options);
@@ -58,7 +58,7 @@ protected:
     }
 
     void expectRefused(const std::string& name, const std::string& bytes, const std::string& words,
-                       const FlowObjectOptions& options = {}) const
+                       const ObjectOptions& options = {}) const
     {
         writeFile(scratch_.path() / name, bytes);
         try {
@@ -540,7 +540,7 @@ TEST_F(FlowObjectFile, GltfHasLightAlphaAndColours)
     const std::size_t bytes = draft.add(std::string("\xff\x00\x33\x80\xff\xff\xff\xff\x00\x00\x00\xff", 12), 5121,
                                         "VEC4", 3, R"(,"normalized":true)");
     const auto with = [&](const std::string& material, const std::string& attributes,
-                          const FlowObjectOptions& options = {}) {
+                          const ObjectOptions& options = {}) {
         const std::string list = material.empty() ? "" : R"("materials":[)" + material + R"(],)";
         return read(
             "looks.glb",
@@ -606,7 +606,7 @@ TEST_F(FlowObjectFile, ObjAndPlyHaveColoursOfVertices)
     expectNear(obj.colours[3], {1.0, 1.0, 1.0});
     ASSERT_EQ(obj.looks.size(), 1U);
     EXPECT_THAT(read("a.obj", "v 0 0 0 1\nv 1 0 0 1\nv 1 1 0 1\nv 0 1 0 1\n" + faces).colours, IsEmpty()) << "weights";
-    const auto ply = [&](const std::string& type, const std::string& levels, const FlowObjectOptions& options) {
+    const auto ply = [&](const std::string& type, const std::string& levels, const ObjectOptions& options) {
         return read("a.ply",
                     "ply\nformat ascii 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n"
                     "property " +

@@ -101,6 +101,55 @@ Draft indexedSquare()
     return draft;
 }
 
+// A square of one polygon, 2 mm by 4 mm in the plane y = 0, and a material that has no file.
+constexpr const char* kObjSquare = R"(mtllib nowhere.mtl
+v 0 0 0
+v 2 0 0
+v 2 0 4
+v 0 0 4
+vt 0 1
+vt 0.5 1
+vt 0.5 0
+vt 0 0
+usemtl paint
+f 1/1 4/4 3/3 2/2
+)";
+
+TEST_F(Object, IsReadFromObjAndPly)
+{
+    writeFile(path("a.obj"), kObjSquare);
+    const TexturedMesh mesh = readObject(path("a.obj"));
+    EXPECT_NO_THROW(mesh.validate());
+    EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{{0, 0, 0}, {0, -4e-3, 0}, {2e-3, -4e-3, 0}, {2e-3, 0, 0}}));
+    EXPECT_EQ(mesh.normals, (std::vector<Vec3>(4, {0, 0, 1})));
+    EXPECT_EQ(mesh.uvs, (std::vector<Vec2>{{0, 0}, {0, 1}, {0.5, 1}, {0.5, 0}}));
+    EXPECT_EQ(mesh.triangles.size(), 2U);
+    EXPECT_EQ(readObject(path("a.obj"), {.scale = 1000.0}).vertices[2], (Vec3{2, -4, 0}));
+    EXPECT_EQ(readObject(path("a.obj"), {.size = 1.0}).vertices[2], (Vec3{0.5, -1, 0}));
+    EXPECT_EQ(readObject(path("a.obj"), {.up = UpAxis::Z}).vertices[2], (Vec3{2e-3, 0, 4e-3}));
+    EXPECT_THROW((void)readObject(path("a.obj"), {.scale = -1.0}), Error);
+
+    writeFile(path("a.ply"),
+              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+              "property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\n"
+              "end_header\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
+    const TexturedMesh triangle = readObject(path("a.ply"));
+    EXPECT_EQ(triangle.vertices, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    EXPECT_EQ(triangle.uvs, (std::vector<Vec2>{{0, 1}, {1, 1}, {0, 0}}));
+}
+
+TEST_F(Object, WithoutUvIsRefusedInAllFormats)
+{
+    writeFile(path("a.obj"), "v 0 0 0\nv 1 0 0\nv 0 0 1\nvt 0 0\nf 1/1 3/1 2\n");
+    expectFileRefused(path("a.obj"), "line 5 has a face without texture coordinates (uv)");
+    writeFile(path("a.ply"),
+              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    expectFileRefused(path("a.ply"), "it is without texture coordinates (uv)");
+    writeFile(path("a.obj"), "v 0 0 z\n");
+    expectFileRefused(path("a.obj"), "line 1 has \"z\"");
+}
+
 TEST_F(Object, IsTurnedToZUp)
 {
     const TexturedMesh mesh = read(indexedSquare().file(scene(kSquare + kIndices)));
@@ -338,8 +387,11 @@ TEST_F(Object, RefusesUnsupportedData)
 TEST_F(Object, RefusesDamagedFiles)
 {
     expectFileRefused(path("missing.glb"), "No such file");
-    expectFileRefused(path(""), "directory");
-    expectFileRefused(std::filesystem::path("/dev/zero"), "not glTF");
+    std::filesystem::create_directory(path("folder.glb"));
+    expectFileRefused(path("folder.glb"), "directory");
+    std::filesystem::create_symlink("/dev/zero", path("zero.glb"));
+    expectFileRefused(path("zero.glb"), "not glTF");
+    EXPECT_THROW((void)readObject(path("object.fbx")), Error);
     expectRefused("", "not glTF");
     expectRefused("solid teapot\n", "not glTF");
     expectRefused("{\"nodes\":", "not glTF");

@@ -10,6 +10,7 @@
 
 #include "droplet/flow/flow_surface.h"
 #include "droplet/flow/object_motion.h"
+#include "droplet/io/object.h"
 #include "droplet/mesh/planar_mesh.h"
 #include "droplet/render/object_stand.h"
 #include "droplet/render/stand_look.h"
@@ -49,29 +50,18 @@ void faceAs(const FlowSurface& surface, FlowObject& object);
 /// Edges of the box around an object's vertices [m].
 Vec3 sizeOf(const FlowObject& object);
 
-/// Axis that points up in a file.
-enum class UpAxis { Y, Z };
-
-/// Options of readFlowObject.
-struct FlowObjectOptions {
-    std::optional<double> scale = {};  ///< factor on the file's lengths, > 0
-    std::optional<double> size = {};   ///< longest edge of the box around the object [m], > 0; not with `scale`
-    std::optional<UpAxis> up = {};     ///< empty: y, in PLY z; ignored for glTF
-    bool weights = false;              ///< read the vertices' weights
-};
-
-/// Reads an object: .glb, .gltf, .obj, .ply, .stl.
+/// Reads an object: .glb, .gltf, .obj, .ply, .stl, with texture coordinates or without.
 /// @throws Error InvalidArgument for an unknown extension; InvalidInput, naming the file: it cannot be read, is
 ///               damaged, has no triangle with an area, numbers that are not finite, or is too small or too large to
 ///               compute with
-FlowObject readFlowObject(const std::filesystem::path& path, const FlowObjectOptions& options = {});
+FlowObject readFlowObject(const std::filesystem::path& path, const ObjectOptions& options = {});
 
 /// Reads the shapes of an object, a file for each. Their triangles are the same; only the first file's normals,
-/// texture coordinates and materials count, and its size for FlowObjectOptions::size.
+/// texture coordinates and materials count, and its size for ObjectOptions::size.
 /// @param paths   at least one
 /// @param options  of all
 /// @throws Error  as readFlowObject(); InvalidInput, naming the file, if its triangles are not those of the first
-DeformingObject readDeformingObject(const std::vector<std::string>& paths, const FlowObjectOptions& options = {});
+DeformingObject readDeformingObject(const std::vector<std::string>& paths, const ObjectOptions& options = {});
 
 /// Frames of a film at which an animated object is read, from time 0 on.
 struct ObjectSampling {
@@ -84,14 +74,14 @@ struct ObjectSampling {
 /// targets. An animation that moves the object as a whole stays FlowObject::motion, and the object has one shape.
 ///
 /// Shapes are exact at the frames. After its last key an animation that ends as it begins, to a thousandth of the
-/// object's size, is repeated; any other leaves the object as it is. The object's size for FlowObjectOptions::size is
+/// object's size, is repeated; any other leaves the object as it is. The object's size for ObjectOptions::size is
 /// that at time 0.
 /// @param path      .glb or .gltf; other files have no animation
 /// @param sampling  frames
 /// @param options   of the object
 /// @throws Error    as readFlowObject(); InvalidInput if there is no animation of this name
 DeformingObject readAnimatedObject(const std::filesystem::path& path, const ObjectSampling& sampling,
-                                   const FlowObjectOptions& options = {});
+                                   const ObjectOptions& options = {});
 
 /// Number of frames up to the last key of the animation that deforms an object; empty if none does.
 /// @param path      of the object

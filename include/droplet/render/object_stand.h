@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "droplet/io/object.h"
 #include "droplet/render/render.h"
 #include "droplet/render/stand_look.h"
 #include "droplet/surface/textured_mesh.h"
@@ -59,8 +60,10 @@ enum class StandParts {
     Holes  ///< what the alpha of their pictures cuts out; the object is shown plain
 };
 
-/// Reads an object as readObject() does, with its materials.
+/// Reads an object as readObject() does, with its materials: those of glTF, or of the .mtl that an OBJ names and that
+/// lies beside it; without one the object is plain.
 /// @throws Error  as readObject()
-ObjectStand readObjectStand(const std::filesystem::path& path, StandParts parts = StandParts::All);
+ObjectStand readObjectStand(const std::filesystem::path& path, const ObjectOptions& options = {},
+                            StandParts parts = StandParts::All);
 
 }  // namespace droplet
