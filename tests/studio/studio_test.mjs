@@ -569,7 +569,7 @@ studio('what cannot carry a drawing is refused, and a choice can be left', kDesk
     assert.equal(await page.locator('#scene-ground').inputValue(), 'flat');
     await chooser.setFiles({ name: 'plate.obj', mimeType: 'model/obj', buffer: Buffer.from('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n') });
     await page.waitForFunction(() => !document.getElementById('trouble').hidden);
-    assert.match(await page.locator('#trouble').textContent(), /^plate\.obj cannot be opened\. Only a \.glb with texture coordinates/);
+    assert.match(await page.locator('#trouble').textContent(), /^plate\.obj cannot be opened\. Only a \.glb or \.gltf with texture coordinates/);
     await drop(page, 'drop.glb', 'model/gltf-binary', data('can.glb'));
     await page.locator('#object').waitFor();
     await page.keyboard.press('Escape');
