@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "wide_vectors.h"
+
 namespace droplet {
 namespace {
 
@@ -154,7 +156,7 @@ WaterRaster::WaterRaster(const Glass& glass, int width)
 {
 }
 
-void WaterRaster::draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) const
+DROPLET_WIDE_VECTORS void WaterRaster::draw(const WaterDrop& drop, std::vector<WaterStamp>& stamps) const
 {
     const Vec2 along = alongOf(drop);
     const Vec2 reach = reachOf(drop, along);
