@@ -227,10 +227,16 @@ void readGround(const CommandLine& line, DropletSettings& settings)
         settings.ground = groundOf(*surface);
     }
     if (const auto onto = line.value("--onto")) {
-        if (lowerExtension(onto->text) == ".stl") {
+        const bool has_uv = [&] {
+            try {
+                return droplet::readableFormat(onto->text) != droplet::Format::Stl;
+            } catch (const droplet::Error&) {
+                return false;
+            }
+        }();
+        if (!has_uv) {
             refuse(*onto, "a .glb, .gltf, .obj or .ply, whose uv place the droplets; dew and flow take an .stl");
         }
-        forOption("--onto '" + onto->text + "'", [&] { return droplet::readableFormat(onto->text); });
     }
     for (const char* option : {"--scale", "--object-size", "--up"}) {
         if (line.value(option) && !line.value("--onto")) {

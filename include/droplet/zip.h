@@ -15,6 +15,7 @@ struct ZipEntry {
     std::function<void(std::ostream&)> write;  ///< writes the file, the same bytes at every call
 };
 
+/// Options of an archive.
 struct ZipOptions {
     std::uint64_t alignment = 1;  ///< of every file's first byte, from the archive's beginning; below 64 KiB
     bool deflates = false;        ///< whether files are compressed
@@ -28,7 +29,8 @@ struct ZipOptions {
 /// Guarantees: the same files give the same bytes; all of them are dated 1980-01-01.
 class ZipWriter {
 public:
-    /// @param out  used until finish()
+    /// @param out      used until finish()
+    /// @param options  of the archive
     explicit ZipWriter(std::ostream& out, const ZipOptions& options = {}) : out_(out), options_(options) {}
 
     /// Writes a file; the stream is left failed if it did not take everything.

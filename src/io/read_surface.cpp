@@ -2,6 +2,9 @@
 #include "droplet/io/read_surface.h"
 
 #include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
 #include <utility>
 
 #include "droplet/error.h"
@@ -9,9 +12,30 @@
 
 namespace droplet {
 
+namespace {
+
+bool beginsAsGlb(const std::filesystem::path& path)
+{
+    constexpr std::string_view kMagic = "glTF";
+    std::array<char, kMagic.size()> begin{};
+    std::ifstream file(path, std::ios::binary);
+    return file.read(begin.data(), begin.size()) && std::string_view(begin.data(), begin.size()) == kMagic;
+}
+
+}  // namespace
+
 Format readableFormat(const std::filesystem::path& path)
 {
-    const Format format = formatNamed(path.extension().string());
+    const Format format = [&] {
+        try {
+            return formatNamed(path.extension().string());
+        } catch (const Error&) {
+            if (beginsAsGlb(path)) {
+                return Format::Glb;
+            }
+            throw;
+        }
+    }();
     if (format == Format::Usda || format == Format::Usdz || format == Format::ThreeMf) {
         throw Error(ErrorCode::InvalidArgument,
                     "USD and 3MF files are only written; glb, gltf, obj, ply and stl can be read");

@@ -258,7 +258,9 @@ std::optional<std::string> printWarning(const std::vector<PlanarMesh>& footprint
                                     footprints.size(), are(narrow), numberText(1e6 * narrow_area, 2)));
     }
     if (low > 0 || narrow > 0) {
-        texts.back() += ", so a print may lose that; make the picture wider";
+        texts.back() +=
+            low + static_cast<std::ptrdiff_t>(narrow) == 1 ? ", so a print may lose it" : ", so a print may lose them";
+        texts.back() += "; make the picture wider";
     }
     return texts.empty() ? std::nullopt : std::optional(fmt::format("{}", fmt::join(texts, "; ")));
 }

@@ -459,7 +459,7 @@ TEST_F(BatchTest, FindsErrorsBeforeAnyWork)
     writeFile(directory() / "none/page.pdf", "%PDF-1.7");
     expect_refused({"batch", "none", "-o", "out/{stem}.glb"}, 3, "left out: none/page.pdf, PDF (or Illustrator) files");
     expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--manifest", "/proc/none/m.json"}, 4, "/proc/none");
-    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--onto", "masks/notes.txt"}, 3, "--onto: ");
+    expect_refused({"batch", "masks", "-o", "out/{stem}.glb", "--onto", "masks/notes.txt"}, 2, "--onto: ");
     EXPECT_EQ(readFile(directory() / "masks/notes.txt"), "not looked at");
 }
 

@@ -292,7 +292,7 @@ TEST_F(UsageTest, RefusesOptionsThatExcludeEachOther)
 TEST_F(UsageTest, RefusesMeshesWithoutUvOnto)
 {
     expectRefused({"--onto", "bunny.stl"}, {"--onto", "bunny.stl", ".glb, .gltf, .obj or .ply", "dew and flow"});
-    expectRefused({"--onto", "bunny.fbx"}, {"--onto", "bunny.fbx", "format is 'fbx'"});
+    expectRefused({"--onto", "bunny.fbx"}, {"--onto", "bunny.fbx", "must be a .glb, .gltf, .obj or .ply"});
     expectRefused({"--onto", "can.obj", "--scale", "2", "--object-size", "12cm"},
                   {"--scale and --object-size exclude each other"});
 }

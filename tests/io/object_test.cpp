@@ -176,6 +176,23 @@ TEST_F(Object, ReadsBackWhatTheWriterWrites)
     }
 }
 
+/// Avatars are .vrm files, which are .glb files.
+TEST_F(Object, OfAnotherExtensionIsAGlbIfItBeginsAsOne)
+{
+    const Surface surface = testing::roundDroplet({.inner = 1e-3, .centre = {2e-3, -3e-3}});
+    std::ostringstream out;
+    (void)writeGltf(surface, out);
+    const auto named = [&](const char* extension) {
+        return std::filesystem::path(path()).replace_extension(extension);
+    };
+    writeFile(named(".vrm"), out.str());
+    EXPECT_EQ(readObject(named(".vrm")).triangles, surface.triangles);
+    writeFile(named(".txt"), "glTF is a format");
+    EXPECT_THROW((void)readObject(named(".txt")), Error);
+    writeFile(named(".txt"), "gl");
+    EXPECT_THROW((void)readObject(named(".txt")), Error);
+}
+
 TEST_F(Object, IndicesHaveAnyWidthOrAreLeftOut)
 {
     const std::vector<std::uint32_t> corners = {0, 3, 2, 0, 2, 1};

@@ -30,10 +30,11 @@ struct ObjectOptions {
 /// around the vertex, weighted by their angles there (Thürmer and Wüthrich 1998).
 ///
 /// Guarantees: the result is valid.
-/// @param path   file to read
-/// @throws Error InvalidArgument for an unknown extension or options; InvalidInput, naming the file: it cannot be read,
-///               is damaged, has no triangles, triangles without uv, compressed data, numbers that are not finite, more
-///               than 2²⁶ triangles, or is too small or too large to compute with
+/// @param path     file to read
+/// @param options  scale, size and axes
+/// @throws Error   InvalidArgument for an unknown extension or options; InvalidInput, naming the file: it cannot be
+///                 read, is damaged, has no triangles, triangles without uv, compressed data, numbers that are not
+///                 finite, more than 2²⁶ triangles, or is too small or too large to compute with
 TexturedMesh readObject(const std::filesystem::path& path, const ObjectOptions& options = {});
 
 /// Paths of the buffers that a .gltf has beside it, so that a run can protect them. Other files, and files that

@@ -16,8 +16,9 @@ struct ReadSurface {
     std::vector<std::string> warnings;  ///< one line each
 };
 
-/// Format of a file that readSurface reads, by its extension.
-/// @throws Error InvalidArgument for another extension, or one of a format that is only written
+/// Format of a file that readSurface reads, by its extension. A file of another extension that begins as a .glb is one,
+/// such as a .vrm.
+/// @throws Error InvalidArgument for other files, or a format that is only written
 Format readableFormat(const std::filesystem::path& path);
 
 /// Reads a surface in one of the formats that this library writes, but USD: glTF 2.0 (.glb, .gltf), Wavefront OBJ, PLY
