@@ -702,8 +702,7 @@ RunFiles filesOf(const AnimateOptions& options, const FrameNumbers& numbers)
     } else {
         files.writes("OUTPUT", options.archive.value_or(options.output));
     }
-    if (const auto material = options.files ? materialFile(options.files->text(), options.format) : std::nullopt;
-        material && !options.archive) {
+    if (const auto material = options.hasFiles() ? materialFile(options.output, options.format) : std::nullopt) {
         files.writesFrames("OUTPUT's material", *NumberedPath::of(*material, "OUTPUT"), numbers);
     }
     if (options.preview_files) {

@@ -128,8 +128,8 @@ void declare(CommandLine& line, Liquid2dOptions& options)
     line.add(kOut, "--line-width", "NUMBER", "Width of outlines, in thousandths of the drawing's width",
              within(0.0, 50.0));
     line.add(kOut, "--least-droplet", "NUMBER",
-             "Diameter of the smallest droplet that is drawn, in thousandths of the drawing's width",
-             into(options.least_droplet, {0.0, 50.0, "a number from 0 to 50"}));
+             "Diameter of the smallest droplet that is drawn, in thousandths of the drawing's width [2]",
+             within(0.0, 50.0));
     line.add(kOut, "--masks", "PATH",
              "Masks of all frames, such as masks/%04d.png; - writes them to standard output, for animate");
     line.add(
@@ -203,9 +203,11 @@ void readLook(const CommandLine& line, Liquid2dOptions& options)
     options.look = forOption("--look", [&] {
         return droplet::liquidLookNamed(look ? look->text : options.style == "realistic" ? "flat" : "comic");
     });
-    options.look.least_droplet = options.least_droplet;
     if (const auto width = line.value("--line-width")) {
         options.look.line_width = number(*width, {0.0, 50.0, "a number from 0 to 50"});
+    }
+    if (const auto least = line.value("--least-droplet")) {
+        options.look.least_droplet = number(*least, {0.0, 50.0, "a number from 0 to 50"});
     }
 }
 

@@ -46,8 +46,7 @@ struct Liquid2dOptions {
     std::string style = "cartoon";        ///< by default the preset's
     droplet::ExpressionOptions controls;  ///< of the style, with changes
     droplet::LiquidLook look;
-    double least_droplet = droplet::LiquidLook().least_droplet;  ///< of the look
-    int width = 1280;                                            ///< of drawings and masks [px]
+    int width = 1280;  ///< of drawings and masks [px]
     VideoEncoding encoding;
     std::optional<double> duration;  ///< [s]; empty: the preset's, or 4 s
     std::optional<double> begin;     ///< time of the simulation that the first frame shows [s]; empty: 0, or `loop`

@@ -5,6 +5,7 @@
 #include <array>
 #include <fstream>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "droplet/error.h"
@@ -14,8 +15,13 @@ namespace droplet {
 
 namespace {
 
+/// Whether a file begins as a .glb; a pipe, which nobody may write to, is not opened.
 bool beginsAsGlb(const std::filesystem::path& path)
 {
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(path, none)) {
+        return false;
+    }
     constexpr std::string_view kMagic = "glTF";
     std::array<char, kMagic.size()> begin{};
     std::ifstream file(path, std::ios::binary);

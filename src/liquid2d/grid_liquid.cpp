@@ -956,15 +956,20 @@ private:
         return {static_cast<double>(right.sum()), static_cast<double>(up.sum())};
     }
 
+    /// Least distance of a cell's corners from walls, at the end of the step.
+    [[nodiscard]] double cornerDistance(std::size_t cell) const
+    {
+        const std::vector<double>& distance = fieldAfter().distance;
+        const std::size_t corner = left_side_[cell];  // as many in a row as sides
+        const std::size_t above = corner + grid_.cornerColumns();
+        return std::min({distance[corner], distance[corner + 1], distance[above], distance[above + 1]});
+    }
+
     /// Whether neither walls nor the surface are near a cell, so that beside() changes nothing in it.
     [[nodiscard]] bool isInner(std::size_t cell, double reach) const
     {
         constexpr double kRounding = 1e-6;
-        const std::size_t corner = left_side_[cell];  // as many in a row as sides
-        const std::size_t above = corner + grid_.cornerColumns();
-        const bool is_far =
-            std::min({fieldAfter().distance[corner], fieldAfter().distance[corner + 1], fieldAfter().distance[above],
-                      fieldAfter().distance[above + 1]}) > (0.5 + kRounding) * reach;
+        const bool is_far = cornerDistance(cell) > (0.5 + kRounding) * reach;
         bool is_full = true;
         for (const std::size_t row : {cell - grid_.columns, cell, cell + grid_.columns}) {
             is_full = is_full && std::min({filled_[row - 1], filled_[row], filled_[row + 1]}) > kFirstRow + kRounding;
@@ -1090,15 +1095,7 @@ private:
     }
 
     /// Way of a particle in a cell on which it meets no wall.
-    [[nodiscard]] double roomIn(std::size_t cell) const
-    {
-        const std::size_t corner = left_side_[cell];  // as many in a row as sides
-        const std::size_t above = corner + grid_.cornerColumns();
-        return std::max(std::min({fieldAfter().distance[corner], fieldAfter().distance[corner + 1],
-                                  fieldAfter().distance[above], fieldAfter().distance[above + 1]}) -
-                            grid_.cell,
-                        0.0);
-    }
+    [[nodiscard]] double roomIn(std::size_t cell) const { return std::max(cornerDistance(cell) - grid_.cell, 0.0); }
 
     /// Takes what the grid has at a particle.
     [[gnu::always_inline]] void take(FluidState& state, std::size_t i)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "brush_line.h"
@@ -49,11 +50,9 @@ LiquidPaths liquidPaths(const LiquidShape& shape, const LiquidView& view, const 
     LiquidPaths paths;
     paths.liquid = pathsOf(shape.liquid, view);
     const double least = look.least_droplet * 1e-3 * view.size.x;
-    std::vector<Loop> droplets = shape.droplets;
-    droplets.erase(
-        std::remove_if(droplets.begin(), droplets.end(),
-                       [&](const Loop& loop) { return signedArea(loop) < 0.25 * std::numbers::pi * least * least; }),
-        droplets.end());
+    std::vector<Loop> droplets;
+    std::copy_if(shape.droplets.begin(), shape.droplets.end(), std::back_inserter(droplets),
+                 [&](const Loop& loop) { return signedArea(loop) >= 0.25 * std::numbers::pi * least * least; });
     paths.droplets = pathsOf(droplets, view);
     if (look.foam) {
         paths.foam = pathsOf(shape.foam, view);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <polyclipping/clipper.hpp>
 
-#include "mesh/polygon_offset.h"
+#include "mesh/clipper_paths.h"
 
 namespace droplet {
 namespace {
@@ -30,14 +30,8 @@ double area(const ClipperLib::Paths& paths)
 
 double narrowArea(const PlanarMesh& footprint, double diameter)
 {
-    const double units = kUnits / diameter;
-    ClipperLib::Paths outline(footprint.loopCount());
-    for (std::size_t k = 0; k < footprint.loopCount(); ++k) {
-        for (std::uint32_t v = footprint.loop_starts[k]; v < footprint.loop_starts[k + 1]; ++v) {
-            const Vec2 p = units * footprint.vertices[v];
-            outline[k].emplace_back(std::llround(p.x), std::llround(p.y));
-        }
-    }
+    const double unit = diameter / kUnits;
+    ClipperLib::Paths outline = pathsOf(footprint, unit);
     const double whole = area(outline);
     // Rims are finer than what matters here.
     ClipperLib::CleanPolygons(outline, 0.25 * kChord);
@@ -46,7 +40,7 @@ double narrowArea(const PlanarMesh& footprint, double diameter)
     const double radius = 0.5 * kUnits - kMargin;
     const ClipperLib::Paths room = offset(outline, -radius, kChord);
     if (room.empty()) {
-        return whole / (units * units);
+        return whole * unit * unit;
     }
     // Wider by what chords leave over all along the rim.
     ClipperLib::Clipper clipper;
@@ -64,7 +58,7 @@ double narrowArea(const PlanarMesh& footprint, double diameter)
             narrow += piece >= kLeastPiece * kUnits * kUnits ? piece : 0.0;
         }
     }
-    return narrow / (units * units);
+    return narrow * unit * unit;
 }
 
 }  // namespace droplet

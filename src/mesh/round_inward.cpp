@@ -11,8 +11,8 @@
 #include "droplet/domain/domain.h"
 #include "droplet/error.h"
 #include "droplet/mesh/triangulate.h"
+#include "mesh/clipper_paths.h"
 #include "mesh/mean_edge.h"
-#include "mesh/polygon_offset.h"
 #include "mesh/rim_corner.h"
 
 namespace droplet {
@@ -184,13 +184,7 @@ std::optional<PlanarMesh> roundInward(const PlanarMesh& footprint, double radius
     }
     for (int round = 0; round < kRounds; ++round, radius *= 0.5) {
         const double unit = (has_corner ? radius : edge) / kUnits;
-        Paths paths;
-        for (const std::vector<Vec2>& loop : loops) {
-            Path& path = paths.emplace_back();
-            for (const Vec2 p : loop) {
-                path.emplace_back(std::llround(p.x / unit), std::llround(p.y / unit));
-            }
-        }
+        const Paths paths = pathsOf(footprint, unit);
         Footprint rounded = footprintOf(has_corner ? closed(paths) : paths, unit, edge);
         const bool has_grown = has_corner && area(rounded) > (1.0 + kGrowth) * area(footprint);
         if (rounded.rim.points.empty() || rounded.holes.size() + 1 != loops.size() || has_grown) {

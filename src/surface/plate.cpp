@@ -243,8 +243,8 @@ std::optional<std::string> printWarning(const std::vector<PlanarMesh>& footprint
     });
     std::size_t narrow = 0;
     double narrow_area = 0.0;
-    for (const PlanarMesh& footprint : footprints) {
-        const double area = narrowArea(footprint, kNozzle);
+    for (std::size_t k = 0; k < footprints.size(); ++k) {
+        const double area = droplets[k].volume > 0.0 ? narrowArea(footprints[k], kNozzle) : 0.0;
         narrow += area > 0.0 ? 1 : 0;
         narrow_area += area;
     }

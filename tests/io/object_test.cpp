@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -191,6 +192,11 @@ TEST_F(Object, OfAnotherExtensionIsAGlbIfItBeginsAsOne)
     EXPECT_THROW((void)readObject(named(".txt")), Error);
     writeFile(named(".txt"), "gl");
     EXPECT_THROW((void)readObject(named(".txt")), Error);
+    // Nobody writes to it: who opens it waits for ever.
+    const std::filesystem::path pipe = named(".pipe");
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THROW((void)readObject(pipe), Error);
+    std::filesystem::remove(pipe);
 }
 
 TEST_F(Object, IndicesHaveAnyWidthOrAreLeftOut)
