@@ -265,7 +265,7 @@ Picture over(const Layer& layer, const Picture& below)
     }
     Picture mixed = below;
     for (std::size_t i = 0; i < mixed.rgb.size() / 3; ++i) {
-        const std::uint32_t alpha = layer.rgba[4 * i + 3];
+        const std::uint8_t alpha = layer.rgba[4 * i + 3];
         for (std::size_t c = 0; c < 3; ++c) {
             mixed.rgb[3 * i + c] = mixedLevel(layer.rgba[4 * i + c], mixed.rgb[3 * i + c], alpha);
         }

@@ -73,9 +73,11 @@ inline std::uint8_t encoded(float light, const EncodedLevels& levels = encodedLe
 }
 
 /// Mix of a level over another by alpha, rounded to the nearest.
-inline std::uint8_t mixedLevel(std::uint32_t above, std::uint32_t below, std::uint32_t alpha)
+inline std::uint8_t mixedLevel(std::uint8_t above, std::uint8_t below, std::uint8_t alpha)
 {
-    return static_cast<std::uint8_t>((above * alpha + below * (255U - alpha) + 127U) / 255U);
+    // In 16 bits, of which a vector has many: for t < 65535 this is t / 255.
+    const auto t = static_cast<std::uint16_t>(above * alpha + below * (255 - alpha) + 127);
+    return static_cast<std::uint8_t>(static_cast<std::uint16_t>(t + 1 + (t >> 8U)) >> 8U);
 }
 
 }  // namespace droplet

@@ -72,7 +72,7 @@ using TileLight = std::array<Float4, kTilePixels>;
 /// Levels and alpha of a pixel, not premultiplied.
 struct StraightPixel {
     std::uint32_t levels = 0;  ///< from the lowest byte: red, green, blue; in one word, which fits a register
-    std::uint32_t alpha = 0;
+    std::uint8_t alpha = 0;
 
     [[nodiscard]] std::uint8_t red() const { return static_cast<std::uint8_t>(levels); }
     [[nodiscard]] std::uint8_t green() const { return static_cast<std::uint8_t>(levels >> 8U); }
@@ -88,7 +88,7 @@ inline std::uint32_t packed(std::uint32_t red, std::uint32_t green, std::uint32_
 [[gnu::always_inline]] inline StraightPixel straightOf(const Float4& light,
                                                        const EncodedLevels& levels = encodedLevels())
 {
-    const std::uint32_t alpha = level8(light[3]);
+    const std::uint8_t alpha = level8(light[3]);
     if (alpha == 0) {
         return {};
     }
@@ -114,6 +114,17 @@ Float4 lightOf(std::uint8_t red, std::uint8_t green, std::uint8_t blue)
     return Float4{levels[red], levels[green], levels[blue], 1.0F};
 }
 
+/// What is seen through the films of a tile.
+struct ThroughFilms {
+    std::array<std::uint8_t, 3 * kTilePixels + 1> levels{};  ///< of red, green and blue; one more is not used
+    std::array<std::uint8_t, kTilePixels> alpha;             ///< 0: levels have no meaning
+
+    [[nodiscard]] StraightPixel operator[](std::size_t k) const
+    {
+        return {packed(levels[3 * k], levels[3 * k + 1], levels[3 * k + 2]), alpha[k]};
+    }
+};
+
 /// Draws droplets over a frame.
 class FrameWriter {
 public:
@@ -131,6 +142,27 @@ public:
         to[0] = mixedLevel(seen.red(), to[0], seen.alpha);
         to[1] = mixedLevel(seen.green(), to[1], seen.alpha);
         to[2] = mixedLevel(seen.blue(), to[2], seen.alpha);
+    }
+
+    /// @param places  of the tile
+    DROPLET_WIDE_VECTORS void take(const ViewContext::TilePlaces& places, const ThroughFilms& seen)
+    {
+        const int across = std::min(kTile, frame_.width - places.left);
+        const int rows = std::min(kTile, frame_.height - places.top);
+        const std::uint8_t* levels = seen.levels.data();
+        const std::uint8_t* alpha = seen.alpha.data();
+        for (int row = 0; row < rows; ++row, levels += 3 * kTile, alpha += kTile) {
+            std::array<std::uint8_t, 3 * kTile + 1> alphas;  // of channels
+            for (std::size_t c = 0; c < kTile; ++c) {
+                const std::uint32_t word = 0x01010101U * alpha[c];  // the next pixel overwrites its last byte
+                std::memcpy(alphas.data() + 3 * c, &word, sizeof(word));
+            }
+            std::uint8_t* const to =
+                frame_.rgb.data() + 3 * ((places.top + row) * std::ptrdiff_t{frame_.width} + places.left);
+            for (int c = 0; c < 3 * across; ++c) {
+                to[c] = mixedLevel(levels[c], to[c], alphas[static_cast<std::size_t>(c)]);
+            }
+        }
     }
 
     /// Light of the pixel below droplets; a blurred pixel has the mean of such light.
@@ -163,7 +195,18 @@ public:
         to[0] = seen.red();
         to[1] = seen.green();
         to[2] = seen.blue();
-        to[3] = static_cast<std::uint8_t>(seen.alpha);
+        to[3] = seen.alpha;
+    }
+
+    /// @param places  of the tile
+    void take(const ViewContext::TilePlaces& places, const ThroughFilms& seen)
+    {
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            if (seen.alpha[k] > 0) {
+                take(places.eye.at(places.left + static_cast<int>(k % kTile), places.top + static_cast<int>(k / kTile)),
+                     seen[k]);
+            }
+        }
     }
 
     [[nodiscard]] Float4 light(std::size_t /*pixel*/, const StraightPixel& seen) const
@@ -437,14 +480,6 @@ struct DriversView::Content {
         }
     }
 
-    /// Pixels of a tile that show films.
-    struct ThroughFilms {
-        std::size_t count = 0;
-        std::array<std::uint8_t, kTilePixels> pixel;   ///< in the tile
-        std::array<std::uint8_t, kTilePixels> alpha;   ///< of all pixels
-        std::array<std::uint32_t, kTilePixels> level;  ///< packed
-    };
-
     /// What is seen through the films of a tile.
     [[nodiscard]] DROPLET_WIDE_VECTORS ThroughFilms lookThrough(const WaterLeft& left,
                                                                 const ViewContext::TilePlaces& places,
@@ -469,17 +504,21 @@ struct DriversView::Content {
         for (std::size_t k = 0; k < kTilePixels; ++k) {
             seen.alpha[k] = level8(left.cover[k]);
         }
+        std::array<std::uint8_t, kTilePixels> wet;
+        std::size_t count = 0;
         for (std::size_t k = 0; k < kTilePixels; ++k) {
-            seen.pixel[seen.count] = static_cast<std::uint8_t>(k);
-            seen.count += left.cover[k] > 0.0F ? 1 : 0;  // without a branch, which would be guessed wrong
+            wet[count] = static_cast<std::uint8_t>(k);
+            count += left.cover[k] > 0.0F ? 1 : 0;  // without a branch, which would be guessed wrong
         }
-        for (std::size_t j = 0; j < seen.count; ++j) {
-            const std::size_t k = seen.pixel[j];
+        for (std::size_t j = 0; j < count; ++j) {
+            const std::size_t k = wet[j];
             const Int4 behind = levelsAt({pixels[k], belows[k], acrosses[k]});
             const auto level = [&](int c) {
                 return through.levels[static_cast<std::size_t>(c)][static_cast<std::size_t>(behind[c])];
             };
-            seen.level[j] = packed(level(0), level(1), level(2));
+            // Its last byte is overwritten by the next pixel, or belongs to one that is dry.
+            const std::uint32_t word = packed(level(0), level(1), level(2));
+            std::memcpy(seen.levels.data() + 3 * k, &word, sizeof(word));
         }
         return seen;
     }
@@ -507,10 +546,20 @@ struct DriversView::Content {
             Float4& behind = light[bead.pixel];
             behind += float4(1.0F - behind[3]) * throughBead(bead.water, scene.tiles[number], scene.eye.ray(x, y));
         }
-        const bool is_light = splashes.reach(number) || wipers.reachNow(number);
+        ThroughFilms seen = lookThrough(left, places, through);
+        if (content.has_light) {
+            drawUnderLight(number, left.cover, seen, light);
+        }
+        writer.take(places, seen);
+    }
+
+    /// Draws films where there will be other light in a tile, and takes them away.
+    void drawUnderLight(std::size_t number, const std::array<float, kTilePixels>& cover, ThroughFilms& films,
+                        TileLight& light) const
+    {
         std::array<bool, kTilePixels> is_lit;
-        is_lit.fill(is_light);
-        if (content.has_light && !is_light) {
+        is_lit.fill(splashes.reach(number) || wipers.reachNow(number));
+        if (!is_lit.front()) {
             for (std::size_t k = 0; k < kTilePixels; ++k) {
                 is_lit[k] = light[k][3] > 0.0F;
             }
@@ -520,17 +569,11 @@ struct DriversView::Content {
                 }
             }
         }
-        const ThroughFilms seen = lookThrough(left, places, through);
-        for (std::size_t j = 0; j < seen.count; ++j) {
-            const std::size_t k = seen.pixel[j];
-            const StraightPixel straight{seen.level[j], seen.alpha[k]};
-            if (is_lit[k]) {
-                light[k] += float4((1.0F - light[k][3]) * left.cover[k]) *
-                            lightOf(straight.red(), straight.green(), straight.blue());
-            } else {
-                writer.take(
-                    scene.eye.at(places.left + static_cast<int>(k % kTile), places.top + static_cast<int>(k / kTile)),
-                    straight);
+        for (std::size_t k = 0; k < kTilePixels; ++k) {
+            if (is_lit[k] && cover[k] > 0.0F) {
+                const StraightPixel seen = films[k];
+                light[k] += float4((1.0F - light[k][3]) * cover[k]) * lightOf(seen.red(), seen.green(), seen.blue());
+                films.alpha[k] = 0;
             }
         }
     }

@@ -163,7 +163,7 @@ WiperView::FilmField::FilmField() : samples_(static_cast<std::size_t>(kSamplesAl
     });
 }
 
-Float4 WiperView::FilmField::at(float along, float across) const
+[[gnu::always_inline]] inline Float4 WiperView::FilmField::at(float along, float across) const
 {
     const float u = along * (kSamplesAlong / kRoundAlong);
     const float v = across * (kSamplesAcross / kRoundAcross);
@@ -177,9 +177,7 @@ Float4 WiperView::FilmField::at(float along, float across) const
     const Float4 y = float4(v - static_cast<float>(row));
     const Float4 low = sample(0, 0) + x * (sample(1, 0) - sample(0, 0));
     const Float4 high = sample(0, 1) + x * (sample(1, 1) - sample(0, 1));
-    Float4 field = low + y * (high - low);
-    field[3] = std::sqrt(field[1] * field[1] + field[2] * field[2]);
-    return field;
+    return low + y * (high - low);
 }
 
 WiperView::Blade WiperView::bladeAt(const Wiper& wiper, double time)
@@ -250,9 +248,9 @@ void WiperView::updateTile(std::size_t number)
     const Vec2f half{0.5F * (tile.high.x - tile.low.x), 0.5F * (tile.high.y - tile.low.y)};
     for (std::size_t k = 0; k < states_.size(); ++k) {
         const WiperState& one = states_[k];
-        if (FilmPixels* const film = films_[k][number].get(); film != nullptr) {
-            renew(one, *film, number);
-            reach.has_water_left = reach.has_water_left || film->is_wet;
+        if (TileFilm& film = films_[k][number]; film.pixels != nullptr) {
+            renew(one, film, number);
+            reach.has_water_left = reach.has_water_left || film.is_wet;
         }
         reach.has_water_left = reach.has_water_left || reachWedge(one, tile);
         const Vec2f pivot = toFloats2(one.wiper.pivot);
@@ -321,7 +319,7 @@ WiperView::Passed WiperView::passed(const WiperState& one, float there)
     return {0, since + static_cast<float>(one.wiper.period) - (stroke - there)};
 }
 
-void WiperView::renew(const WiperState& one, FilmPixels& film, std::size_t tile) const
+void WiperView::renew(const WiperState& one, TileFilm& film, std::size_t tile) const
 {
     const Passed first = passed(one, film.first);
     const Passed last = passed(one, film.last);
@@ -330,68 +328,104 @@ void WiperView::renew(const WiperState& one, FilmPixels& film, std::size_t tile)
     if (!film.is_wet) {
         return;
     }
-    const std::uint32_t way = 2 * one.stroke + first.way;
-    const ViewContext::TilePlaces places = scene_.placesOf(tile);
+    std::array<std::uint32_t, kTilePixels> ways;
     if (first.way != last.way) {
         film.way.reset();
         for (std::size_t k = 0; k < kTilePixels; ++k) {
-            renew(one, film, places, k, 2 * one.stroke + passed(one, film.there[k]).way);
+            ways[k] = 2 * one.stroke + passed(one, film.pixels->there[k]).way;
         }
+        renew(one, *film.pixels, tile, ways);
         return;
     }
+    const std::uint32_t way = 2 * one.stroke + first.way;
     if (film.way != way) {
         film.way = way;
-        film.lasts = 0.0F;
-        for (std::size_t k = 0; k < kTilePixels; ++k) {
-            renew(one, film, places, k, way);
-            film.lasts = std::max(film.lasts, dryAge(static_cast<float>(film.levels[k]) / FilmPixels::kLevel));
-        }
+        ways.fill(way);
+        renew(one, *film.pixels, tile, ways);
+        const std::uint16_t highest = *std::max_element(film.pixels->levels.begin(), film.pixels->levels.end());
+        film.lasts = dryAge(static_cast<float>(highest) / FilmPixels::kLevel);
     }
     film.is_wet = age < film.lasts;
 }
 
-void WiperView::renew(const WiperState& one, FilmPixels& film, const ViewContext::TilePlaces& places, std::size_t pixel,
-                      std::uint32_t way) const
+DROPLET_WIDE_VECTORS void WiperView::renew(const WiperState& one, FilmPixels& film, std::size_t tile,
+                                           const std::array<std::uint32_t, kTilePixels>& ways) const
 {
-    // No blade has passed before the first way, which is number 1.
-    if (std::exchange(film.ways[pixel], way) == way || film.there[pixel] < 0.0F || way == 0) {
-        return;
+    std::array<std::uint8_t, kTilePixels> pixels;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < kTilePixels; ++k) {
+        pixels[count] = static_cast<std::uint8_t>(k);
+        // No blade has passed before the first way, which is number 1.
+        const bool is_new = (ways[k] != film.ways[k]) & (film.there[k] >= 0.0F) & (ways[k] != 0);
+        count += is_new ? 1 : 0;  // without a branch, which would be guessed wrong
     }
-    const std::uint32_t in_stroke = way - 2 * one.stroke;
+    film.ways = ways;
+    const ViewContext::TilePlaces places = scene_.placesOf(tile);
     const Vec2f pivot = toFloats2(one.wiper.pivot);
-    const Vec2f place = places(pixel);
-    const Vec2f from{place.x - pivot.x, place.y - pivot.y};
-    const float far = size(from);
-    const Vec2f moved = one.film_shifts[in_stroke];
-    const Float4 field = film_->at(film.along[pixel] + moved.x, far + moved.y);
-    const Vec2f slope{(field[2] * from.x - field[1] * from.y) / far, (field[2] * from.y + field[1] * from.x) / far};
+    std::array<float, kTilePixels> from_x;  // of the pixels that are new, from the pivot
+    std::array<float, kTilePixels> from_y;
+    for (std::size_t j = 0; j < count; ++j) {
+        const Vec2f place = places(pixels[j]);
+        from_x[j] = place.x - pivot.x;
+        from_y[j] = place.y - pivot.y;
+    }
+    std::array<float, kTilePixels> fars;
+    for (std::size_t j = 0; j < count; ++j) {
+        fars[j] = size({from_x[j], from_y[j]});
+    }
+    std::array<float, kTilePixels> along;  // slopes of the level
+    std::array<float, kTilePixels> across;
+    for (std::size_t j = 0; j < count; ++j) {
+        const std::size_t k = pixels[j];
+        const Vec2f moved = one.film_shifts[ways[k] - 2 * one.stroke];
+        const Float4 field = film_->at(film.along[k] + moved.x, fars[j] + moved.y);
+        film.levels[k] = static_cast<std::uint16_t>(FilmPixels::kLevel * field[0]);
+        along[j] = field[1];
+        across[j] = field[2];
+    }
+    // Loops without a branch, which are vectorised.
+    std::array<float, kTilePixels> steepnesses;
+    std::array<float, kTilePixels> shifts_x;
+    std::array<float, kTilePixels> shifts_y;
     const FilmOptics& optics = film.optics;
-    const auto shifted = [](float shift) {
-        constexpr float kMax = 32767.0F;
-        return static_cast<std::int16_t>(std::clamp(shift / FilmPixels::kShift, -kMax, kMax));
-    };
-    film.passed[pixel] = in_stroke == 1 ? film.there[pixel] : static_cast<float>(one.wiper.stroke) - film.there[pixel];
-    film.levels[pixel] = static_cast<std::uint16_t>(FilmPixels::kLevel * field[0]);
-    film.steepnesses[pixel] =
-        static_cast<std::uint16_t>(std::clamp(FilmPixels::kSteepness * places.pixel * field[3], 1.0F, 65535.0F));
-    film.shifts_x[pixel] = shifted(optics.by_x.x * slope.x + optics.by_y.x * slope.y);
-    film.shifts_y[pixel] = shifted(optics.by_x.y * slope.x + optics.by_y.y * slope.y);
+    const auto within = [](float value, float least, float most) { return std::min(std::max(value, least), most); };
+    for (std::size_t j = 0; j < count; ++j) {
+        constexpr float kMost = 32767.0F;
+        const float x = (across[j] * from_x[j] - along[j] * from_y[j]) / fars[j];
+        const float y = (across[j] * from_y[j] + along[j] * from_x[j]) / fars[j];
+        const float steepest = size({along[j], across[j]});
+        steepnesses[j] = within(FilmPixels::kSteepness * places.pixel * steepest, 1.0F, 65535.0F);
+        shifts_x[j] = within((optics.by_x.x * x + optics.by_y.x * y) / FilmPixels::kShift, -kMost, kMost);
+        shifts_y[j] = within((optics.by_x.y * x + optics.by_y.y * y) / FilmPixels::kShift, -kMost, kMost);
+    }
+    for (std::size_t j = 0; j < count; ++j) {
+        const std::size_t k = pixels[j];
+        film.steepnesses[k] = static_cast<std::uint16_t>(steepnesses[j]);
+        film.shifts_x[k] = static_cast<std::int16_t>(shifts_x[j]);
+        film.shifts_y[k] = static_cast<std::int16_t>(shifts_y[j]);
+    }
 }
 
-DROPLET_WIDE_VECTORS void WiperView::addFilm(const WiperState& one, const FilmPixels& film, bool is_first,
+DROPLET_WIDE_VECTORS void WiperView::addFilm(const WiperState& one, const TileFilm& in_tile, bool is_first,
                                              WaterLeft& left) const
 {
+    const FilmPixels& film = *in_tile.pixels;
+    const auto stroke = static_cast<float>(one.wiper.stroke);
     const auto since = static_cast<float>(one.since);
     const float later = since + static_cast<float>(one.wiper.period);
+    const std::uint32_t last_way_before = 2 * one.stroke;
+    const std::uint32_t way_there = last_way_before + 1;
     std::array<float, kTilePixels> ages;
-    if (film.way) {
-        const float now = *film.way == 2 * one.stroke ? later : since;
+    if (in_tile.way) {
+        const float now = *in_tile.way == last_way_before ? later : since;
+        const bool is_there = *in_tile.way == way_there;
         for (std::size_t k = 0; k < kTilePixels; ++k) {
-            ages[k] = now - film.passed[k];
+            ages[k] = now - (is_there ? film.there[k] : stroke - film.there[k]);
         }
     } else {
         for (std::size_t k = 0; k < kTilePixels; ++k) {
-            ages[k] = (film.ways[k] == 2 * one.stroke ? later : since) - film.passed[k];
+            ages[k] = (film.ways[k] == last_way_before ? later : since) -
+                      (film.ways[k] == way_there ? film.there[k] : stroke - film.there[k]);
         }
     }
     left.reflected = film.optics.reflected;
@@ -486,8 +520,8 @@ void WiperView::waterLeft(std::size_t tile, WaterLeft& left) const
     left.beads.clear();
     bool is_first = true;
     for (std::size_t k = 0; k < states_.size(); ++k) {
-        if (const FilmPixels* film = films_[k][tile].get(); film != nullptr && film->is_wet) {
-            addFilm(states_[k], *film, std::exchange(is_first, false), left);
+        if (const TileFilm& film = films_[k][tile]; film.is_wet) {
+            addFilm(states_[k], film, std::exchange(is_first, false), left);
         }
     }
     if (is_first) {
@@ -527,29 +561,30 @@ void WiperView::placeFilms()
 {
     const Tiles& tiles = scene_.tiles;
     for (const Wiper& wiper : scene_.options.wipers) {
-        std::vector<std::unique_ptr<FilmPixels>>& films = films_.emplace_back(tiles.count());
+        std::vector<TileFilm>& films = films_.emplace_back(tiles.count());
         const Vec2f pivot = toFloats2(wiper.pivot);
         tbb::parallel_for(std::size_t{0}, tiles.count(), [&](std::size_t tile) {
-            auto film = std::make_unique<FilmPixels>();
-            film->ways.fill(std::numeric_limits<std::uint32_t>::max());
-            film->passed.fill(-std::numeric_limits<float>::infinity());
-            film->levels.fill(0);
-            film->steepnesses.fill(1);
-            film->shifts_x.fill(0);
-            film->shifts_y.fill(0);
+            TileFilm film;
+            auto pixels = std::make_unique<FilmPixels>();
+            pixels->ways.fill(std::numeric_limits<std::uint32_t>::max());
+            pixels->levels.fill(0);
+            pixels->steepnesses.fill(1);
+            pixels->shifts_x.fill(0);
+            pixels->shifts_y.fill(0);
             const ViewContext::TilePlaces places = scene_.placesOf(tile);
             for (std::size_t k = 0; k < kTilePixels; ++k) {
                 const Vec2f place = places(k);
                 const FilmPlace at = filmPlaceOf(wiper, {place.x - pivot.x, place.y - pivot.y});
-                film->there[k] = at.there;
-                film->along[k] = at.along;
+                pixels->there[k] = at.there;
+                pixels->along[k] = at.along;
                 if (at.there >= 0.0F) {
-                    film->first = film->last < 0.0F ? at.there : std::min(film->first, at.there);
-                    film->last = std::max(film->last, at.there);
+                    film.first = film.last < 0.0F ? at.there : std::min(film.first, at.there);
+                    film.last = std::max(film.last, at.there);
                 }
             }
-            if (film->last >= 0.0F) {
-                film->optics = FilmOptics::of(scene_, tile);
+            if (film.last >= 0.0F) {
+                pixels->optics = FilmOptics::of(scene_, tile);
+                film.pixels = std::move(pixels);
                 films[tile] = std::move(film);
             }
         });

@@ -66,7 +66,7 @@ private:
     class FilmField {
     public:
         FilmField();
-        /// Level, its slope along the blade's motion, along the blade, and the steepest [1/m].
+        /// Level, its slope along the blade's motion, along the blade [1/m], and a number without meaning.
         /// @param along   [m], more than -1e6
         /// @param across  [m]
         [[nodiscard]] Float4 at(float along, float across) const;
@@ -98,28 +98,30 @@ private:
         float along = 0.0F;   ///< along the way of the blade's outer end [m]
     };
     /// Film of a wiper in the pixels of a tile. A way of the blade gives a pixel a part of the field until the next
-    /// way.
+    /// way. What is read for every frame is small.
     struct FilmPixels {
         std::array<float, kTilePixels> there;  ///< as FilmPlace
         std::array<float, kTilePixels> along;
-        std::array<std::uint32_t, kTilePixels> ways;  ///< last one over each pixel
-        float first = 0.0F;                           ///< least time `there` of the pixels that the blade passes
-        float last = -1.0F;                           ///< largest one; below 0: it passes none
-        FilmOptics optics;
-        bool is_wet = false;               ///< now (upper bound)
-        std::optional<std::uint32_t> way;  ///< last one, if it is the same for all pixels
-        // What it has left there. All of this is read for every frame, so it is small.
-        std::array<float, kTilePixels> passed;          ///< when [s after the stroke's begin]
+        std::array<std::uint32_t, kTilePixels> ways;    ///< last one over each pixel
         std::array<std::uint16_t, kTilePixels> levels;  ///< of the field, in 1/kLevel
         std::array<std::uint16_t, kTilePixels>
             steepnesses;                                 ///< steepest slope of the level, in 1/kSteepness of a pixel
         std::array<std::int16_t, kTilePixels> shifts_x;  ///< shift of the picture behind for a unit slope ...
         std::array<std::int16_t, kTilePixels> shifts_y;  ///< ... over that of the level, in kShift px/m
-        float lasts = 0.0F;                              ///< time until all films of `way` have dried [s]
+        FilmOptics optics;
 
         static constexpr float kLevel = 65535.0F;
         static constexpr float kSteepness = 16384.0F;
         static constexpr float kShift = 50.0F;  // for the steepest rims 0.005 px
+    };
+    /// Film of a wiper in a tile.
+    struct TileFilm {
+        std::unique_ptr<FilmPixels> pixels;  ///< none: the blade never passes
+        float first = 0.0F;                  ///< least time `there` of the pixels that the blade passes
+        float last = -1.0F;                  ///< largest one; below 0: it passes none
+        std::optional<std::uint32_t> way;    ///< last one, if it is the same for all pixels
+        float lasts = 0.0F;                  ///< time until all films of `way` have dried [s]
+        bool is_wet = false;                 ///< now (upper bound)
     };
     /// Last way of a blade over a place.
     struct Passed {
@@ -131,13 +133,13 @@ private:
     [[nodiscard]] static FilmPlace filmPlaceOf(const Wiper& wiper, Vec2f from);
     [[nodiscard]] static Passed passed(const WiperState& one, float there);
     /// Takes the film of a tile to the present time.
-    void renew(const WiperState& one, FilmPixels& film, std::size_t tile) const;
-    /// Takes the film of a pixel to a way.
-    void renew(const WiperState& one, FilmPixels& film, const ViewContext::TilePlaces& places, std::size_t pixel,
-               std::uint32_t way) const;
+    void renew(const WiperState& one, TileFilm& film, std::size_t tile) const;
+    /// Takes the film of each pixel of a tile to a way.
+    void renew(const WiperState& one, FilmPixels& film, std::size_t tile,
+               const std::array<std::uint32_t, kTilePixels>& ways) const;
     /// Adds a film where it covers more than what is there.
     /// @param is_first  nothing is there; what `left` has is of another tile
-    void addFilm(const WiperState& one, const FilmPixels& film, bool is_first, WaterLeft& left) const;
+    void addFilm(const WiperState& one, const TileFilm& in_tile, bool is_first, WaterLeft& left) const;
     void addWedges(std::size_t tile, WaterLeft& left) const;
     [[nodiscard]] static Wedge wedgeOf(const WiperState& one);
     /// Whether a wedge may be visible in a tile (upper bound).
@@ -149,7 +151,7 @@ private:
     const ViewContext& scene_;
     std::vector<WiperState> states_;
     std::optional<FilmField> film_;
-    std::vector<std::vector<std::unique_ptr<FilmPixels>>> films_;  ///< for each wiper: of every tile in its field
+    std::vector<std::vector<TileFilm>> films_;  ///< for each wiper: of every tile
     struct TileReach {
         bool has_water_left = false;
         std::uint64_t blades = 0;  ///< a bit for each moment, of which there are at most 64
