@@ -149,16 +149,17 @@ public:
     {
         const int across = std::min(kTile, frame_.width - places.left);
         const int rows = std::min(kTile, frame_.height - places.top);
+        constexpr std::size_t kChannels = std::size_t{3} * kTile;  // of a row
         const std::uint8_t* levels = seen.levels.data();
         const std::uint8_t* alpha = seen.alpha.data();
-        for (int row = 0; row < rows; ++row, levels += 3 * kTile, alpha += kTile) {
-            std::array<std::uint8_t, 3 * kTile + 1> alphas;  // of channels
+        for (int row = 0; row < rows; ++row, levels += kChannels, alpha += kTile) {
+            std::array<std::uint8_t, kChannels + 1> alphas;
             for (std::size_t c = 0; c < kTile; ++c) {
                 const std::uint32_t word = 0x01010101U * alpha[c];  // the next pixel overwrites its last byte
                 std::memcpy(alphas.data() + 3 * c, &word, sizeof(word));
             }
             std::uint8_t* const to =
-                frame_.rgb.data() + 3 * ((places.top + row) * std::ptrdiff_t{frame_.width} + places.left);
+                frame_.rgb.data() + 3 * (std::ptrdiff_t{places.top + row} * frame_.width + places.left);
             for (int c = 0; c < 3 * across; ++c) {
                 to[c] = mixedLevel(levels[c], to[c], alphas[static_cast<std::size_t>(c)]);
             }

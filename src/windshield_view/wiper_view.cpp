@@ -356,7 +356,7 @@ DROPLET_WIDE_VECTORS void WiperView::renew(const WiperState& one, FilmPixels& fi
     for (std::size_t k = 0; k < kTilePixels; ++k) {
         pixels[count] = static_cast<std::uint8_t>(k);
         // No blade has passed before the first way, which is number 1.
-        const bool is_new = (ways[k] != film.ways[k]) & (film.there[k] >= 0.0F) & (ways[k] != 0);
+        const bool is_new = ways[k] != film.ways[k] && film.there[k] >= 0.0F && ways[k] != 0;
         count += is_new ? 1 : 0;  // without a branch, which would be guessed wrong
     }
     film.ways = ways;
