@@ -8,6 +8,7 @@
 #include "droplet/liquid2d/fluid_scene.h"
 #include "liquid2d/bounds.h"
 #include "liquid2d/wall_distance.h"
+#include "plain_length.h"
 #include "surface_kernel.h"
 
 namespace droplet {
@@ -69,8 +70,8 @@ void meetWalls(std::vector<Loop>& loops, const ParticleFrame& frame)
                 }
                 const Vec2 along = loop.points[i + 1 == count ? 0 : i + 1] - loop.points[i == 0 ? count - 1 : i - 1];
                 const Vec2 slope = place.slopeIn(field.distance);
-                const double steepness = length(slope);
-                const double size = length(along) * steepness;
+                const double steepness = plainLength(slope);
+                const double size = plainLength(along) * steepness;
                 // The outward normal is the tangent, turned to the right.
                 const double facing = size > 0.0 ? -cross(slope, along) / size : 0.0;
                 const double share = smoothRamp(distance, kFar, kNear) * smoothRamp(facing, kAside, kFacing);

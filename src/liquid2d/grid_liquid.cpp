@@ -44,8 +44,8 @@ namespace {
 /// Side of a cell, in spacings.
 constexpr double kCell = 2.0;
 
-/// Longest way in a step, in spacings, if none is asked for.
-constexpr double kCourant = 2.5;
+/// Longest way in a step, in spacings, if none is asked for: with more, a thin crown has wrinkles.
+constexpr double kCourant = 3.0;
 
 /// One liquid particle in so many may go farther, by this factor at most: few fast ones would shorten the steps of all.
 constexpr std::size_t kFastOnes = 100;
@@ -79,9 +79,6 @@ constexpr double kClearance = 0.25;
 
 /// Particles that are compared with another one at a time.
 constexpr int kLanes = 4;
-
-/// Particles that are moved at a time.
-constexpr std::size_t kAtOnce = 64;
 
 /// Weight of particles below which a side has no velocity of its own.
 constexpr double kLeastWeight = 1e-9;
@@ -214,13 +211,19 @@ private:
     void accelerate(FluidState& state)
     {
         state.affine.resize(state.position.size());
-        acceleration_.assign(state.position.size(), scene_.gravity);
+        acceleration_.clear();
         if (options_.control) {
+            acceleration_.assign(state.position.size(), scene_.gravity);
             options_.control(state, acceleration_);
         }
-        for (std::size_t i = 0; i < acceleration_.size(); ++i) {
-            state.velocity[i] = state.velocity[i] + dt_ * acceleration_[i];
+        for (std::size_t i = 0; i < state.velocity.size(); ++i) {
+            state.velocity[i] = state.velocity[i] + dt_ * accelerationOf(i);
         }
+    }
+
+    [[nodiscard]] Vec2 accelerationOf(std::size_t i) const
+    {
+        return acceleration_.empty() ? scene_.gravity : acceleration_[i];
     }
 
     /// Makes the grid large enough for the particles; returns whether it is a new one.
@@ -228,8 +231,8 @@ private:
     {
         const double h = grid_.cell;
         const auto [lower, upper] = state.position.empty() ? Bounds{{}, {}} : boundsOf(state.position);
-        // One more than what matters, which has neighbours then.
-        constexpr auto kMargin = static_cast<std::int64_t>(kPad) + 1;
+        // What matters, and the way of a step.
+        constexpr std::int64_t kMargin = 6;
         const auto number = [h](double x) { return static_cast<std::int64_t>(std::floor(x / h)); };
         const auto right = grid_.left + static_cast<std::int64_t>(grid_.columns);
         const auto top = grid_.bottom + static_cast<std::int64_t>(grid_.rows);
@@ -284,23 +287,25 @@ private:
                 }
             },
             kParticlesPerBlock);
-        begin_.assign(grid_.cells() + 1, 0);
+        // Numbers of particles, then the first ones, are two cells further on: filling the cells moves them by one.
+        begin_.assign(grid_.cells() + 2, 0);
         for (const std::uint32_t cell : cell_) {
-            ++begin_[cell + 1];
+            ++begin_[cell + 2];
         }
-        for (std::size_t k = 0; k < grid_.cells(); ++k) {
-            begin_[k + 1] += begin_[k];
+        for (std::size_t k = 2; k < begin_.size(); ++k) {
+            begin_[k] += begin_[k - 1];
         }
-        next_.assign(begin_.begin(), begin_.end() - 1);
         order_.resize(count);
         for (std::uint32_t i = 0; i < count; ++i) {
-            order_[next_[cell_[i]]++] = i;
+            order_[begin_[cell_[i] + 1]++] = i;
         }
         tbb::parallel_invoke(
             [&] {
                 reorder(state.position, order_, sorted_vectors_);
                 reorder(state.velocity, order_, sorted_vectors_);
-                reorder(acceleration_, order_, sorted_vectors_);
+                if (!acceleration_.empty()) {
+                    reorder(acceleration_, order_, sorted_vectors_);
+                }
             },
             [&] {
                 reorder(state.affine, order_, sorted_gradients_);
@@ -997,12 +1002,6 @@ private:
         return displacement;
     }
 
-    [[nodiscard, gnu::always_inline]] Vec2 velocityAt(Vec2 place) const
-    {
-        const GridPlace in_grid = places_.at(place);
-        return {in_grid.amongLeftSides().in(u_.value), in_grid.amongLowerSides().in(v_.value)};
-    }
-
     /// Takes velocities from the grid, and moves the particles.
     void move(FluidState& state)
     {
@@ -1012,38 +1011,18 @@ private:
         constexpr std::size_t kParticlesPerBlock = 2048;
         squares_.assign(count, 0.0);
         for (const std::uint64_t rescued : mapBlocks<std::uint64_t>(
-                 count,
-                 [&](std::size_t begin, std::size_t end) {
-                     std::uint64_t result = 0;
-                     for (; begin < end; begin += kAtOnce) {
-                         result += moveSome(state, begin, std::min(begin + kAtOnce, end));
-                     }
-                     return result;
-                 },
+                 count, [&](std::size_t begin, std::size_t end) { return moveSome(state, begin, end); },
                  kParticlesPerBlock)) {
             state.counts.rescued += rescued;
         }
         state.approach_speed = count > 0 ? stepSpeed() : 0.0;
     }
 
-    /// Moves a few particles; returns how many came into walls. Each stage is done for all of them: a particle's places
-    /// follow from one another, so that a processor would wait for each.
+    /// Moves particles; returns how many came into walls. They go straight on with their own velocities: what is on
+    /// liquid goes with it, however fast that is. On paths through the grid's velocities, particles on fast liquid
+    /// would pass what goes with them, and waves of some cells would grow on it.
     [[nodiscard]] DROPLET_WIDE_VECTORS std::uint64_t moveSome(FluidState& state, std::size_t begin, std::size_t end)
     {
-        for (std::size_t i = begin; i < end; ++i) {
-            if (flies_[i] == 0) {
-                take(state, i);
-            }
-        }
-        // Ralston's method of third order.
-        std::array<Vec2, kAtOnce> second;
-        std::array<Vec2, kAtOnce> third;
-        for (std::size_t i = begin; i < end; ++i) {
-            second[i - begin] = velocityAt(state.position[i] + (0.5 * dt_) * state.velocity[i]);
-        }
-        for (std::size_t i = begin; i < end; ++i) {
-            third[i - begin] = velocityAt(state.position[i] + (0.75 * dt_) * second[i - begin]);
-        }
         std::uint64_t rescued = 0;
         std::size_t cell = grid_.cells();
         double room = 0.0;  // of the cell: most particles are too far from walls to meet one
@@ -1052,12 +1031,12 @@ private:
                 rescued += fly(state, i) ? 1 : 0;
                 continue;
             }
+            take(state, i);
             if (cell_[i] != cell) {
                 cell = cell_[i];
                 room = roomIn(cell);
             }
-            const Vec2 way =
-                (dt_ / 9.0) * (2.0 * state.velocity[i] + 3.0 * second[i - begin] + 4.0 * third[i - begin]) + shift_[i];
+            const Vec2 way = dt_ * state.velocity[i] + shift_[i];
             state.position[i] = state.position[i] + way;
             rescued += !(dot(way, way) < room * room) && keepOutOfWalls(state, i) ? 1 : 0;
             squares_[i] = dot(state.velocity[i], state.velocity[i]);
@@ -1087,7 +1066,7 @@ private:
         bool is_rescued = false;
         for (int part = 0; part < parts; ++part) {
             // The velocity is that at the end of the step.
-            const Vec2 mean = state.velocity[i] - (dt_ * (1.0 - (part + 0.5) / parts)) * acceleration_[i];
+            const Vec2 mean = state.velocity[i] - (dt_ * (1.0 - (part + 0.5) / parts)) * accelerationOf(i);
             state.position[i] = state.position[i] + (dt_ / parts) * mean;
             is_rescued = keepOutOfWalls(state, i) || is_rescued;
         }
@@ -1163,7 +1142,6 @@ private:
     WallField moved_field_;            ///< at its end, if walls are moving
     // Of cells:
     std::vector<std::uint32_t> begin_;      ///< their first particles
-    std::vector<std::uint32_t> next_;       ///< where the next particle goes
     std::vector<std::uint32_t> left_side_;  ///< in u_
     std::vector<double> density_;           ///< of liquid, relative to that at rest
     std::vector<double> solid_;             ///< part that walls take, smoothed likewise
@@ -1180,7 +1158,7 @@ private:
     std::vector<std::size_t> liquid_;  ///< liquid cells
     std::vector<double> scratch_;
     // Of particles:
-    std::vector<Vec2> acceleration_;
+    std::vector<Vec2> acceleration_;  ///< empty: gravity alone
     std::vector<std::uint32_t> cell_;
     std::vector<std::uint32_t> order_;
     std::vector<std::uint8_t> flies_;

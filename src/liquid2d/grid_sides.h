@@ -10,8 +10,9 @@
 
 namespace droplet {
 
-/// Cells around the particles that matter: those of a step's way, and one for the surface.
-inline constexpr std::size_t kPad = 5;
+/// Cells around particles that matter: velocities are taken from the sides around a particle, which are at most two
+/// cells from liquid.
+inline constexpr std::size_t kPad = 3;
 
 /// Range of indices: [begin, end).
 struct Span {

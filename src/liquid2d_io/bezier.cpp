@@ -9,6 +9,7 @@
 #include <numbers>
 #include <span>
 
+#include "plain_length.h"
 #include "unit_vector.h"
 
 namespace droplet {
@@ -122,7 +123,7 @@ Worst worstOf(const Curve& c, std::span<const Vec2> points, const std::vector<do
             // The curve passes the points in another order.
             return {std::numeric_limits<double>::infinity(), points.size() / 2};
         }
-        const double after = length(at(c, t[i]) - points[i]);
+        const double after = plainLength(at(c, t[i]) - points[i]);
         const double distance = std::max(before, after) + 0.125 * interval * interval * bend;
         if (distance > worst.distance) {
             const bool is_inner = i + 1 < points.size();

@@ -56,7 +56,7 @@ enum class PressureSolver {
 /// Options of advanceFluid().
 struct FluidOptions {
     PressureSolver solver = PressureSolver::Grid;  ///< method
-    /// Longest way in a step, in spacings: on a grid of liquid, up to 6, 2.5 if empty; with DFSPH of two neighbours
+    /// Longest way in a step, in spacings: on a grid of liquid, up to 6, 3 if empty; with DFSPH of two neighbours
     /// towards each other, up to 1, 0.4 if empty.
     std::optional<double> courant;
     double density_error = 1e-3;     ///< DFSPH: mean compression at which iterations stop, > 0
