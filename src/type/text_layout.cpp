@@ -170,12 +170,16 @@ std::vector<SizedLine> broken(const FontFace& face, const std::vector<SizedLine>
         for (std::size_t begin = 0; begin <= line.size();) {
             const std::size_t space = std::min(line.find(U' ', begin), line.size());
             const std::u32string word = line.substr(begin, space - begin);
-            const std::u32string longer = begin == 0 ? word : now + U' ' + word;
+            std::u32string longer = now;
+            if (begin > 0) {
+                longer += U' ';
+            }
+            longer += word;
             if (!now.empty() && size * layOutLine(face, longer, tracking).advance > measure) {
                 result.push_back({std::move(now), size});
                 now = word;
             } else {
-                now = longer;
+                now = std::move(longer);
             }
             begin = space + 1;
         }
