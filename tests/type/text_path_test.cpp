@@ -20,6 +20,7 @@
 #include "droplet/type/glyph.h"
 #include "droplet/units.h"
 #include "support/fonts.h"
+#include "support/hostile_drawings.h"
 
 namespace droplet {
 namespace {
@@ -191,6 +192,31 @@ TEST(TextPath, RefusesOtherFiles)
     refused(page("<path d='M0,0H1e300L1e300,1e300' transform='scale(1e300)'/>"), "no path");
     refused(page("<path d='M0,0H1e300'/><g>"), "SVG image");
     EXPECT_THROW((void)readTextPath("none.svg"), Error);
+}
+
+TEST(TextPath, HostileDrawingsDoNoHarm)
+{
+    std::vector<testing::HostileDrawing> drawings = testing::hostileDrawings();
+    // One takes all of the ten seconds that a drawing has.
+    std::erase_if(drawings, [](const testing::HostileDrawing& drawing) { return drawing.name == "many_rules"; });
+    drawings.push_back({"many parts", [] { return page("<path d='" + testing::repeated(300'000, "M1,1h1") + "'/>"); }});
+    drawings.push_back(
+        {"arcs", [] { return page("<path d='M0,0" + testing::repeated(50'000, "a1e9,1e-9 7 1 1 1,1") + "'/>"); }});
+    drawings.push_back({"groups", [] {
+                            return page(testing::repeated(200, "<g transform='scale(1e9)'>") + "<path d='M0,0h1'/>" +
+                                        testing::repeated(200, "</g>"));
+                        }});
+    for (const testing::HostileDrawing& hostile : drawings) {
+        SCOPED_TRACE(hostile.name);
+        try {
+            const TextPath path = pathIn(hostile.text());
+            EXPECT_TRUE(std::isfinite(lengthOf(path.points)));
+            EXPECT_GT(lengthOf(path.points), 0.0);
+        } catch (const Error& error) {
+            EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+            EXPECT_THAT(error.what(), ::testing::Not(HasSubstr("\n")));
+        }
+    }
 }
 
 // Text along lines.
