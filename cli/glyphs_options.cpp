@@ -84,6 +84,9 @@ void declare(CommandLine& line, GlyphsOptions& options, ShapeMapOptions& maps)
         "Set a text along a path of this SVG drawing: the one that the drawing's own text follows, or the longest");
     line.add(kGroup, "--path-width", "LENGTH",
              "Width of the page of --path [its own; a px and a number without a unit are 1/96 inch]");
+    line.add(kGroup, "--shift", "F",
+             "Move a text along --arc or --path, by this share of its length, such as 0.25; around if it is closed",
+             into(options.type.shift, {-1.0, 1.0, "a number from -1 to 1"}));
     line.addFlag(
         kGroup, "--equal-height",
         "Make all letters, and the dots on them, as high as the letter o at the contact angle, or as --height");
@@ -179,6 +182,9 @@ void readPath(const CommandLine& line, GlyphsOptions& options)
         }
         options.path_width = quantity(*width, kLength);
     }
+    if (line.value("--shift") && !options.path && !options.type.arc) {
+        refuse("--shift goes with --path or --arc");
+    }
 }
 
 void readEqualHeight(const CommandLine& line, GlyphsOptions& options)
@@ -214,32 +220,12 @@ void refuseInapplicable(const CommandLine& line, bool is_text)
         }
         return;
     }
-    for (const char* option : {"--align",
-                               "--line-sizes",
-                               "--line-spacing",
-                               "--tracking",
-                               "--line-width",
-                               "--arc",
-                               "--path",
-                               "--path-width",
-                               "--onto",
-                               "--preview",
-                               "--view",
-                               "--preview-size",
-                               "--ground",
-                               "--camera",
-                               "--look-at",
-                               "--environment",
-                               "--preview-background",
-                               "--preview-colour",
-                               "--turntable",
-                               "--codec",
-                               "--quality",
-                               "--maps",
-                               "--map-width",
-                               "--map-thickness",
-                               "--map-tile",
-                               "--html"}) {
+    for (const char* option :
+         {"--align",          "--line-sizes", "--line-spacing", "--tracking", "--line-width",  "--arc",
+          "--path",           "--path-width", "--shift",        "--onto",     "--preview",     "--view",
+          "--preview-size",   "--ground",     "--camera",       "--look-at",  "--environment", "--preview-background",
+          "--preview-colour", "--turntable",  "--codec",        "--quality",  "--maps",        "--map-width",
+          "--map-thickness",  "--map-tile",   "--html"}) {
         if (line.value(option)) {
             clash(option, "--text alone");
         }

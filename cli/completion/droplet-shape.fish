@@ -224,6 +224,7 @@ complete -c droplet-shape -n '__fish_seen_subcommand_from glyphs' -l line-width 
 complete -c droplet-shape -n '__fish_seen_subcommand_from glyphs' -l arc -x -d 'Set a text around a circle of this radius; below 0, such as -30mm, inside along its lower half'
 complete -c droplet-shape -n '__fish_seen_subcommand_from glyphs' -l path -r -F -d 'Set a text along a path of this SVG drawing: the one that the drawing\'s own text follows, or the longest'
 complete -c droplet-shape -n '__fish_seen_subcommand_from glyphs' -l path-width -x -d 'Width of the page of --path'
+complete -c droplet-shape -n '__fish_seen_subcommand_from glyphs' -l shift -x -d 'Move a text along --arc or --path, by this share of its length, such as 0.25; around if it is closed'
 complete -c droplet-shape -n '__fish_seen_subcommand_from glyphs' -l equal-height -d 'Make all letters, and the dots on them, as high as the letter o at the contact angle, or as --height'
 complete -c droplet-shape -n '__fish_seen_subcommand_from glyphs' -l by-colour -d 'Make one droplet for each area of one colour, in that colour, of glyphs with colour layers (COLR); neighbours share their boundary'
 complete -c droplet-shape -n '__fish_seen_subcommand_from glyphs' -l palette -x -d 'Palette of the font for --by-colour'

@@ -276,6 +276,7 @@ _GLYPHS = {
     "arc": "m",
     "path": "path",
     "path_width": "m",
+    "shift": "number",
     "contact_angle": "rad",
     "on": "text",
     "volume": "m3",
@@ -324,6 +325,7 @@ def glyphs(
     arc: str | float | None = None,
     path: Path | None = None,
     path_width: str | float | None = None,
+    shift: float | None = None,
     contact_angle: str | float | None = None,
     on: Literal["glass", "ptfe", "wax", "lotus"] | None = None,
     volume: str | float | None = None,
@@ -380,6 +382,8 @@ def glyphs(
         (default: none)
       path: Set a text along a path of this SVG drawing: the one that the drawing's own text follows, or the longest
       path_width [m]: Width of the page of path (default: its own; a px and a number without a unit are 1/96 inch)
+      shift: Move a text along arc or path, by this share of its length, such as 0.25; around if it is closed
+        (default: 0)
 
     Liquid:
       contact_angle [rad]: Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of

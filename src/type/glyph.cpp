@@ -113,6 +113,7 @@ void TextOptions::validate() const
     if (arc) {
         require(*arc != 0.0 && std::isfinite(*arc), "arc", *arc, "finite and not 0");
     }
+    require(shift >= -1.0 && shift <= 1.0, "shift", shift, "from -1 to 1");
     if (path.empty()) {
         return;
     }

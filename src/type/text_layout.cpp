@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -215,8 +216,13 @@ Vec2 onGrid(Vec2 p)
 /// Glyphs of a line that are placed along another line.
 class Follower {
 public:
-    /// @param lines  of glyphs whose em is 1
-    Follower(const LineMetrics& lines, PlacedText& result) : lines_(lines), result_(result) {}
+    /// @param lines      of glyphs whose em is 1
+    /// @param shift      of all glyphs along the line, as a share of its length
+    /// @param is_closed  whether the line's end is its begin
+    Follower(const LineMetrics& lines, double shift, bool is_closed, PlacedText& result)
+        : lines_(lines), shift_(shift), is_closed_(is_closed), result_(result)
+    {
+    }
 
     /// Places the glyphs of a line.
     /// @param pen   distance along the base line at which they begin
@@ -233,9 +239,8 @@ public:
             for (auto glyph = begin; glyph != end; ++glyph) {
                 advance += glyph->advance;
             }
-            const double middle = pen + 0.5 * size * advance;
-            if (middle >= 0.0 && middle <= base.length() && base.length() > 0.0) {
-                placeLetter({begin, end}, advance, size, base.at(middle));
+            if (const auto distance = shifted(pen + 0.5 * size * advance, base.length())) {
+                placeLetter({begin, end}, advance, size, base.at(*distance));
             } else {
                 result_.beyond += text[letter] == U' ' ? 0 : 1;
             }
@@ -255,6 +260,17 @@ public:
     }
 
 private:
+    /// Distance along a line after the shift; none beyond its ends. On a closed line, text may go round once.
+    [[nodiscard]] std::optional<double> shifted(double distance, double length) const
+    {
+        const auto is_on = [&](double d) { return d >= 0.0 && d <= length && length > 0.0; };
+        double moved = distance + shift_ * length;
+        if (is_closed_ && is_on(distance) && !is_on(moved)) {
+            moved -= std::floor(moved / length) * length;
+        }
+        return is_on(moved) && (!is_closed_ || is_on(distance)) ? std::optional(moved) : std::nullopt;
+    }
+
     void placeLetter(std::span<const ShapedGlyph> letter, double advance, double size, const BaseLine::Place& place)
     {
         const Vec2 along = size * place.along;
@@ -280,6 +296,8 @@ private:
     }
 
     const LineMetrics& lines_;
+    double shift_;
+    bool is_closed_;
     PlacedText& result_;
 };
 
@@ -366,7 +384,8 @@ PlacedText placeText(const FontFace& face, std::string_view text, const TextOpti
     const LineMetrics& metrics = face.lines();
     const double below = 0.5 * (metrics.pitch - metrics.ascender - metrics.descender);
     const std::vector<LinePiece> followed = followedLine(options);
-    Follower follower(metrics, result);
+    const bool is_closed = options.arc || (!options.path.empty() && options.path.front() == options.path.back());
+    Follower follower(metrics, options.shift, is_closed, result);
     Vec2 pen;
     for (std::size_t k = 0; k < lines.size(); ++k) {
         const TextLine& line = lines[k];

@@ -331,6 +331,10 @@ TEST_F(Glyphs, TextFollowsThePathOfADrawing)
     made({"--path", "arc.svg", "--align", "centre"});
     EXPECT_NEAR(parsed("t.json")["mesh"]["footprint_area_m2"].get<double>(), arc, 1e-6 * arc);
     made({"--path", "up.svg", "--line-sizes", "1.5,1"});
+    EXPECT_THAT(made({"--path", "line.svg", "--shift", "0.9"}), HasSubstr("letters are left out"));
+    EXPECT_THAT(made({"--arc", "40mm", "--shift", "0.9"}), ::testing::Not(HasSubstr("left out")));
+    refuses({"--text", "a", "-o", "x.glb", "--shift", "0.5"}, 2, {"--shift goes with --path or --arc"});
+    refuses({"--text", "a", "-o", "x.glb", "--arc", "1m", "--shift", "2"}, 2, {"--shift", "from -1 to 1"});
     refuses({"--text", "a", "-o", "x.glb", "--path", "missing.svg"}, 3, {"--path: cannot read missing.svg"});
     refuses({"--text", "a", "-o", "x.glb", "--path", "disc.pgm"}, 3, {"--path: disc.pgm: is not an SVG drawing"});
     refuses({"--text", "a", "-o", "x.glb", "--path", "dot.svg"}, 3, {"--path: dot.svg: the drawing has no path"});

@@ -447,6 +447,44 @@ TEST(TextOnAPath, LettersBeyondItsEndsAreLeftOut)
     EXPECT_EQ(layOutText(font, "ן", options).beyond, 0U) << "from the right end on";
 }
 
+TEST(TextOnAPath, ShiftsAlongIt)
+{
+    const Font font = readFont(kSans);
+    TextOptions options = inEms();
+    options.path = {{0.0, 0.0}, {10.0, 0.0}};
+    const auto middles = [&](const char* text) { return barsOf(layOutText(font, text, options).outline); };
+    options.shift = 0.5;
+    EXPECT_EQ(layOutText(font, "llll", options).beyond, 0U);
+    options.align = TextAlign::Centre;
+    EXPECT_EQ(layOutText(font, "llll", options).beyond, 2U) << "half of them";
+    // Around a circle, by a quarter: from the top to the right.
+    options.path.clear();
+    options.arc = 5.0;
+    options.shift = 0.0;
+    const Outline top = layOutText(font, "lll", options).outline;
+    options.shift = 0.25;
+    const Outline right = layOutText(font, "lll", options).outline;
+    EXPECT_NEAR(right.extent.y, top.extent.x, 1e-7);
+    EXPECT_NEAR(right.extent.x, top.extent.y, 1e-7);
+    for (const double turn : {1.0, -1.0}) {
+        options.shift = turn;
+        expectSameLoops(layOutText(font, "lll", options).outline, top, 1e-7);
+    }
+    options.shift = 0.5;  // across the seam at the bottom
+    EXPECT_EQ(middles("lll").size(), 3U);
+    EXPECT_EQ(layOutText(font, "lll", options).beyond, 0U);
+    // A closed path takes no more text than without a shift.
+    options.arc.reset();
+    options.path = circlePoints(1.0, 100);
+    options.align = TextAlign::Start;
+    const std::size_t beyond = layOutText(font, std::string(30, 'l'), options).beyond;
+    EXPECT_GT(beyond, 0U);
+    options.shift = 0.0;
+    EXPECT_EQ(layOutText(font, std::string(30, 'l'), options).beyond, beyond);
+    options.shift = 1.5;
+    EXPECT_THROW((void)layOutText(font, "l", options), Error);
+}
+
 TEST(TextOnAPath, MarksStayOnTheirLetter)
 {
     // A letter with a mark turns as one piece: as its glyph does.

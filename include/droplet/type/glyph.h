@@ -68,6 +68,8 @@ struct TextOptions {
     std::vector<Vec2> path = {};         ///< polyline that the first base line lies on [m], instead of a circle; text
                                          ///< stands on its left side. It is smooth where it turns by up to 25°, and
                                          ///< closed if the last point is the first one; empty: a straight line
+    double shift = 0.0;  ///< of the text along the circle or path, as a share of its length, −1 … 1; text goes round
+                         ///< closed ones, but once at most
 
     /// Checks all options.
     /// @throws Error InvalidArgument
