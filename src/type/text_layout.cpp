@@ -250,8 +250,15 @@ public:
     }
 
     /// Moves all so that the line's box begins where it would without a path.
+    /// @throws Error InvalidArgument: the text takes too much room
     void finish(double ascender)
     {
+        constexpr double kWidest = 0x1p20;  // of what unite() takes
+        const Vec2 size = result_.box.high - result_.box.low;
+        if (const double room = std::max(size.x, size.y); !(room < kWidest)) {
+            throw Error(ErrorCode::InvalidArgument, "the text's path is too long: lines at its ends are " +
+                                                        numberText(room) + " em apart, must be less than 1048576 em");
+        }
         const Vec2 by = Vec2{0.0, ascender} - Vec2{result_.box.low.x, result_.box.high.y};
         result_.box = {onGrid(result_.box.low + by), onGrid(result_.box.high + by)};
         for (PlacedGlyph& glyph : result_.glyphs) {

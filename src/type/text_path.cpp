@@ -29,7 +29,7 @@ std::vector<Vec2> flattened(const std::vector<Vec2>& line, double scale)
         whole += length(at(i + 1) - at(i));
     }
     if (!(whole > 0.0 && std::isfinite(whole))) {
-        throw Error(ErrorCode::InvalidInput, "the drawing's path is " + numberText(whole) + " m long");
+        throw Error(ErrorCode::InvalidInput, "the drawing's path is " + numberText(whole) + " m long, must be finite");
     }
     const Flatness flatness{kTolerance * whole, whole / kPieces};
     std::vector<Vec2> points{at(0)};

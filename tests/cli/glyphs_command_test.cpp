@@ -338,6 +338,8 @@ TEST_F(Glyphs, TextFollowsThePathOfADrawing)
     refuses({"--text", "a", "-o", "x.glb", "--path", "missing.svg"}, 3, {"--path: cannot read missing.svg"});
     refuses({"--text", "a", "-o", "x.glb", "--path", "disc.pgm"}, 3, {"--path: disc.pgm: is not an SVG drawing"});
     refuses({"--text", "a", "-o", "x.glb", "--path", "dot.svg"}, 3, {"--path: dot.svg: the drawing has no path"});
+    refuses({"--text", "a\\nא", "-o", "x.glb", "--path", "line.svg", "--em", "1nm"}, 2,
+            {"the text's path (--path) is too long", "less than 1048576 em"});
     refuses({"--text", "a", "-o", "x.glb", "--path", "short.svg", "--em", "1m"}, 3, {"--path: it is too short"});
     refuses({"--text", "a", "-o", "x.glb", "--path", "line.svg", "--arc", "1m"}, 2, {"--arc and --path exclude"});
     refuses({"--text", "a", "-o", "x.glb", "--path-width", "1m"}, 2, {"--path-width goes with --path"});

@@ -519,6 +519,10 @@ TEST(TextOnAPath, OptionsAreChecked)
     refused({{1.0, 1.0}, {1.0, 1.0}}, "path is 0");
     refused({{0.0, 0.0}, {INFINITY, 0.0}}, "path is inf");
     refused({{0.0, 0.0}, {NAN, 0.0}}, "path is nan");
+    TextOptions far;
+    far.path = {{0.0, 0.0}, {1e6, 0.0}};  // 5·10⁷ em
+    EXPECT_EQ(layOutText(font, "l", far).outline.loops.size(), 1U);
+    EXPECT_THROW((void)layOutText(font, "l\nן", far), Error) << "one at each end";
     TextOptions both;
     both.arc = 1.0;
     both.path = {{0.0, 0.0}, {1.0, 0.0}};

@@ -98,8 +98,8 @@ struct TextLayout {
 /// @param font     any
 /// @param text     UTF-8; line feeds separate lines, and a tab counts as a space
 /// @param options  size, alignment and spacing
-/// @throws Error   InvalidArgument: options, text that is not UTF-8, or a line longer than its circle; InvalidInput:
-///                 the font is damaged
+/// @throws Error   InvalidArgument: options, text that is not UTF-8, a line longer than its circle, or lines that are
+///                 2²⁰ em apart on their path; InvalidInput: the font is damaged
 TextLayout layOutText(const Font& font, std::string_view text, const TextOptions& options = {});
 
 }  // namespace droplet
