@@ -173,6 +173,32 @@ TEST(TextPath, IsThatOfATextOrTheLongest)
     EXPECT_NEAR(lengthOf(pathIn(page(paths + "<text><textPath href='#none'/></text>")).points), 30e-3, 1e-12);
 }
 
+TEST(TextPath, ReadsFilesOfDrawingPrograms)
+{
+    // Illustrator declares entities for its namespaces, and has its pages in px of 1/72 inch.
+    const std::string illustrator =
+        R"(<?xml version="1.0" encoding="utf-8"?>)"
+        R"(<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd" [)"
+        R"(<!ENTITY ns_svg "http://www.w3.org/2000/svg"><!ENTITY ns_xlink "http://www.w3.org/1999/xlink">]>)"
+        R"(<svg version="1.1" xmlns="&ns_svg;" xmlns:xlink="&ns_xlink;" x="0px" y="0px" width="566.929px" )"
+        R"(height="283.465px" viewBox="0 0 566.929 283.465"><rect fill="none" width="566.929" height="283.465"/>)"
+        R"(<defs><path id="SVGID_1_" d="M0,10h283.4645"/></defs>)"
+        R"(<text><textPath xlink:href="#SVGID_1_" startOffset="0%"><tspan>x</tspan></textPath></text></svg>)";
+    EXPECT_NEAR(lengthOf(pathIn(illustrator).points), 75e-3, 1e-7);
+    EXPECT_NEAR(lengthOf(pathIn(illustrator, 0.2).points), 100e-3, 1e-7);
+    // Inkscape has pages in mm, layers that are moved, and elements of its own.
+    const TextPath inkscape = pathIn(
+        R"(<svg width="210mm" height="297mm" viewBox="0 0 210 297" xmlns="http://www.w3.org/2000/svg" )"
+        R"(xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" )"
+        R"(xmlns:sodipodi="http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd">)"
+        R"(<sodipodi:namedview><inkscape:grid/></sodipodi:namedview><defs><inkscape:path-effect effect="bspline"/></defs>)"
+        R"svg(<g inkscape:groupmode="layer" transform="translate(-10,5)">)svg"
+        R"(<path style="fill:none;stroke:#000000" d="m 20,60 h 100" sodipodi:nodetypes="cc"/></g></svg>)");
+    expectPoint(inkscape.points.at(0), 10, -65);
+    expectPoint(inkscape.points.at(1), 110, -65);
+    EXPECT_EQ(inkscape.others, 0U);
+}
+
 TEST(TextPath, RefusesOtherFiles)
 {
     const auto refused = [](const std::string& svg, const char* words) {
