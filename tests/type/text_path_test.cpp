@@ -290,13 +290,14 @@ std::vector<Vec2> barsOf(const Outline& outline)
     return middles;
 }
 
+/// Circle from its bottom on, clockwise.
 std::vector<Vec2> circlePoints(double radius, std::size_t count)
 {
     std::vector<Vec2> points;
     points.reserve(count + 1);
     for (std::size_t i = 0; i < count; ++i) {
-        const double angle = -2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
-        points.push_back({-radius * std::sin(-angle), -radius * std::cos(angle)});
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
+        points.push_back({-radius * std::sin(angle), -radius * std::cos(angle)});
     }
     points.push_back(points.front());
     return points;
@@ -390,24 +391,21 @@ TEST(TextOnAPath, AdvancesAreLengthsOfTheLine)
     ASSERT_EQ(middles.size(), 20U);
     std::vector<double> feet;
     Vec2 shift;
-    for (int pass = 0; pass < 2; ++pass) {
-        feet.clear();
-        double walked = 0.0;
-        double wanted = 0.5 * advance;
-        for (std::size_t i = 0; i + 1 < curve.size() && feet.size() < middles.size(); ++i) {
-            const Vec2 piece = curve[i + 1] - curve[i];
-            while (walked + length(piece) >= wanted && feet.size() < middles.size()) {
-                const Vec2 t = (1.0 / length(piece)) * piece;
-                const Vec2 foot = curve[i] + (wanted - walked) * t;
-                const Vec2 middle = foot + bearing * t + height * Vec2{-t.y, t.x};
-                if (feet.empty() && pass == 0) {
-                    shift = middles[0] - middle;
-                }
-                feet.push_back(length(middle + shift - middles[feet.size()]));
-                wanted += advance;
+    double walked = 0.0;
+    double wanted = 0.5 * advance;
+    for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+        const Vec2 piece = curve[i + 1] - curve[i];
+        const Vec2 along_piece = (1.0 / length(piece)) * piece;
+        while (walked + length(piece) >= wanted && feet.size() < middles.size()) {
+            const Vec2 foot = curve[i] + (wanted - walked) * along_piece;
+            const Vec2 middle = foot + bearing * along_piece + height * Vec2{-along_piece.y, along_piece.x};
+            if (feet.empty()) {
+                shift = middles[0] - middle;
             }
-            walked += length(piece);
+            feet.push_back(length(middle + shift - middles[feet.size()]));
+            wanted += advance;
         }
+        walked += length(piece);
     }
     ASSERT_EQ(feet.size(), 20U);
     EXPECT_LT(*std::max_element(feet.begin(), feet.end()), 1e-3);
