@@ -16,6 +16,7 @@
 #include "droplet/error.h"
 #include "droplet/surface/onto.h"
 #include "droplet/type/colour_glyph.h"
+#include "droplet/type/text_path.h"
 #include "droplet/units.h"
 #include "files.h"
 #include "glyph_names.h"
@@ -169,54 +170,40 @@ DrawnColours drawnColours(droplet::ColourLayout layout, droplet::TypeReport type
     return drawn;
 }
 
-/// Em at which a text on an object is as large as a picture would be.
-double emOnObject(const droplet::TexturedMesh& object, const Font& font, const GlyphsOptions& options)
+/// Files of a text.
+RunFiles filesOfText(const GlyphsOptions& options)
 {
-    const droplet::Vec2 extent = droplet::layOutText(font, *options.text, options.type).outline.extent;
-    const double per_uv =
-        forOption("--onto " + *options.shape.settings.onto, [&] { return droplet::metresPerUv(object); });
-    const double width = per_uv * std::sqrt(extent.x / extent.y);
-    return options.type.glyph.em * width / extent.x;
-}
-
-/// @throws Error InvalidInput, unless there is ink
-void requireInk(bool has_ink, const std::vector<char32_t>& missing, const GlyphsOptions& options)
-{
-    if (!has_ink) {
-        throw Error(ErrorCode::InvalidInput,
-                    options.font + ": " +
-                        (missing.empty() ? "the text has no ink" : missingGlyphs(missing) + ", and nothing is left"));
-    }
+    RunFiles files = filesOf(options.shape, "--font");
+    files.reads("--path", options.path);
+    return files;
 }
 
 int makeText(const Font& font, GlyphsOptions options)
 {
     requireColourLayers(font, options);
-    makeAndReport(options.shape.run, filesOf(options.shape, "--font"), [&](const droplet::Progress& progress) {
+    makeAndReport(options.shape.run, filesOfText(options), [&](const droplet::Progress& progress) {
         progress(droplet::Stage::Read, 0.0);
         const Surroundings around = readSurroundings(options.shape.settings, options.shape.preview);
-        if (around.object && !options.sized) {
-            options.type.glyph.em = emOnObject(around.object->mesh, font, options);
+        readPath(options);
+        if (around.object) {
+            fitToObject(options, around.object->mesh, font, *options.text);
         }
-        std::vector<std::string>& warnings = options.shape.settings.warnings;
-        const auto leave_out = [&](const std::vector<char32_t>& missing) {
-            if (!missing.empty()) {
-                warnings.push_back(missingGlyphs(missing) + "; left out");
-            }
-        };
         if (options.shape.footprint.by_colour) {
             droplet::ColourLayout colours = droplet::layOutColours(font, *options.text, options.type);
-            requireInk(!colours.drawing.areas.empty(), colours.missing, options);
+            const LeftOut left_out{colours.missing, colours.beyond};
+            requireInk(!colours.drawing.areas.empty(), left_out, options);
             if (colours.has_layers) {
-                leave_out(colours.missing);
+                noteLeftOut(left_out, options);
                 droplet::TypeReport type = describeText(font, colours.missing, options);
                 return makeShape(options.shape, around, drawnColours(std::move(colours), std::move(type), options),
                                  progress);
             }
-            warnings.emplace_back("--by-colour has no effect: no glyph of the text has colour layers");
+            options.shape.settings.warnings.emplace_back(
+                "--by-colour has no effect: no glyph of the text has colour layers");
         }
         droplet::TextLayout set = droplet::layOutText(font, *options.text, options.type);
-        requireInk(!set.outline.loops.empty(), set.missing, options);
+        requireInk(!set.outline.loops.empty(), {set.missing, set.beyond}, options);
+        noteLeftOut({set.missing, set.beyond}, options);
         std::vector<GlyphRequest> letters;
         for (const char32_t character : droplet::charactersOf(*options.text)) {
             if (const auto glyph = font.glyphOf(character)) {
@@ -227,7 +214,6 @@ int makeText(const Font& font, GlyphsOptions options)
         DrawnFootprint footprint{std::move(set.outline), {}};
         footprint.input.path = options.font;
         footprint.input.type = describeText(font, set.missing, options);
-        leave_out(set.missing);
         return makeShape(options.shape, around, std::move(footprint), progress);
     });
     return 0;
@@ -418,6 +404,63 @@ droplet::TypeReport describe(const Font& font, const GlyphsOptions& options)
     return type;
 }
 
+void readPath(GlyphsOptions& options)
+{
+    if (!options.path) {
+        return;
+    }
+    droplet::TextPath path =
+        forOption("--path", [&] { return droplet::readTextPath(*options.path, options.path_width); });
+    if (path.others > 0) {
+        options.shape.settings.warnings.push_back(
+            "--path: " + *options.path + " has " + std::to_string(path.others + 1) +
+            " paths, and the text follows the longest; delete the others, or let a text of the drawing follow it");
+    }
+    options.type.path = std::move(path.points);
+}
+
+void fitToObject(GlyphsOptions& options, const droplet::TexturedMesh& object, const Font& font, const std::string& text)
+{
+    if (options.sized) {
+        return;
+    }
+    const droplet::Vec2 extent = droplet::layOutText(font, text, options.type).outline.extent;
+    const double per_uv =
+        forOption("--onto " + *options.shape.settings.onto, [&] { return droplet::metresPerUv(object); });
+    const double factor = per_uv * std::sqrt(extent.x / extent.y) / extent.x;
+    options.type.glyph.em *= factor;
+    for (droplet::Vec2& p : options.type.path) {
+        p = factor * p;
+    }
+}
+
+void requireInk(bool has_ink, const LeftOut& left_out, const GlyphsOptions& options)
+{
+    if (has_ink) {
+        return;
+    }
+    if (left_out.beyond > 0) {
+        throw Error(ErrorCode::InvalidInput, "--path: it is too short for any letter; make the type smaller (--em)");
+    }
+    throw Error(ErrorCode::InvalidInput,
+                options.font + ": " +
+                    (left_out.missing.empty() ? "the text has no ink"
+                                              : missingGlyphs(left_out.missing) + ", and nothing is left"));
+}
+
+void noteLeftOut(const LeftOut& left_out, GlyphsOptions& options)
+{
+    std::vector<std::string>& warnings = options.shape.settings.warnings;
+    if (!left_out.missing.empty()) {
+        warnings.push_back(missingGlyphs(left_out.missing) + "; left out");
+    }
+    if (left_out.beyond > 0) {
+        warnings.push_back("--path: the text is longer than its path, and " + std::to_string(left_out.beyond) +
+                           (left_out.beyond == 1 ? " letter is" : " letters are") +
+                           " left out; make the type smaller (--em), or the path longer");
+    }
+}
+
 int runGlyphs(int argc, const char* const* argv)
 {
     auto parsed = parseGlyphs(argc, argv);
@@ -427,10 +470,11 @@ int runGlyphs(int argc, const char* const* argv)
     }
     auto& options = std::get<GlyphsOptions>(parsed);
     if (options.text) {
-        checkShape(options.shape, "--font");
+        checkShape(options.shape, filesOfText(options));
     }
     RunFiles files;
     files.reads("--font", options.font);
+    files.reads("--path", options.path);
     const CommandTerms terms = options.shape.run.terms;
     return inTermsOf(terms, files, [&] { return make(std::move(options)); });
 }

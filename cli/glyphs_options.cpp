@@ -7,6 +7,7 @@
 #include "common_options.h"
 #include "droplet/error.h"
 #include "files.h"
+#include "value_list.h"
 
 namespace cli {
 namespace {
@@ -31,6 +32,8 @@ const CommandText& commandText()
             "  droplet-shape glyphs --font Serif.ttf --text Water -o water.glb\n"
             "  droplet-shape glyphs --font Serif.ttf --charset A-Za-z -o 'out/{name}.glb'\n"
             "  droplet-shape glyphs --font Serif.ttf --text WATER --arc 60mm -o seal.glb\n"
+            "  droplet-shape glyphs --font Serif.ttf --text Stream --path wave.svg \\\n"
+            "    --align centre -o wave.glb\n"
             "  droplet-shape glyphs --font Colour.ttf --text Sun -o sun.glb --by-colour\n"
             "  droplet-shape glyphs --font Variable.ttf --axis wght=700 --all \\\n"
             "    -o 'out/{name}.glb' --equal-height\n"
@@ -63,7 +66,11 @@ void declare(CommandLine& line, GlyphsOptions& options, ShapeMapOptions& maps)
              into(options.type.align, {{"start", droplet::TextAlign::Start},
                                        {"centre", droplet::TextAlign::Centre},
                                        {"end", droplet::TextAlign::End}}));
-    line.add(kGroup, "--line-spacing", "F", "Distance of lines, as a multiple of the font's own",
+    line.add(
+        kGroup, "--line-sizes", "NUMBERS",
+        "Type sizes of the lines between \\n, in em: 2,1 makes the first line twice as large; the last number holds "
+        "for all further lines [1]");
+    line.add(kGroup, "--line-spacing", "F", "Leading: distance of lines, as a multiple of the font's own",
              into(options.type.line_spacing, {0.01, 100.0, "a number from 0.01 to 100"}));
     line.add(kGroup, "--tracking", "F", "Extra width between the letters of a text, as a share of the em, such as 0.05",
              into(options.type.tracking, {-1.0, 10.0, "a number from -1 to 10"}));
@@ -72,6 +79,14 @@ void declare(CommandLine& line, GlyphsOptions& options, ShapeMapOptions& maps)
     line.add(kGroup, "--arc", "LENGTH",
              "Set a text around a circle of this radius; below 0, such as -30mm, inside along its lower half [none]",
              into(options.type.arc, kArc));
+    line.add(
+        kGroup, "--path", "FILE",
+        "Set a text along a path of this SVG drawing: the one that the drawing's own text follows, or the longest");
+    line.add(kGroup, "--path-width", "LENGTH",
+             "Width of the page of --path [its own; a px and a number without a unit are 1/96 inch]");
+    line.add(kGroup, "--shift", "F",
+             "Move a text along --arc or --path, by this share of its length, such as 0.25; around if it is closed",
+             into(options.type.shift, {-1.0, 1.0, "a number from -1 to 1"}));
     line.addFlag(
         kGroup, "--equal-height",
         "Make all letters, and the dots on them, as high as the letter o at the contact angle, or as --height");
@@ -85,6 +100,7 @@ void declare(CommandLine& line, GlyphsOptions& options, ShapeMapOptions& maps)
     line.add(kGroup, "--json", "FILE", "Write a report; for many glyphs a pattern such as 'out/{name}.json'");
     line.exclude({"--text", "--charset", "--all", "--list"});
     line.exclude({"--by-colour", "--equal-height"});
+    line.exclude({"--arc", "--path"});
     declareBatch(line);
     declareDroplets(line, options.shape);
     declarePreview(line, PreviewOf::Text);
@@ -149,6 +165,28 @@ std::vector<char32_t> readCharset(const Given& given)
     return characters;
 }
 
+void readPath(const CommandLine& line, GlyphsOptions& options)
+{
+    if (const auto sizes = line.value("--line-sizes")) {
+        options.type.line_sizes = numbers(*sizes, {0.05, 20.0, "numbers from 0.05 to 20"});
+    }
+    if (const auto path = line.value("--path")) {
+        if (path->text.empty() || isStream(path->text)) {
+            refuse("--path must name a file");
+        }
+        options.path = path->text;
+    }
+    if (const auto width = line.value("--path-width")) {
+        if (!options.path) {
+            refuse("--path-width goes with --path");
+        }
+        options.path_width = quantity(*width, kLength);
+    }
+    if (line.value("--shift") && !options.path && !options.type.arc) {
+        refuse("--shift goes with --path or --arc");
+    }
+}
+
 void readEqualHeight(const CommandLine& line, GlyphsOptions& options)
 {
     options.equal_height = line.flag("--equal-height");
@@ -182,29 +220,12 @@ void refuseInapplicable(const CommandLine& line, bool is_text)
         }
         return;
     }
-    for (const char* option : {"--align",
-                               "--line-spacing",
-                               "--tracking",
-                               "--line-width",
-                               "--arc",
-                               "--onto",
-                               "--preview",
-                               "--view",
-                               "--preview-size",
-                               "--ground",
-                               "--camera",
-                               "--look-at",
-                               "--environment",
-                               "--preview-background",
-                               "--preview-colour",
-                               "--turntable",
-                               "--codec",
-                               "--quality",
-                               "--maps",
-                               "--map-width",
-                               "--map-thickness",
-                               "--map-tile",
-                               "--html"}) {
+    for (const char* option :
+         {"--align",          "--line-sizes", "--line-spacing", "--tracking", "--line-width",  "--arc",
+          "--path",           "--path-width", "--shift",        "--onto",     "--preview",     "--view",
+          "--preview-size",   "--ground",     "--camera",       "--look-at",  "--environment", "--preview-background",
+          "--preview-colour", "--turntable",  "--codec",        "--quality",  "--maps",        "--map-width",
+          "--map-thickness",  "--map-tile",   "--html"}) {
         if (line.value(option)) {
             clash(option, "--text alone");
         }
@@ -237,6 +258,7 @@ std::variant<GlyphsOptions, std::string> parseGlyphs(int argc, const char* const
         options.type.glyph.text_colour =
             forOption(colour->subject, [&] { return droplet::parseCssColour(colour->text); });
     }
+    readPath(line, options);
     options.sized = line.value("--em").has_value();
     if (line.flag("--list")) {
         return options;

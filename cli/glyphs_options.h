@@ -36,6 +36,8 @@ struct GlyphsOptions {
     droplet::TextOptions type;           ///< its glyph options apply to sets of glyphs, too
     std::optional<std::string> text;     ///< text for one output; if neither text nor set is given, the font is listed
     std::optional<GlyphSetOptions> set;  ///< glyphs for one output each
+    std::optional<std::string> path;     ///< file of the drawing whose line the text follows; not read yet
+    std::optional<double> path_width;    ///< width of that drawing's page [m]
     bool sized = false;                  ///< whether --em is given
     bool equal_height = false;
     ShapeOptions shape;  ///< options for every output

@@ -112,6 +112,7 @@ std::span<const NamedOption> namedOptions()
                                      NamedOption{"use the linear model", "--model linear"},
                                      NamedOption{"prevent penetration", "--no-penetration"},
                                      NamedOption{"the arc", "--arc"},
+                                     NamedOption{"the text's path", "--path"},
                                      NamedOption{"another scale or size", "--scale, --object-size"},
                                      NamedOption{"a smaller object", "--scale, --object-size"},
                                      NamedOption{"and the object", "--scale, --object-size"},

@@ -549,9 +549,9 @@ RunFiles filesOf(const ShapeOptions& options, const std::string& input_name)
     return files;
 }
 
-void checkShape(const ShapeOptions& options, const std::string& input_name)
+void checkShape(const ShapeOptions& options, const RunFiles& files)
 {
-    checkFiles(filesOf(options, input_name), options.run.files);
+    checkFiles(files, options.run.files);
     if (options.preview) {
         checkVideo(*options.preview);
     }
@@ -585,7 +585,7 @@ int runShape(int argc, const char* const* argv)
         return 0;
     }
     const auto& options = std::get<ShapeOptions>(parsed);
-    checkShape(options, "INPUT");
+    checkShape(options, filesOf(options, "INPUT"));
     const auto make = [&] {
         makeAndReport(options.run, filesOf(options, "INPUT"),
                       [&](const droplet::Progress& progress) { return makeShape(options, progress); });

@@ -97,8 +97,9 @@ droplet::Report makeShape(const ShapeOptions& options, const Surroundings& aroun
 RunFiles filesOf(const ShapeOptions& options, const std::string& input_name);
 
 /// Checks one droplet's files, and that a video can be written, before any work is done.
+/// @param files  all that the run reads and writes
 /// @throws droplet::Error InvalidArgument, OutputFailed
-void checkShape(const ShapeOptions& options, const std::string& input_name);
+void checkShape(const ShapeOptions& options, const RunFiles& files);
 
 /// Adds the files that the options of every command that makes droplets read.
 void addSettings(RunFiles& files, const DropletSettings& settings, const RunOptions& run);

@@ -269,10 +269,14 @@ _GLYPHS = {
     "em": "m",
     "tolerance": "m",
     "align": "text",
+    "line_sizes": "list ",
     "line_spacing": "number",
     "tracking": "number",
     "line_width": "m",
     "arc": "m",
+    "path": "path",
+    "path_width": "m",
+    "shift": "number",
     "contact_angle": "rad",
     "on": "text",
     "volume": "m3",
@@ -314,10 +318,14 @@ def glyphs(
     em: str | float | None = None,
     tolerance: str | float | None = None,
     align: Literal["start", "centre", "end"] | None = None,
+    line_sizes: str | float | Sequence[float] | None = None,
     line_spacing: float | None = None,
     tracking: float | None = None,
     line_width: str | float | None = None,
     arc: str | float | None = None,
+    path: Path | None = None,
+    path_width: str | float | None = None,
+    shift: float | None = None,
     contact_angle: str | float | None = None,
     on: Literal["glass", "ptfe", "wax", "lotus"] | None = None,
     volume: str | float | None = None,
@@ -365,11 +373,17 @@ def glyphs(
       tolerance [m]: Largest error of a curve drawn as lines (default: em/20000)
       align: start, centre, end: Alignment of the lines of a text; Hebrew and Arabic start on the right (default:
         start)
-      line_spacing: Distance of lines, as a multiple of the font's own (default: 1)
+      line_sizes: Type sizes of the lines between \\n, in em: 2,1 makes the first line twice as large; the last number
+        holds for all further lines (default: 1)
+      line_spacing: Leading: distance of lines, as a multiple of the font's own (default: 1)
       tracking: Extra width between the letters of a text, as a share of the em, such as 0.05 (default: 0)
       line_width [m]: Width at which the lines of a text break at spaces (default: only at \\n)
       arc [m]: Set a text around a circle of this radius; below 0, such as -30mm, inside along its lower half
         (default: none)
+      path: Set a text along a path of this SVG drawing: the one that the drawing's own text follows, or the longest
+      path_width [m]: Width of the page of path (default: its own; a px and a number without a unit are 1/96 inch)
+      shift: Move a text along arc or path, by this share of its length, such as 0.25; around if it is closed
+        (default: 0)
 
     Liquid:
       contact_angle [rad]: Amount of liquid, by the mean contact angle along the rim, up to 179deg; natural: that of

@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,8 +11,6 @@
 #include <utility>
 
 #include "arguments.h"
-#include "droplet/error.h"
-#include "droplet/surface/onto.h"
 #include "droplet/type/font.h"
 #include "droplet/type/glyph.h"
 #include "glyphs_command.h"
@@ -27,18 +24,6 @@ namespace binding {
 namespace {
 
 namespace py = pybind11;
-
-using droplet::Error;
-using droplet::ErrorCode;
-
-std::string missingText(const std::vector<char32_t>& missing)
-{
-    std::string text = "the font has no glyph for ";
-    for (const char32_t character : missing) {
-        text += (character == missing.front() ? "" : ", ") + droplet::characterText(character);
-    }
-    return text;
-}
 
 droplet::InputReport inputOf(const droplet::Font& font, const cli::GlyphsOptions& options, const std::string& text,
                              const droplet::TextLayout& layout)
@@ -65,22 +50,14 @@ std::shared_ptr<Droplet> glyphs(const std::filesystem::path& path, const std::st
     cli::DropletSettings& settings = options.shape.settings;
     settings.with_object = false;  // save() reads what files need of it
     const cli::Surroundings around = cli::readSurroundings(settings);
-    droplet::GlyphOptions& glyph = options.type.glyph;
-    if (around.object && !options.sized) {
-        // The text is as large as a picture would be.
-        const droplet::Vec2 extent = droplet::layOutText(font, text, options.type).outline.extent;
-        glyph.em *= droplet::metresPerUv(around.object->mesh) * std::sqrt(extent.x / extent.y) / extent.x;
+    cli::readPath(options);
+    if (around.object) {
+        cli::fitToObject(options, around.object->mesh, font, text);
     }
     droplet::TextLayout layout = droplet::layOutText(font, text, options.type);
-    if (layout.outline.loops.empty()) {
-        throw Error(ErrorCode::InvalidInput,
-                    options.font + ": " +
-                        (layout.missing.empty() ? "the text has no ink"
-                                                : missingText(layout.missing) + ", and nothing is left"));
-    }
-    if (!layout.missing.empty()) {
-        settings.warnings.push_back(missingText(layout.missing) + "; left out");
-    }
+    const cli::LeftOut left_out{layout.missing, layout.beyond};
+    cli::requireInk(!layout.outline.loops.empty(), left_out, options);
+    cli::noteLeftOut(left_out, options);
     settings.droplet.solve.ground = groundOf(settings, around, layout.outline.extent);
     cli::refuseTooShortEdge(cli::coveredArea(layout.outline), settings.droplet);
     droplet::InputReport input = inputOf(font, options, text, layout);

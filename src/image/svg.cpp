@@ -83,13 +83,13 @@ void throwSvgRefused(const std::string& detail)
     throw Error(ErrorCode::InvalidInput, "SVG image " + printable(detail));
 }
 
-Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options)
+SvgText svgText(std::span<const std::byte> encoded)
 {
-    std::vector<std::byte> text;
+    SvgText drawing;
     const auto is_compressed = [&] { return ByteView(encoded, ImageFormat::Svg).startsWith("\x1f\x8b"); };
     if (is_compressed()) {
-        text = inflated(encoded);
-        encoded = text;
+        drawing.inflated = inflated(encoded);
+        encoded = drawing.inflated;
         // librsvg would unpack doubly compressed data, without limits.
         if (is_compressed() || imageFormat(encoded) != ImageFormat::Svg) {
             throw Error(ErrorCode::InvalidInput, "compressed data without an SVG image in them");
@@ -102,7 +102,15 @@ Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options
     if (tags > kMaxTags) {
         throwSvgRefused("of " + std::to_string(tags) + " tags, more than the limit of " + std::to_string(kMaxTags));
     }
-    return imageOf(drawSvg(encoded, tags, options), options);
+    drawing.text = encoded;
+    drawing.tags = tags;
+    return drawing;
+}
+
+Image decodeSvg(std::span<const std::byte> encoded, const DecodeOptions& options)
+{
+    const SvgText drawing = svgText(encoded);
+    return imageOf(drawSvg(drawing.text, drawing.tags, options), options);
 }
 
 }  // namespace droplet

@@ -117,6 +117,7 @@ ColourLayout layOut(const FontFace& face, PlacedText placed, const GlyphOptions&
     ColourLayout result;
     result.missing = std::move(placed.missing);
     result.lines = placed.lines;
+    result.beyond = placed.beyond;
     std::map<GlyphId, ColouredGlyph> drawn;
     std::vector<Patch> patches;
     for (const PlacedGlyph& at : placed.glyphs) {

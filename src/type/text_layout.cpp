@@ -11,11 +11,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "droplet/error.h"
 #include "number_text.h"
+#include "type/base_line.h"
 #include "utf8.h"
 
 namespace droplet {
@@ -116,18 +118,19 @@ std::vector<std::u32string> linesOf(std::string_view text)
     return lines;
 }
 
-double startOf(const TextLine& line, double width, TextAlign align)
+/// Where a line starts.
+/// @param room  width beside it
+double startOf(bool is_leftward, double room, TextAlign align)
 {
-    const double room = width - line.advance;
     switch (align) {
         case TextAlign::Start:
-            return line.leftward ? room : 0.0;
+            return is_leftward ? room : 0.0;
         case TextAlign::Centre:
             return 0.5 * room;
         case TextAlign::End:
             break;
     }
-    return line.leftward ? 0.0 : room;
+    return is_leftward ? 0.0 : room;
 }
 
 /// Whether a run has letters that join with their neighbours, as in Arabic.
@@ -141,74 +144,183 @@ bool joins(const std::u32string& text, const TextRun& run)
                        });
 }
 
+/// Line of a text, and its em.
+struct SizedLine {
+    std::u32string text;
+    double size = 1.0;
+};
+
+/// Lines of a text with their sizes, as TextOptions gives them.
+std::vector<SizedLine> sizedLines(std::string_view text, const std::vector<double>& sizes)
+{
+    std::vector<SizedLine> lines;
+    for (std::u32string& line : linesOf(text)) {
+        lines.push_back({std::move(line), sizes.empty() ? 1.0 : sizes[std::min(lines.size(), sizes.size() - 1)]});
+    }
+    return lines;
+}
+
 /// Lines, broken at spaces where they would be wider; a space at the break is left out.
 /// @param measure  width [em]
-std::vector<std::u32string> broken(const FontFace& face, const std::vector<std::u32string>& lines, double measure,
-                                   double tracking)
+std::vector<SizedLine> broken(const FontFace& face, const std::vector<SizedLine>& lines, double measure,
+                              double tracking)
 {
-    std::vector<std::u32string> result;
-    for (const std::u32string& line : lines) {
+    std::vector<SizedLine> result;
+    for (const auto& [line, size] : lines) {
         std::u32string now;
         for (std::size_t begin = 0; begin <= line.size();) {
             const std::size_t space = std::min(line.find(U' ', begin), line.size());
             const std::u32string word = line.substr(begin, space - begin);
-            const std::u32string longer = begin == 0 ? word : now + U' ' + word;
-            if (!now.empty() && layOutLine(face, longer, tracking).advance > measure) {
-                result.push_back(std::move(now));
+            std::u32string longer = now;
+            if (begin > 0) {
+                longer += U' ';
+            }
+            longer += word;
+            if (!now.empty() && size * layOutLine(face, longer, tracking).advance > measure) {
+                result.push_back({std::move(now), size});
                 now = word;
             } else {
-                now = longer;
+                now = std::move(longer);
             }
             begin = space + 1;
         }
-        result.push_back(std::move(now));
+        result.push_back({std::move(now), size});
     }
     return result;
 }
 
-/// Circle that a base line lies on. A straight line's middle lies at its top, or at its bottom if the radius is below
-/// 0.
-struct Circle {
-    Vec2 centre;
-    double radius = 0.0;  ///< [em]
-    double middle = 0.0;  ///< of the straight line
-};
-
-/// @param radius  of the first base line [em]
-/// @param height  of the line's base line, at most 0
-/// @param width   of the text
-Circle circleOf(double radius, double height, double width)
+/// Index of the letter that each character belongs to: its own, or for marks that of the letter before them.
+std::vector<std::size_t> lettersOf(const std::u32string& text)
 {
-    const Circle circle{{0.5 * width, -radius}, radius + height, 0.5 * width};
-    if (!(circle.radius * radius > 0.0 && width <= 2.0 * std::numbers::pi * std::abs(circle.radius))) {
-        throw Error(ErrorCode::InvalidArgument, "the arc is too small for a line of " + numberText(width) +
-                                                    " em; make it larger, or the type smaller");
+    hb_unicode_funcs_t* unicode = hb_unicode_funcs_get_default();
+    const auto is_mark = [&](char32_t c) {
+        const hb_unicode_general_category_t category = hb_unicode_general_category(unicode, c);
+        return category == HB_UNICODE_GENERAL_CATEGORY_NON_SPACING_MARK ||
+               category == HB_UNICODE_GENERAL_CATEGORY_SPACING_MARK ||
+               category == HB_UNICODE_GENERAL_CATEGORY_ENCLOSING_MARK;
+    };
+    std::vector<std::size_t> letters(text.size(), 0);
+    for (std::size_t i = 1; i < text.size(); ++i) {
+        letters[i] = is_mark(text[i]) ? letters[i - 1] : i;
     }
-    return circle;
+    return letters;
 }
 
-/// Places a glyph on a circle, and widens the box to hold its part of the line.
-void placeOn(const Circle& circle, const ShapedGlyph& glyph, double pen, const LineMetrics& lines, PlacedText& result)
+/// Nearest place that unite() rounds to, so that a straight path sets text exactly as none does.
+Vec2 onGrid(Vec2 p)
 {
-    // The middle of a letter touches the circle; a mark turns with where it stands.
-    const double middle = 0.5 * glyph.advance;
-    const double angle = (pen + middle - circle.middle) / circle.radius;
-    const Vec2 along{std::cos(angle), -std::sin(angle)};
-    const auto at = [&](Vec2 p) {
-        const Vec2 off{p.x - middle, p.y + circle.radius};
-        return circle.centre + Vec2{off.x * along.x - off.y * along.y, off.x * along.y + off.y * along.x};
-    };
-    if (result.glyphs.empty()) {
-        result.box = {at({middle, 0.0}), at({middle, 0.0})};
+    constexpr double kGrid = 0x1p26;
+    return {std::round(kGrid * p.x) / kGrid, std::round(kGrid * p.y) / kGrid};
+}
+
+/// Glyphs of a line that are placed along another line.
+class Follower {
+public:
+    /// @param lines      of glyphs whose em is 1
+    /// @param shift      of all glyphs along the line, as a share of its length
+    /// @param is_closed  whether the line's end is its begin
+    Follower(const LineMetrics& lines, double shift, bool is_closed, PlacedText& result)
+        : lines_(lines), shift_(shift), is_closed_(is_closed), result_(result)
+    {
     }
-    for (const double x : {0.0, glyph.advance}) {
-        for (const double y : {lines.descender, lines.ascender}) {
-            const Vec2 p = at({x, y});
-            result.box.low = {std::min(result.box.low.x, p.x), std::min(result.box.low.y, p.y)};
-            result.box.high = {std::max(result.box.high.x, p.x), std::max(result.box.high.y, p.y)};
+
+    /// Places the glyphs of a line.
+    /// @param pen   distance along the base line at which they begin
+    /// @param text  of the line
+    void place(const TextLine& line, double size, const BaseLine& base, double pen, const std::u32string& text)
+    {
+        const std::vector<std::size_t> letters = lettersOf(text);
+        for (auto begin = line.glyphs.begin(); begin != line.glyphs.end();) {
+            // A letter and its marks stay together, and their middle touches the line.
+            const std::size_t letter = letters[begin->character];
+            const auto end = std::find_if(begin, line.glyphs.end(),
+                                          [&](const ShapedGlyph& glyph) { return letters[glyph.character] != letter; });
+            double advance = 0.0;
+            for (auto glyph = begin; glyph != end; ++glyph) {
+                advance += glyph->advance;
+            }
+            if (const auto distance = shifted(pen + 0.5 * size * advance, base.length())) {
+                placeLetter({begin, end}, advance, size, base.at(*distance));
+            } else {
+                result_.beyond += text[letter] == U' ' ? 0 : 1;
+            }
+            pen += size * advance;
+            begin = end;
         }
     }
-    result.glyphs.push_back({glyph.glyph, at(glyph.offset), along});
+
+    /// Moves all so that the line's box begins where it would without a path.
+    /// @throws Error InvalidArgument: the text takes too much room
+    void finish(double ascender)
+    {
+        constexpr double kWidest = 0x1p20;  // of what unite() takes
+        const Vec2 size = result_.box.high - result_.box.low;
+        if (const double room = std::max(size.x, size.y); !(room < kWidest)) {
+            throw Error(ErrorCode::InvalidArgument, "the text's path is too long: lines at its ends are " +
+                                                        numberText(room) + " em apart, must be less than 1048576 em");
+        }
+        const Vec2 by = Vec2{0.0, ascender} - Vec2{result_.box.low.x, result_.box.high.y};
+        result_.box = {onGrid(result_.box.low + by), onGrid(result_.box.high + by)};
+        for (PlacedGlyph& glyph : result_.glyphs) {
+            glyph.origin = onGrid(glyph.origin + by);
+        }
+    }
+
+private:
+    /// Distance along a line after the shift; none beyond its ends. On a closed line, text may go round once.
+    [[nodiscard]] std::optional<double> shifted(double distance, double length) const
+    {
+        const auto is_on = [&](double d) { return d >= 0.0 && d <= length && length > 0.0; };
+        double moved = distance + shift_ * length;
+        if (is_closed_ && is_on(distance) && !is_on(moved)) {
+            moved -= std::floor(moved / length) * length;
+        }
+        return is_on(moved) && (!is_closed_ || is_on(distance)) ? std::optional(moved) : std::nullopt;
+    }
+
+    void placeLetter(std::span<const ShapedGlyph> letter, double advance, double size, const BaseLine::Place& place)
+    {
+        const Vec2 along = size * place.along;
+        const auto at = [&](Vec2 p) {
+            const Vec2 off{p.x - 0.5 * advance, p.y};
+            return place.point + Vec2{off.x * along.x - off.y * along.y, off.x * along.y + off.y * along.x};
+        };
+        if (result_.glyphs.empty()) {
+            result_.box = {place.point, place.point};
+        }
+        for (const double x : {0.0, advance}) {
+            for (const double y : {lines_.descender, lines_.ascender}) {
+                const Vec2 p = at({x, y});
+                result_.box.low = {std::min(result_.box.low.x, p.x), std::min(result_.box.low.y, p.y)};
+                result_.box.high = {std::max(result_.box.high.x, p.x), std::max(result_.box.high.y, p.y)};
+            }
+        }
+        double pen = 0.0;
+        for (const ShapedGlyph& glyph : letter) {
+            result_.glyphs.push_back({glyph.glyph, at(Vec2{pen, 0.0} + glyph.offset), along, size});
+            pen += glyph.advance;
+        }
+    }
+
+    const LineMetrics& lines_;
+    double shift_;
+    bool is_closed_;
+    PlacedText& result_;
+};
+
+/// Line that the first base line follows, in ems; empty if it is straight.
+std::vector<LinePiece> followedLine(const TextOptions& options)
+{
+    const double em = options.glyph.em;
+    if (options.arc) {
+        return circlePieces(*options.arc / em);
+    }
+    std::vector<Vec2> points;
+    points.reserve(options.path.size());
+    for (const Vec2 p : options.path) {
+        points.push_back((1.0 / em) * p);
+    }
+    return points.empty() ? std::vector<LinePiece>{} : piecesOf(points);
 }
 
 }  // namespace
@@ -249,15 +361,17 @@ TextLine layOutLine(const FontFace& face, const std::u32string& text, double tra
 
 PlacedText placeText(const FontFace& face, std::string_view text, const TextOptions& options)
 {
-    std::vector<std::u32string> texts = linesOf(text);
+    std::vector<SizedLine> texts = sizedLines(text, options.line_sizes);
     if (options.measure) {
         texts = broken(face, texts, *options.measure / options.glyph.em, options.tracking);
     }
     PlacedText result;
     result.lines = texts.size();
+    result.smallest = texts.front().size;
     std::vector<TextLine> lines;
+    lines.reserve(texts.size());
     double width = 0.0;
-    for (const std::u32string& line : texts) {
+    for (const auto& [line, size] : texts) {
         TextLine laid_out = layOutLine(face, line, options.tracking);
         // Glyph 0 replaces characters that the font lacks.
         for (const ShapedGlyph& glyph : laid_out.glyphs) {
@@ -270,27 +384,47 @@ PlacedText placeText(const FontFace& face, std::string_view text, const TextOpti
             }
         }
         std::erase_if(laid_out.glyphs, [](const ShapedGlyph& glyph) { return glyph.glyph == 0; });
-        width = std::max(width, laid_out.advance);
+        width = std::max(width, size * laid_out.advance);
+        result.smallest = std::min(result.smallest, size);
         lines.push_back(std::move(laid_out));
     }
-    const double pitch = options.line_spacing * face.lines().pitch;
+    const LineMetrics& metrics = face.lines();
+    const double below = 0.5 * (metrics.pitch - metrics.ascender - metrics.descender);
+    const std::vector<LinePiece> followed = followedLine(options);
+    const bool is_closed = options.arc || (!options.path.empty() && options.path.front() == options.path.back());
+    Follower follower(metrics, options.shift, is_closed, result);
     Vec2 pen;
-    for (const TextLine& line : lines) {
-        pen.x = startOf(line, width, options.align);
-        const Circle circle = options.arc ? circleOf(*options.arc / options.glyph.em, pen.y, width) : Circle{};
-        for (const ShapedGlyph& glyph : line.glyphs) {
-            if (options.arc) {
-                placeOn(circle, glyph, pen.x, face.lines(), result);
-            } else {
-                result.glyphs.push_back({glyph.glyph, pen + glyph.offset});
-            }
-            pen.x += glyph.advance;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        const TextLine& line = lines[k];
+        const double size = texts[k].size;
+        if (k > 0) {
+            // Each line's part of the distance reaches from the middle of the gap above it to that below it.
+            pen.y -= options.line_spacing * (size * metrics.pitch + (texts[k - 1].size - size) * below);
         }
-        pen.y -= pitch;
+        const double advance = size * line.advance;
+        if (followed.empty()) {
+            pen.x = startOf(line.leftward, width - advance, options.align);
+            for (const ShapedGlyph& glyph : line.glyphs) {
+                result.glyphs.push_back({glyph.glyph, pen + size * glyph.offset, {size, 0.0}, size});
+                pen.x += size * glyph.advance;
+            }
+            continue;
+        }
+        const BaseLine base(followed, pen.y);
+        if (options.arc && width > base.length()) {
+            throw Error(ErrorCode::InvalidArgument, "the arc is too small for a line of " + numberText(width) +
+                                                        " em; make it larger, or the type smaller");
+        }
+        const double room = options.arc ? width : base.length();
+        follower.place(line, size, base,
+                       0.5 * (base.length() - room) + startOf(line.leftward, room - advance, options.align),
+                       texts[k].text);
     }
-    if (!options.arc || result.glyphs.empty()) {
-        const double last = -pitch * static_cast<double>(lines.size() - 1);
-        result.box = {{0.0, last + face.lines().descender}, {width, face.lines().ascender}};
+    const double top = texts.front().size * metrics.ascender;
+    if (followed.empty() || result.glyphs.empty()) {
+        result.box = {{0.0, pen.y + texts.back().size * metrics.descender}, {width, top}};
+    } else {
+        follower.finish(top);
     }
     return result;
 }

@@ -28,7 +28,8 @@ TextLine layOutLine(const FontFace& face, const std::u32string& text, double tra
 struct PlacedGlyph {
     GlyphId glyph = 0;
     Vec2 origin;
-    Vec2 along = {1.0, 0.0};  ///< direction of its base line, unit
+    Vec2 along = {1.0, 0.0};  ///< direction of its base line, as long as the glyph's em
+    double size = 1.0;        ///< the glyph's em
 };
 
 /// Glyphs of a text; lengths in ems.
@@ -37,13 +38,15 @@ struct PlacedText {
     Box box;                          ///< of the lines
     std::vector<char32_t> missing;    ///< as in TextLayout
     std::size_t lines = 0;            ///< as in TextLayout
+    std::size_t beyond = 0;           ///< as in TextLayout
+    double smallest = 1.0;            ///< em of the smallest line
 };
 
 /// Places all glyphs of a text, as layOutText() describes it.
 /// @throws Error  InvalidArgument: text that is not UTF-8
 PlacedText placeText(const FontFace& face, std::string_view text, const TextOptions& options);
 
-/// A contour, turned so that its x points along a unit vector, then moved.
+/// A contour, turned and scaled so that its unit in x becomes a vector, then moved.
 Contour moved(Contour contour, Vec2 by, Vec2 along = {1.0, 0.0});
 
 }  // namespace droplet

@@ -297,6 +297,74 @@ TEST_F(Glyphs, TextsMayHaveLinesAndBackslashes)
     EXPECT_EQ(droplets("A\nB"), 2);
 }
 
+TEST_F(Glyphs, TextFollowsThePathOfADrawing)
+{
+    const auto drawing = [&](const std::string& name, const std::string& content) {
+        writeFile(directory() / name,
+                  "<svg xmlns='http://www.w3.org/2000/svg' width='200mm' height='100mm' "
+                  "viewBox='0 0 200 100'>" +
+                      content + "</svg>");
+    };
+    const auto made = [&](const std::vector<std::string>& more, const std::string& name = "t.stl") {
+        std::vector<std::string> job{"--text", "lll lll", "-o", name, "--json", "t.json", "--triangles", "400"};
+        job.insert(job.end(), more.begin(), more.end());
+        const CommandResult result = glyphs(job);
+        EXPECT_EQ(result.exit_code, 0) << result.error;
+        return result.error;
+    };
+    drawing("line.svg", "<path d='M10,50H190'/>");
+    drawing("up.svg", "<path d='M50,90V10'/>");
+    drawing("arc.svg", "<path d='M100,90A40,40 0 0 1 100,10A40,40 0 0 1 100,90'/>");
+    drawing("two.svg", "<path d='M10,50H40'/><path d='M10,60H190'/>");
+    drawing("short.svg", "<path d='M10,50h20'/>");
+    drawing("dot.svg", "<path d='M10,50h0'/>");
+    made({}, "none.stl");
+    made({"--path", "line.svg"}, "line.stl");
+    EXPECT_TRUE(readFile(directory() / "line.stl") == readFile(directory() / "none.stl")) << "a straight path";
+    EXPECT_THAT(made({"--path", "two.svg"}), HasSubstr("two.svg has 2 paths, and the text follows the longest"));
+    EXPECT_THAT(made({"--path", "short.svg"}), HasSubstr("longer than its path, and 3 letters are left out"));
+    EXPECT_EQ(parsed("t.json")["mesh"]["droplets"], 3);
+    EXPECT_THAT(made({"--path", "short.svg", "--path-width", "400mm"}), ::testing::Not(HasSubstr("warning")));
+    EXPECT_EQ(parsed("t.json")["mesh"]["droplets"], 6);
+    made({"--arc", "40mm"});
+    const double arc = parsed("t.json")["mesh"]["footprint_area_m2"];
+    made({"--path", "arc.svg", "--align", "centre"});
+    EXPECT_NEAR(parsed("t.json")["mesh"]["footprint_area_m2"].get<double>(), arc, 1e-6 * arc);
+    made({"--path", "up.svg", "--line-sizes", "1.5,1"});
+    EXPECT_THAT(made({"--path", "line.svg", "--shift", "0.9"}), HasSubstr("letters are left out"));
+    EXPECT_THAT(made({"--arc", "40mm", "--shift", "0.9"}), ::testing::Not(HasSubstr("left out")));
+    refuses({"--text", "a", "-o", "x.glb", "--shift", "0.5"}, 2, {"--shift goes with --path or --arc"});
+    refuses({"--text", "a", "-o", "x.glb", "--arc", "1m", "--shift", "2"}, 2, {"--shift", "from -1 to 1"});
+    refuses({"--text", "a", "-o", "x.glb", "--path", "missing.svg"}, 3, {"--path: cannot read missing.svg"});
+    refuses({"--text", "a", "-o", "x.glb", "--path", "disc.pgm"}, 3, {"--path: disc.pgm: is not an SVG drawing"});
+    refuses({"--text", "a", "-o", "x.glb", "--path", "dot.svg"}, 3, {"--path: dot.svg: the drawing has no path"});
+    refuses({"--text", "a\\nא", "-o", "x.glb", "--path", "line.svg", "--em", "1nm"}, 2,
+            {"the text's path (--path) is too long", "less than 1048576 em"});
+    refuses({"--text", "a", "-o", "x.glb", "--path", "short.svg", "--em", "1m"}, 3, {"--path: it is too short"});
+    refuses({"--text", "a", "-o", "x.glb", "--path", "line.svg", "--arc", "1m"}, 2, {"--arc and --path exclude"});
+    refuses({"--text", "a", "-o", "x.glb", "--path-width", "1m"}, 2, {"--path-width goes with --path"});
+    refuses({"--text", "a", "-o", "x.glb", "--path", "line.svg", "--path-width", "0mm"}, 2, {"--path-width"});
+    refuses({"--text", "a", "-o", "x.glb", "--path", "-"}, 2, {"--path must name a file"});
+    refuses({"--charset", "a", "-o", "{name}.glb", "--path", "line.svg"}, 2, {"--path", "--text"});
+    refuses({"--text", "a", "-o", "line.svg", "--path", "line.svg", "--format", "glb"}, 2, {"line.svg"});
+}
+
+TEST_F(Glyphs, LinesHaveTheirSizes)
+{
+    const auto area = [&](const std::string& text, const std::vector<std::string>& more) {
+        std::vector<std::string> job{"--text", text, "-o", "t.stl", "--json", "t.json", "--triangles", "600"};
+        job.insert(job.end(), more.begin(), more.end());
+        succeeds(job);
+        return parsed("t.json")["mesh"]["footprint_area_m2"].get<double>();
+    };
+    const double one = area("l", {});
+    EXPECT_NEAR(area("l\\nl\\nl", {"--line-sizes", "3,2"}), 17.0 * one, 1e-9 * one) << "9 + 4 + 4";
+    EXPECT_NEAR(area("l", {"--line-sizes", "0.5"}), 0.25 * one, 1e-9 * one);
+    refuses({"--text", "a", "-o", "x.glb", "--line-sizes", "0"}, 2, {"--line-sizes", "from 0.05 to 20"});
+    refuses({"--text", "a", "-o", "x.glb", "--line-sizes", "big"}, 2, {"--line-sizes"});
+    refuses({"--charset", "a", "-o", "{name}.glb", "--line-sizes", "2"}, 2, {"--line-sizes", "--text"});
+}
+
 TEST_F(Glyphs, CharsetsMayComeFromAFile)
 {
     writeFile(directory() / "words.txt", "ba-ba\n");

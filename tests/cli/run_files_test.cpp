@@ -191,6 +191,7 @@ const std::vector<CommandFiles>& all()
           kMaterials,
           {"--surface", "ground.exr"},
           {"--onto", "can.glb"},
+          {"--path", "path.svg"},
           needing({"--ground", "ground.png"}, {"--preview", "new.png"}),
           needing({"--environment", "sky.exr"}, {"--preview", "new.png"})},
          {{"--output", "out.glb"},

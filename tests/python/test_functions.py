@@ -20,7 +20,7 @@ class InFolder(unittest.TestCase):
         self.folder = Path(folder.name)
 
 
-class Glyphs(unittest.TestCase):
+class Glyphs(InFolder):
     def test_a_text_has_a_droplet_per_part(self):
         drop = ds.glyphs(FONT, "Hi", em=0.01, **SMALL)
         self.assertEqual(len(drop.report.droplets), 3)
@@ -30,6 +30,19 @@ class Glyphs(unittest.TestCase):
     def test_lines_are_separated_by_line_feeds(self):
         one, two = ds.glyphs(FONT, "H H", **SMALL), ds.glyphs(FONT, "H\nH", **SMALL)
         self.assertGreater(np.ptp(two.vertices[:, 1]), 1.5 * np.ptp(one.vertices[:, 1]))
+
+    def test_lines_have_sizes_and_follow_a_path(self):
+        one, large = ds.glyphs(FONT, "H", **SMALL), ds.glyphs(FONT, "H", line_sizes=[2, 1], **SMALL)
+        self.assertAlmostEqual(np.ptp(large.vertices[:, 1]) / np.ptp(one.vertices[:, 1]), 2, places=5)
+        wave = self.folder / "wave.svg"
+        wave.write_text("<svg xmlns='http://www.w3.org/2000/svg' width='50mm' viewBox='0 0 5 5'><path d='M1,4V1'/></svg>")
+        up = ds.glyphs(FONT, "HHHH", path=wave, **SMALL)
+        self.assertGreater(np.ptp(up.vertices[:, 1]), np.ptp(up.vertices[:, 0]))
+        self.assertIn("2 letters are left out", up.warnings[0])
+        self.assertEqual(len(ds.glyphs(FONT, "HHHH", path=wave, path_width="100mm", **SMALL).report.droplets), 4)
+        with self.assertRaisesRegex(ds.InvalidInput, "path: .*no path"):
+            wave.write_text("<svg xmlns='http://www.w3.org/2000/svg'/>")
+            ds.glyphs(FONT, "H", path=wave)
 
     def test_backslashes_are_characters(self):
         self.assertEqual(ds.glyphs(FONT, r"\n", **SMALL).report.input.type.text, r"\n")

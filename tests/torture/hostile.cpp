@@ -209,6 +209,10 @@ Verdict tryFont(const Item& item)
                 // Only this glyph is broken.
             }
         }
+        TextOptions along;
+        along.path = {{0.0, 0.0}, {0.1, 0.0}, {0.1, -0.1}};
+        along.line_sizes = {2.0, 1.0};
+        layOutText(font, "fA\u0301V \u05d0\n&", along);
         layOutText(font, "fA\u0301V \u05d0\u0628\u0629 ffi\n&");
     });
 }

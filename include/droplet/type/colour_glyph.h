@@ -17,6 +17,7 @@ struct ColourLayout {
     bool has_layers = false;        ///< whether any glyph has layers; otherwise all is one area in the text's colour
     std::vector<char32_t> missing;  ///< as in TextLayout
     std::size_t lines = 0;          ///< as in TextLayout
+    std::size_t beyond = 0;         ///< as in TextLayout
 };
 
 /// Tells whether a glyph has colour layers.

@@ -53,14 +53,23 @@ enum class TextAlign {
 
 /// Options of layOutText().
 struct TextOptions {
-    GlyphOptions glyph;                  ///< options of every glyph
-    TextAlign align = TextAlign::Start;  ///< alignment of the lines
-    double line_spacing = 1.0;           ///< distance of base lines, as a multiple of the font's, > 0
+    GlyphOptions glyph;                   ///< options of every glyph
+    TextAlign align = TextAlign::Start;   ///< alignment of the lines
+    double line_spacing = 1.0;            ///< leading: distance of base lines, as a multiple of the font's, > 0
+    std::vector<double> line_sizes = {};  ///< type size of each line between line feeds [em], the last one also of all
+                                          ///< further lines, each 0.05 … 20; empty: 1. Lines of different sizes are as
+                                          ///< far apart as the lower part of the upper one and the upper part of the
+                                          ///< lower one require
     double tracking = 0.0;  ///< extra width between letters [em], −1 … 10; none in scripts that join their
                             ///< letters. Unless it is 0, there are no ligatures
     std::optional<double> measure = {};  ///< width at which lines break at spaces [m], > 0; longer words stand over
     std::optional<double> arc = {};      ///< radius of the circle that the first base line lies on [m], not 0: letters
                                          ///< stand on it outside if it is above 0, inside below
+    std::vector<Vec2> path = {};         ///< polyline that the first base line lies on [m], instead of a circle; text
+                                         ///< stands on its left side. It is smooth where it turns by up to 25°, and
+                                         ///< closed if the last point is the first one; empty: a straight line
+    double shift = 0.0;  ///< of the text along the circle or path, as a share of its length, −1 … 1; text goes round
+                         ///< closed ones, but once at most
 
     /// Checks all options.
     /// @throws Error InvalidArgument
@@ -72,20 +81,25 @@ struct TextLayout {
     Outline outline;                ///< without loops if the text has no ink
     std::vector<char32_t> missing;  ///< characters that the font lacks, in order of first occurrence, each once
     std::size_t lines = 0;          ///< number of lines
+    std::size_t beyond = 0;         ///< letters that are left out because their middle lies beyond an end of the path
 };
 
 /// Makes the outline of a text, with the font's kerning, ligatures, combining marks and contextual forms. Letters run
 /// from left to right or from right to left as in their script; the Unicode bidirectional algorithm orders mixed lines.
 ///
 /// Letters that overlap become one region of liquid. The extent is the box of the lines, from the ascender of the first
-/// line to the descender of the last one; on an arc, around the letters' parts of the lines. It grows equally on
-/// opposite sides if letters do not fit. All else is as in glyphOutline().
+/// line to the descender of the last one; on an arc or a path, around the letters' parts of the lines. It grows equally
+/// on opposite sides if letters do not fit. All else is as in glyphOutline(), for the em of the smallest line.
+///
+/// On an arc and a path, the middle of every letter, with its marks, lies on the line and is turned like the line
+/// there. Further lines keep their distance from the first one. On an arc, the middle of the widest line is at the top,
+/// or at the bottom if the radius is below 0; lines are aligned with one another. On a path, lines are aligned between
+/// its ends.
 /// @param font     any
 /// @param text     UTF-8; line feeds separate lines, and a tab counts as a space
 /// @param options  size, alignment and spacing
-/// @throws Error   InvalidArgument: options, text that is not UTF-8, or a line longer than its circle; InvalidInput:
-/// the
-///                 font is damaged
+/// @throws Error   InvalidArgument: options, text that is not UTF-8, a line longer than its circle, or lines that are
+///                 2²⁰ em apart on their path; InvalidInput: the font is damaged
 TextLayout layOutText(const Font& font, std::string_view text, const TextOptions& options = {});
 
 }  // namespace droplet

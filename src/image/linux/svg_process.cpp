@@ -179,26 +179,32 @@ std::string problemOf(const ProcessEnd& end, const DrawingLimits& limits)
     return "cannot be drawn: librsvg has failed";
 }
 
-/// Pixels of a file in memory.
-std::shared_ptr<const std::uint32_t> pixelsOf(const Descriptor& file, std::size_t size)
-{
-    void* const mapped = ::mmap(nullptr, size, PROT_READ, MAP_SHARED | MAP_POPULATE, file.number(), 0);
-    if (mapped == MAP_FAILED) {
-        throwSystem(errno);
+/// File in memory with what the program has written.
+struct Result {
+    Descriptor file;
+    SvgDrawing drawing;
+
+    /// Content after the drawing's figures.
+    template <class Value>
+    [[nodiscard]] std::shared_ptr<const Value> content(std::size_t count) const
+    {
+        const std::size_t size = kSvgContent + count * sizeof(Value);
+        void* const mapped = ::mmap(nullptr, size, PROT_READ, MAP_SHARED | MAP_POPULATE, file.number(), 0);
+        if (mapped == MAP_FAILED) {
+            throwSystem(errno);
+        }
+        const auto* const values = reinterpret_cast<const Value*>(static_cast<const std::byte*>(mapped) + kSvgContent);
+        return {values, [mapped, size](const Value*) { ::munmap(mapped, size); }};
     }
-    const auto* const pixels =
-        reinterpret_cast<const std::uint32_t*>(static_cast<const std::byte*>(mapped) + kSvgPixels);
-    return {pixels, [mapped, size](const std::uint32_t*) { ::munmap(mapped, size); }};
-}
+};
 
-}  // namespace
-
-DrawnSvg drawSvg(std::span<const std::byte> text, std::size_t tags, const DecodeOptions& options)
+/// Lets the program answer a request.
+/// @throws Error InvalidInput
+std::unique_ptr<Result> answerTo(const SvgRequest& request, std::span<const std::byte> text,
+                                 const DrawingLimits& limits)
 {
     const Descriptor request_file = memoryFile();
-    const Descriptor drawing_file = memoryFile();
-    const SvgRequest request{options.max_pixels, options.vector_long_side, options.drawing.seconds,
-                             options.drawing.memory, tags};
+    std::unique_ptr<Result> result(new Result{memoryFile(), {}});
     writeAtomically(request_file, &request, sizeof request);
     writeAtomically(request_file, text.data(), text.size());
 
@@ -208,25 +214,43 @@ DrawnSvg drawSvg(std::span<const std::byte> text, std::size_t tags, const Decode
     }
     const Descriptor messages(ends[0]);
     auto message_writer = std::make_unique<Descriptor>(ends[1]);
-    const pid_t process = startDrawing(request_file, drawing_file, message_writer->number());
+    const pid_t process = startDrawing(request_file, result->file, message_writer->number());
     message_writer.reset();
-    const ProcessEnd end = awaitEnd(process, messages, options.drawing.seconds);
+    const ProcessEnd end = awaitEnd(process, messages, limits.seconds);
 
-    SvgDrawing drawing;
-    const bool whole = ::pread(drawing_file.number(), &drawing, sizeof drawing, 0) == sizeof drawing;
+    SvgDrawing& drawing = result->drawing;
+    const bool whole = ::pread(result->file.number(), &drawing, sizeof drawing, 0) == sizeof drawing;
     if (end.timed_out || end.status != 0 || !whole || drawing.outcome == SvgOutcome::None) {
-        throwSvgRefused(problemOf(end, options.drawing));
+        throwSvgRefused(problemOf(end, limits));
     }
     if (drawing.outcome == SvgOutcome::Damaged) {
         throwDamaged(ImageFormat::Svg, drawing.problem.data());
     }
     if (drawing.outcome == SvgOutcome::Refused) {
         const std::string problem = drawing.problem.data();
-        throwSvgRefused(problem.ends_with("NoMemory") ? memoryProblem(options.drawing) : problem);
+        throwSvgRefused(problem.ends_with("NoMemory") ? memoryProblem(limits) : problem);
     }
-    const std::size_t size =
-        kSvgPixels + 4 * static_cast<std::size_t>(drawing.width) * static_cast<std::size_t>(drawing.height);
-    return {drawing, pixelsOf(drawing_file, size)};
+    return result;
+}
+
+}  // namespace
+
+DrawnSvg drawSvg(std::span<const std::byte> text, std::size_t tags, const DecodeOptions& options)
+{
+    const auto result = answerTo(
+        {options.max_pixels, options.vector_long_side, options.drawing.seconds, options.drawing.memory, tags, false},
+        text, options.drawing);
+    const SvgDrawing& drawing = result->drawing;
+    return {drawing, result->content<std::uint32_t>(static_cast<std::size_t>(drawing.width) *
+                                                    static_cast<std::size_t>(drawing.height))};
+}
+
+SvgLine lineOfSvg(const SvgText& drawing, const DrawingLimits& limits)
+{
+    const auto result = answerTo({0, 0, limits.seconds, limits.memory, drawing.tags, true}, drawing.text, limits);
+    const SvgDrawing& found = result->drawing;
+    const auto points = result->content<Vec2>(found.points);
+    return {{points.get(), points.get() + found.points}, found.page_width, found.others};
 }
 
 }  // namespace droplet

@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "droplet/units.h"
+#include "image/svg/drawn_line.h"
 #include "image/svg/rewrite.h"
 #include "image/svg_drawing.h"
 #include "image/svg_raster.h"
@@ -241,22 +242,44 @@ SvgRaster rasterOf(const Page& page, const SvgRequest& request)
     return *raster;
 }
 
-/// Draws the text into the file that is the standard output.
-void draw(std::span<const std::byte> text, const SvgRequest& request, SvgDrawing& drawing)
+/// Gives the file that is the standard output so much content.
+/// @return  its content
+unsigned char* resizeOutput(std::size_t bytes)
 {
-    const Rewritten rewrite = rewritten(text);
-    Document document(rewrite.text.empty() ? text : std::as_bytes(std::span(rewrite.text)));
-    const Page page = document.page();
-    const SvgRaster raster = rasterOf(page, request);
-    const std::size_t size =
-        kSvgPixels + std::size_t{4} * static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height);
+    const std::size_t size = kSvgContent + bytes;
     void* const file = ftruncate(STDOUT_FILENO, static_cast<off_t>(size)) == 0
                            ? mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, STDOUT_FILENO, 0)
                            : MAP_FAILED;
     if (file == MAP_FAILED) {
         throw std::bad_alloc();
     }
-    document.draw(page, raster, static_cast<unsigned char*>(file) + kSvgPixels);
+    return static_cast<unsigned char*>(file) + kSvgContent;
+}
+
+/// Writes the line that text follows.
+void writeLine(std::span<const std::byte> text, SvgDrawing& drawing)
+{
+    const Document refuse_others(text);
+    const Rewritten rewrite = rewritten(text);
+    const SvgLine line = lineIn(rewrite.text.empty() ? text : std::as_bytes(std::span(rewrite.text)));
+    std::copy(line.points.begin(), line.points.end(),
+              reinterpret_cast<Vec2*>(resizeOutput(line.points.size() * sizeof(Vec2))));
+    drawing.points = line.points.size();
+    drawing.others = line.others;
+    drawing.page_width = line.page_width;
+    drawing.outcome = SvgOutcome::Drawn;
+}
+
+/// Draws the text.
+void draw(std::span<const std::byte> text, const SvgRequest& request, SvgDrawing& drawing)
+{
+    const Rewritten rewrite = rewritten(text);
+    Document document(rewrite.text.empty() ? text : std::as_bytes(std::span(rewrite.text)));
+    const Page page = document.page();
+    const SvgRaster raster = rasterOf(page, request);
+    document.draw(page, raster,
+                  resizeOutput(std::size_t{4} * static_cast<std::size_t>(raster.width) *
+                               static_cast<std::size_t>(raster.height)));
     drawing.width = raster.width;
     drawing.height = raster.height;
     drawing.scale = raster.scale;
@@ -302,7 +325,11 @@ void* drawOrReport(void* argument)
 {
     const Task& task = *static_cast<const Task*>(argument);
     try {
-        draw(task.text, task.request, task.drawing);
+        if (task.request.line) {
+            writeLine(task.text, task.drawing);
+        } else {
+            draw(task.text, task.request, task.drawing);
+        }
     } catch (const Refusal& refusal) {
         report(task.drawing, refusal.outcome, refusal.what());
     } catch (const std::exception& error) {
@@ -340,8 +367,8 @@ int start()
         fstat(STDIN_FILENO, &size) == 0 && size.st_size >= static_cast<off_t>(sizeof(SvgRequest))
             ? mmap(nullptr, static_cast<std::size_t>(size.st_size), PROT_READ, MAP_SHARED, STDIN_FILENO, 0)
             : MAP_FAILED;
-    void* const to = ftruncate(STDOUT_FILENO, kSvgPixels) == 0
-                         ? mmap(nullptr, kSvgPixels, PROT_READ | PROT_WRITE, MAP_SHARED, STDOUT_FILENO, 0)
+    void* const to = ftruncate(STDOUT_FILENO, kSvgContent) == 0
+                         ? mmap(nullptr, kSvgContent, PROT_READ | PROT_WRITE, MAP_SHARED, STDOUT_FILENO, 0)
                          : MAP_FAILED;
     if (from == MAP_FAILED || to == MAP_FAILED) {
         return 2;  // not started by the library

@@ -4,6 +4,7 @@
 #include <libxml/parser.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "image/svg/css_text.h"
 #include "image/svg/style_sheet.h"
@@ -39,6 +40,68 @@ std::string textOf(xmlDoc* document)
 void setAttribute(xmlNode& element, const char* name, const std::string& value)
 {
     xmlSetProp(&element, reinterpret_cast<const xmlChar*>(name), reinterpret_cast<const xmlChar*>(value.c_str()));
+}
+
+bool isDrawn(const xmlNode& element)
+{
+    return element.ns == nullptr ||
+           std::strcmp(reinterpret_cast<const char*>(element.ns->href), "http://www.w3.org/2000/svg") == 0;
+}
+
+xmlNode* elementOf(xmlNode& root, std::string_view id)
+{
+    std::vector<xmlNode*> open{&root};
+    while (!open.empty()) {
+        xmlNode* const element = open.back();
+        open.pop_back();
+        if (attributeOf(*element, "id") == id) {
+            return element;
+        }
+        for (xmlNode* child = element->last; child != nullptr; child = child->prev) {
+            if (isElement(child)) {
+                open.push_back(child);
+            }
+        }
+    }
+    return nullptr;
+}
+
+std::optional<SvgBox> viewBoxOf(const xmlNode& element)
+{
+    const auto attribute = attributeOf(element, "viewBox");
+    std::vector<double> numbers;
+    for (const std::string_view part : attribute ? partsOf(*attribute, ',') : std::vector<std::string_view>{}) {
+        numbers.push_back(parsePixels(part).value_or(0.0));
+    }
+    return numbers.size() == 4 && numbers[2] > 0.0 && numbers[3] > 0.0
+               ? std::optional(SvgBox{numbers[0], numbers[1], numbers[2], numbers[3]})
+               : std::nullopt;
+}
+
+std::optional<double> pixelsOf(const xmlNode& element, const char* name)
+{
+    const auto attribute = attributeOf(element, name);
+    return attribute ? parsePixels(*attribute) : std::nullopt;
+}
+
+std::optional<Matrix> viewportScale(const xmlNode& element)
+{
+    const auto box = viewBoxOf(element);
+    if (!box) {
+        return Matrix{};
+    }
+    const auto width = pixelsOf(element, "width");
+    const auto height = pixelsOf(element, "height");
+    if (!width && !height && isElement(element.parent)) {
+        return std::nullopt;
+    }
+    double x = width ? *width / box->width : height ? *height / box->height : 1.0;
+    double y = height ? *height / box->height : x;
+    const std::string aspect = attributeOf(element, "preserveAspectRatio").value_or("");
+    if (!aspect.starts_with("none")) {
+        x = y = aspect.find("slice") == std::string::npos ? std::min(x, y) : std::max(x, y);
+    }
+    return Matrix{x, 0.0, 0.0, y, 0.0, 0.0};
 }
 
 bool refersOutside(const xmlNode& element)

@@ -34,18 +34,6 @@ constexpr std::size_t kMaxText = std::size_t{8} << 20;  // a tree takes some twe
 constexpr std::size_t kMaxValue = std::size_t{1} << 16;
 constexpr std::string_view kShapes[] = {"circle", "ellipse", "inset", "polygon", "path", "rect", "xywh"};
 
-bool isElement(const xmlNode* node)
-{
-    return node != nullptr && node->type == XML_ELEMENT_NODE;
-}
-
-/// Whether an element belongs to a drawing, and is not data of an editor.
-bool isDrawn(const xmlNode& element)
-{
-    return element.ns == nullptr ||
-           std::strcmp(reinterpret_cast<const char*>(element.ns->href), "http://www.w3.org/2000/svg") == 0;
-}
-
 /// Sets a property so that it wins over rules. librsvg misreads some values that are marked as important.
 void setProperty(xmlNode& element, const std::string& name, const std::string& value)
 {
@@ -58,38 +46,13 @@ void setProperty(xmlNode& element, const std::string& name, const std::string& v
     setAttribute(element, "style", style + name + ":" + value);
 }
 
-/// Rectangle in the coordinates of an element.
-struct Box {
-    double x = 0.0;
-    double y = 0.0;
-    double width = 0.0;
-    double height = 0.0;
-};
+using Box = SvgBox;
 
 /// Bounding boxes of an element.
 struct Boxes {
     Box fill;
     Box stroke;
 };
-
-/// Four numbers of a viewBox.
-std::optional<Box> viewBoxOf(const xmlNode& element)
-{
-    const auto attribute = attributeOf(element, "viewBox");
-    std::vector<double> numbers;
-    for (const std::string_view part : attribute ? partsOf(*attribute, ',') : std::vector<std::string_view>{}) {
-        numbers.push_back(parsePixels(part).value_or(0.0));
-    }
-    return numbers.size() == 4 && numbers[2] > 0.0 && numbers[3] > 0.0
-               ? std::optional(Box{numbers[0], numbers[1], numbers[2], numbers[3]})
-               : std::nullopt;
-}
-
-std::optional<double> pixelsOf(const xmlNode& element, const char* name)
-{
-    const auto attribute = attributeOf(element, name);
-    return attribute ? parsePixels(*attribute) : std::nullopt;
-}
 
 /// Size to which percentages refer: that of the nearest svg element's viewBox, or its own.
 Box viewportOf(const xmlNode& element)
@@ -398,16 +361,8 @@ private:
             setAttribute(element, "id", id);
         }
         const DrawingTree copy(xmlCopyDoc(document_, 1), xmlFreeDoc);
-        std::vector<xmlNode*> open{copy ? xmlDocGetRootElement(copy.get()) : nullptr};
-        xmlNode* found = nullptr;
-        while (!open.empty() && found == nullptr) {
-            xmlNode* const node = open.back();
-            open.pop_back();
-            found = isElement(node) && attributeOf(*node, "id") == id ? node : nullptr;
-            for (xmlNode* child = isElement(node) ? node->children : nullptr; child != nullptr; child = child->next) {
-                open.push_back(child);
-            }
-        }
+        xmlNode* const root = copy ? xmlDocGetRootElement(copy.get()) : nullptr;
+        xmlNode* const found = root == nullptr ? nullptr : elementOf(*root, id);
         for (xmlNode* node = found; isElement(node); node = node->parent) {
             setAttribute(*node, "transform", "translate(0)");
             setProperty(*node, "clip-path", "none");
@@ -617,27 +572,6 @@ private:
             path.data += fmt::format("{}{:.10g},{:.10g}", k == 0 ? "M" : "L", box.x + *x, box.y + *y);
         }
         return words.size() >= 6 && words.size() % 2 == 0 ? std::optional(path) : std::nullopt;
-    }
-
-    /// Map from the content of an svg element to what is around it, without its place.
-    std::optional<Matrix> viewportScale(const xmlNode& element) const
-    {
-        const auto box = viewBoxOf(element);
-        if (!box) {
-            return Matrix{};
-        }
-        const auto width = pixelsOf(element, "width");
-        const auto height = pixelsOf(element, "height");
-        if (!width && !height && &element != &root_) {
-            return std::nullopt;
-        }
-        double x = width ? *width / box->width : height ? *height / box->height : 1.0;
-        double y = height ? *height / box->height : x;
-        const std::string aspect = attributeOf(element, "preserveAspectRatio").value_or("");
-        if (!aspect.starts_with("none")) {
-            x = y = aspect.find("slice") == std::string::npos ? std::min(x, y) : std::max(x, y);
-        }
-        return Matrix{x, 0.0, 0.0, y, 0.0, 0.0};
     }
 
     /// Map from an element's coordinates to the page, without places; none if it is not known.

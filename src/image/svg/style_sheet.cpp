@@ -77,11 +77,6 @@ bool hasClass(const xmlNode& element, const std::string& name)
     return std::find(all.begin(), all.end(), name) != all.end();
 }
 
-bool isElement(const xmlNode* node)
-{
-    return node != nullptr && node->type == XML_ELEMENT_NODE;
-}
-
 bool matches(const xmlNode& element, const Compound& compound)
 {
     return (compound.type.empty() || nameOf(element) == compound.type) &&
@@ -129,6 +124,11 @@ void addStyles(const xmlNode& node, std::string& sheets)
 }
 
 }  // namespace
+
+bool isElement(const xmlNode* node)
+{
+    return node != nullptr && node->type == XML_ELEMENT_NODE;
+}
 
 std::optional<std::string> attributeOf(const xmlNode& element, const char* name)
 {

@@ -43,6 +43,8 @@ struct StyleValue {
     bool is_attribute = false;  ///< a presentation attribute; else a rule or the style attribute
 };
 
+/// Whether a node is an element; null is none.
+bool isElement(const xmlNode* node);
 /// Name of an attribute, or none.
 std::optional<std::string> attributeOf(const xmlNode& element, const char* name);
 /// Local name of an element.

@@ -135,6 +135,12 @@ private:
 
 }  // namespace
 
+SvgLine lineOfSvg(const SvgText& drawing, const DrawingLimits& /*limits*/)
+{
+    const SvgDocument document(drawing.text);  // refuses what is no drawing
+    return lineIn(drawing.text);
+}
+
 DrawnSvg drawSvg(std::span<const std::byte> text, std::size_t /*tags*/, const DecodeOptions& options)
 {
     SvgDocument document(text);
