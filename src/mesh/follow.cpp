@@ -493,25 +493,35 @@ void raiseAngles(PlanarMesh& mesh, double wanted)
             }
         }
     }
-    const auto worst = [&](std::uint32_t v) {
+    // No more is looked at than is needed to know that it is at most `enough`.
+    const auto worst = [&](std::uint32_t v, double enough) {
         double sine = 1.0;
         for (const std::uint32_t t : around[v]) {
             sine = std::min(sine, smallestSine(mesh, mesh.triangles[t]));
+            if (sine <= enough) {
+                break;
+            }
         }
         return sine;
     };
+    constexpr double kAll = -1.0;                                   // no sine is less
+    std::vector<std::uint8_t> is_settled(mesh.vertices.size(), 0);  // 1: nothing around it has moved since it was tried
     // Neighbours make room for one another, so a few passes are needed; each begins with long moves.
     constexpr int kPasses = 16;
     constexpr int kHalvings = 4;
     constexpr int kDirections = 8;
     for (int pass = 0; pass < kPasses; ++pass) {
-        std::size_t count = 0;
+        bool has_moved = false;
         for (std::uint32_t v = on_rim; v < mesh.vertices.size(); ++v) {
-            double best = worst(v);
+            if (is_settled[v] != 0) {
+                continue;
+            }
+            is_settled[v] = 1;
+            double best = worst(v, kAll);
             if (best >= least) {
                 continue;
             }
-            ++count;
+            const Vec2 start = mesh.vertices[v];
             double size = 0.0;
             for (const std::uint32_t t : around[v]) {
                 size += std::abs(doubleArea(mesh, mesh.triangles[t]));
@@ -523,15 +533,23 @@ void raiseAngles(PlanarMesh& mesh, double wanted)
                 for (int k = 0; k < kDirections; ++k) {
                     const double angle = 2.0 * std::numbers::pi * k / kDirections;
                     mesh.vertices[v] = from + step * Vec2{std::cos(angle), std::sin(angle)};
-                    if (const double there = worst(v); there > best) {
+                    if (const double there = worst(v, best); there > best) {
                         best = there;
                         found = mesh.vertices[v];
                     }
                 }
                 mesh.vertices[v] = found;
             }
+            if (mesh.vertices[v] != start) {
+                has_moved = true;
+                for (const std::uint32_t t : around[v]) {
+                    for (const std::uint32_t w : mesh.triangles[t]) {
+                        is_settled[w] = 0;
+                    }
+                }
+            }
         }
-        if (count == 0) {
+        if (!has_moved) {
             break;
         }
     }
