@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "droplet/error.h"
+#include "droplet/mesh/follow.h"
 #include "droplet/shape/spread.h"
 #include "droplet/units.h"
 #include "number_text.h"
@@ -405,7 +406,7 @@ std::vector<PlanarMesh> basesOf(const Solution& solution, std::vector<PlanarMesh
 {
     for (std::size_t k = 0; k < bases.size(); ++k) {
         if (!sameRim(bases[k], rimOf(solution.droplets[k]))) {
-            bases[k] = cover(rimOf(solution.droplets[k]));
+            bases[k] = movableCover(rimOf(solution.droplets[k]));
         }
     }
     return bases;

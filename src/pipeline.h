@@ -20,7 +20,7 @@ DomainMeshes meshesOf(const Domain& domain, const DropletOptions& options);
 
 /// What is known of a droplet in a film.
 struct FilmState {
-    std::vector<PlanarMesh> bases = {};  ///< cover() of every mesh, or of its sheet's footprint; or empty
+    std::vector<PlanarMesh> bases = {};  ///< movableCover() of every mesh, or of its sheet's footprint; or empty
     /// Sheets that are solved already, one per droplet, or one for all at one pressure; or empty.
     std::vector<std::optional<SheetResult>> followed = {};
     bool keeps_triangles = false;  ///< those of sheets stay from frame to frame, as of LoftOptions::keeps_dry

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <numbers>
 
+#include "liquid2d/bounds.h"
+#include "liquid2d/cell_grid.h"
 #include "other_liquid.h"
 #include "surface_kernel.h"
 
@@ -38,11 +40,55 @@ constexpr double kSmall = 0.45;
 constexpr double kBlocked = 0.8;
 constexpr double kFree = 2.2;
 
-/// Growth below which a claw is not drawn: it would be thinner than a cell.
-constexpr double kLeast = 0.2;
+/// Length below which a claw is not drawn, in spacings: it would be hardly wider than a cell, and no claw but a nick.
+constexpr double kLeast = 3.0;
 
 /// Time over which a claw's direction is averaged [s].
 constexpr double kAveraged = 0.1;
+
+/// Radius around a root within which a crest is told from the face below it, in spacings: much longer than the depth of
+/// the root below the surface, and no more than a claw. Share of liquid there up to which claws are whole, and from
+/// which on there are none. Half a spacing below a plane it is 0.535, below a hollow with a radius of 20 spacings
+/// 0.586.
+constexpr double kBentRadius = 12.0;
+constexpr double kCrest = 0.54;
+constexpr double kFace = 0.58;
+
+/// Share of liquid around places.
+class LiquidAround {
+public:
+    explicit LiquidAround(const ParticleFrame& frame)
+        : position_(frame.position),
+          spacing_(frame.spacing),
+          reach_(kBentRadius * frame.spacing),
+          cells_(boundsOf(frame.position).lower, boundsOf(frame.position).upper, reach_)
+    {
+        order_ = cells_.sort(frame.position);
+    }
+
+    /// The nearer liquid counts more, so that no particle makes the share jump; 1 in bulk liquid.
+    [[nodiscard]] double share(Vec2 place) const
+    {
+        const int column = cells_.column(place.x);
+        const int row = cells_.row(place.y);
+        double sum = 0.0;
+        for (int r = row - 1; r <= row + 1; ++r) {
+            const auto [first, last] = cells_.range(r, column - 1, column + 1);
+            for (std::uint32_t k = first; k < last; ++k) {
+                const Vec2 away = place - position_[order_[k]];
+                sum += std::max(1.0 - dot(away, away) / (reach_ * reach_), 0.0);
+            }
+        }
+        return sum * spacing_ * spacing_ / (0.5 * std::numbers::pi * reach_ * reach_);
+    }
+
+private:
+    const std::vector<Vec2>& position_;
+    double spacing_;
+    double reach_;
+    CellGrid cells_;
+    std::vector<std::uint32_t> order_;
+};
 
 /// Rank of a particle, spread evenly over the ids.
 std::uint32_t rankOf(std::uint32_t id)
@@ -122,10 +168,11 @@ std::vector<Claw> clawsOf(const ExpressionState& state, const ParticleFrame& fra
         return a.length != b.length ? a.length > b.length : a.rank < b.rank;
     });
     std::vector<Root> taken;
-    std::optional<OtherLiquid> others;
-    if (!roots.empty()) {
-        others.emplace(frame, state.group);
+    if (roots.empty()) {
+        return claws;
     }
+    const OtherLiquid others(frame, state.group);
+    const LiquidAround around(frame);
     for (const Root& root : roots) {
         double room = 1.0;
         for (const Root& other : taken) {
@@ -133,15 +180,19 @@ std::vector<Claw> clawsOf(const ExpressionState& state, const ParticleFrame& fra
             room = std::min(room, 1.0 - other.grown * (1.0 - smoothRamp(apart, 0.8, 1.2)));
         }
         Root grown = root;
-        grown.grown = root.grown * room;
+        grown.grown = root.grown * room * (1.0 - smoothRamp(around.share(root.place), kCrest, kFace));
         if (grown.grown > 0.0) {
-            // A claw whose tip meets liquid is none.
-            const Claw claw = clawAt(root, grown.grown);
-            const Vec2 tip = root.place + claw.finger.spine.back();
-            grown.grown *=
-                smoothRamp(others->distance(tip, [](std::uint32_t) { return true; }) / frame.spacing, kBlocked, kFree);
+            // A claw whose outer half meets liquid is none: on the face of a wave it would lie in the liquid, and its
+            // tip and hollow would be nicks.
+            const std::vector<Vec2> spine = clawAt(root, grown.grown).finger.spine;
+            double free = 1.0;
+            for (std::size_t k = kPoints / 2; k < spine.size(); ++k) {
+                const double away = others.distance(root.place + spine[k], [](std::uint32_t) { return true; });
+                free = std::min(free, smoothRamp(away / frame.spacing, kBlocked, kFree));
+            }
+            grown.grown *= free;
         }
-        if (grown.grown > kLeast) {
+        if (grown.grown * root.length > kLeast * frame.spacing) {
             claws.push_back(clawAt(root, grown.grown));
         }
         if (grown.grown > 0.0) {

@@ -10,12 +10,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
 
 #include "droplet/error.h"
+#include "droplet/mesh/triangulate.h"
 #include "droplet/units.h"
 #include "mesh/curve.h"
 #include "mesh/harmonic.h"
@@ -31,11 +33,14 @@ constexpr double kMaxSagitta = 0.2;
 
 /// Range of the spacing of rim vertices, relative to that on the first loop; outside of it, places are evened out
 /// further. Triangles at short edges of a rim have small angles already: of 119 steps in which the word Water becomes a
-/// ring, with the linear model, 22 kept their vertices with 0.6 and 31 with 0.8. Sheets have triangles of their own,
-/// which follow worse where vertices slide along the rim: 36 with 0.5 for them, 31 with 0.8.
+/// ring, with the linear model, 22 kept their vertices with 0.6 and 31 with 0.8.
 constexpr double kMinSpacing = 0.8;
-constexpr double kMinSheetSpacing = 0.5;
 constexpr double kMaxSpacing = 2.0;
+
+/// Largest distance between a bend of the rim and the corner that it becomes, over the larger one of their distances
+/// from the other loop, or over an edge. A corner that moves leaves the old loop; where one becomes round and another
+/// one appears elsewhere, as when a word flows into a ring, both are near both loops, 10 to 60 edges apart.
+constexpr double kMaxSlide = 4.0;
 
 Vec2 centroid(const std::vector<Vec2>& points)
 {
@@ -62,9 +67,19 @@ double enclosed(const std::vector<Vec2>& points)
     return 0.5 * twice;
 }
 
-/// Pairs of a corner of the loop and the bend of the rim that becomes it; each is the other's nearest.
-std::vector<std::pair<std::size_t, std::size_t>> cornerPairs(const Loop& loop, const std::vector<Vec2>& moved)
+/// Pairs of a corner of the loop and the bend of the rim that becomes it; each is the other's nearest, and they are no
+/// farther apart than a corner moves.
+std::vector<std::pair<std::size_t, std::size_t>> cornerPairs(const Loop& loop, const Curve& after,
+                                                             const std::vector<Vec2>& moved)
 {
+    const Curve rim(moved);
+    const auto gap = [](const Curve& curve, Vec2 p) {
+        return length(curve.at(curve.nearest(p, 0.0, curve.size())) - p);
+    };
+    const double edge = rim.length() / static_cast<double>(moved.size());
+    const auto is_near = [&](Vec2 corner, Vec2 bend) {
+        return length(corner - bend) <= kMaxSlide * std::max({gap(rim, corner), gap(after, bend), edge});
+    };
     constexpr double kLeastBend = 25.0 * kDegree;  // corners of outlines turn by 35° or more
     const std::size_t count = moved.size();
     std::vector<std::size_t> bends;
@@ -90,7 +105,7 @@ std::vector<std::pair<std::size_t, std::size_t>> cornerPairs(const Loop& loop, c
     for (const std::size_t i : corners) {
         if (!bends.empty()) {
             const std::size_t v = nearest(loop.points[i], bends, moved);
-            if (nearest(moved[v], corners, loop.points) == i) {
+            if (nearest(moved[v], corners, loop.points) == i && is_near(loop.points[i], moved[v])) {
                 pairs.emplace_back(i, v);
             }
         }
@@ -146,13 +161,13 @@ constexpr std::uint8_t kBend = 1;
 constexpr std::uint8_t kCorner = 2;
 
 /// Whether the spacing of vertices is similar to that on the first loop.
-bool evenlySpaced(const Curve& first, const Curve& after, double least, const std::vector<double>& places)
+bool evenlySpaced(const Curve& first, const Curve& after, const std::vector<double>& places)
 {
     const double ratio = after.length() / first.length();
     for (std::size_t v = 0; v < places.size(); ++v) {
         const double next = v + 1 < places.size() ? places[v + 1] : places[0] + after.length();
         const double spacing = (next - places[v]) / (ratio * (first.arc(v + 1) - first.arc(v)));
-        if (!(spacing >= least && spacing <= kMaxSpacing)) {
+        if (!(spacing >= kMinSpacing && spacing <= kMaxSpacing)) {
             return false;
         }
     }
@@ -173,7 +188,7 @@ void freeCrowded(const Curve& first, const Curve& after, Places& places)
         const double lap = w > v ? 0.0 : 1.0;
         const double room = places.values[w] - places.values[v] + lap * after.length();
         const double spacing = room / (ratio * (first.arc(w) - first.arc(v) + lap * first.length()));
-        return spacing >= kMinSheetSpacing && spacing <= kMaxSpacing;
+        return spacing >= kMinSpacing && spacing <= kMaxSpacing;
     };
     for (std::size_t k = 0; k < fixed.size() && fixed.size() > 1;) {
         const std::size_t next = (k + 1) % fixed.size();
@@ -192,7 +207,7 @@ void freeCrowded(const Curve& first, const Curve& after, Places& places)
 /// Evens places out until the spacing is similar to that on the first loop. Fixed ones stay. If many passes over the
 /// loop are not enough, places between fixed ones get the spacing to which passes without end would lead: the same part
 /// of that on the first loop everywhere.
-void even(const Curve& first, const Curve& after, double least, Places& places)
+void even(const Curve& first, const Curve& after, Places& places)
 {
     const std::size_t count = places.values.size();
     const double ratio = after.length() / first.length();
@@ -204,7 +219,7 @@ void even(const Curve& first, const Curve& after, double least, Places& places)
         for (std::size_t v = 0; v < count; ++v) {
             places.values[v] = ratio * first.arc(v) + offsets[v];
         }
-        return evenlySpaced(first, after, least, places.values);
+        return evenlySpaced(first, after, places.values);
     };
     std::vector<double> evened = offsets;
     constexpr std::size_t kMaxPasses = 256;
@@ -255,15 +270,15 @@ void even(const Curve& first, const Curve& after, double least, Places& places)
 /// Places of vertices on the new loop: the nearest ones, evened out.
 /// @param moved  the vertices, brought to the new loop's centre and size
 Places placesOf(const Curve& first, const Curve& before, const Curve& after, const Loop& loop,
-                const std::vector<Vec2>& moved, double least)
+                const std::vector<Vec2>& moved)
 {
     Places places{nearestPlaces(before, after, moved), std::vector<std::uint8_t>(moved.size(), 0)};
-    for (const auto& [corner, v] : cornerPairs(loop, moved)) {
+    for (const auto& [corner, v] : cornerPairs(loop, after, moved)) {
         places.values[v] += std::remainder(after.arc(corner) - places.values[v], after.length());
         places.fixed[v] = kBend;
     }
     freeCrowded(first, after, places);
-    even(first, after, least, places);
+    even(first, after, places);
     return places;
 }
 
@@ -410,7 +425,7 @@ std::vector<Vec2> loopOf(const PlanarMesh& mesh, std::size_t loop)
 /// @param first   the loop with which the run of frames began, as many vertices
 /// @param points  the loop at its present place
 std::optional<std::vector<Vec2>> moveLoop(const std::vector<Vec2>& first, const std::vector<Vec2>& points,
-                                          const Loop& loop, double least)
+                                          const Loop& loop)
 {
     const double area_before = enclosed(points);
     const double area_after = enclosed(loop.points);
@@ -427,18 +442,18 @@ std::optional<std::vector<Vec2>> moveLoop(const std::vector<Vec2>& first, const 
     }
     const Curve at_first(first);
     const Curve after(loop.points);
-    Places places = placesOf(at_first, Curve(points), after, loop, moved, least);
+    Places places = placesOf(at_first, Curve(points), after, loop, moved);
     if (!assignCorners(loop, after, places)) {
         return std::nullopt;
     }
     constexpr int kRounds = 6;
     for (int round = 0; round < kRounds; ++round) {
         const bool has_bends = assignBends(loop, after, places);
-        if (!has_bends && evenlySpaced(at_first, after, least, places.values)) {
+        if (!has_bends && evenlySpaced(at_first, after, places.values)) {
             break;
         }
         freeCrowded(at_first, after, places);
-        even(at_first, after, least, places);
+        even(at_first, after, places);
     }
     (void)assignBends(loop, after, places);
     for (std::size_t v = 0; v < points.size(); ++v) {
@@ -478,26 +493,35 @@ void raiseAngles(PlanarMesh& mesh, double wanted)
             }
         }
     }
-    const auto worst = [&](std::uint32_t v) {
+    // No more is looked at than is needed to know that it is at most `enough`.
+    const auto worst = [&](std::uint32_t v, double enough) {
         double sine = 1.0;
         for (const std::uint32_t t : around[v]) {
             sine = std::min(sine, smallestSine(mesh, mesh.triangles[t]));
+            if (sine <= enough) {
+                break;
+            }
         }
         return sine;
     };
+    constexpr double kAll = -1.0;                                   // no sine is less
+    std::vector<std::uint8_t> is_settled(mesh.vertices.size(), 0);  // 1: nothing around it has moved since it was tried
     // Neighbours make room for one another, so a few passes are needed; each begins with long moves.
     constexpr int kPasses = 16;
     constexpr int kHalvings = 4;
     constexpr int kDirections = 8;
-    std::size_t last_count = mesh.vertices.size();
     for (int pass = 0; pass < kPasses; ++pass) {
-        std::size_t count = 0;
+        bool has_moved = false;
         for (std::uint32_t v = on_rim; v < mesh.vertices.size(); ++v) {
-            double best = worst(v);
+            if (is_settled[v] != 0) {
+                continue;
+            }
+            is_settled[v] = 1;
+            double best = worst(v, kAll);
             if (best >= least) {
                 continue;
             }
-            ++count;
+            const Vec2 start = mesh.vertices[v];
             double size = 0.0;
             for (const std::uint32_t t : around[v]) {
                 size += std::abs(doubleArea(mesh, mesh.triangles[t]));
@@ -509,18 +533,25 @@ void raiseAngles(PlanarMesh& mesh, double wanted)
                 for (int k = 0; k < kDirections; ++k) {
                     const double angle = 2.0 * std::numbers::pi * k / kDirections;
                     mesh.vertices[v] = from + step * Vec2{std::cos(angle), std::sin(angle)};
-                    if (const double there = worst(v); there > best) {
+                    if (const double there = worst(v, best); there > best) {
                         best = there;
                         found = mesh.vertices[v];
                     }
                 }
                 mesh.vertices[v] = found;
             }
+            if (mesh.vertices[v] != start) {
+                has_moved = true;
+                for (const std::uint32_t t : around[v]) {
+                    for (const std::uint32_t w : mesh.triangles[t]) {
+                        is_settled[w] = 0;
+                    }
+                }
+            }
         }
-        if (count == 0 || count >= last_count) {
+        if (!has_moved) {
             break;
         }
-        last_count = count;
     }
 }
 
@@ -554,15 +585,11 @@ std::optional<std::vector<const Loop*>> matchingLoops(const PlanarMesh& mesh, co
     return found;
 }
 
-}  // namespace
-
-PlanarMesh moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
+/// Moves the rim of a mesh; inner vertices follow harmonically. Triangles may be turned over.
+/// @param rim  new places of the rim's vertices
+PlanarMesh moveHarmonically(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
 {
     const std::uint32_t on_rim = mesh.rimVertexCount();
-    if (rim.size() != on_rim) {
-        throw Error(ErrorCode::InvalidArgument,
-                    fmt::format("rim has {} vertices, must have {} as the mesh's rim", rim.size(), on_rim));
-    }
     PlanarMesh moved = mesh;
     moved.lattice = {};
     std::copy(rim.begin(), rim.end(), moved.vertices.begin());
@@ -584,6 +611,78 @@ PlanarMesh moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
     return moved;
 }
 
+bool isWhole(const PlanarMesh& mesh)
+{
+    return std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
+                       [&](const Triangle& t) { return doubleArea(mesh, t) > 0.0; });
+}
+
+}  // namespace
+
+PlanarMesh movableCover(const PlanarMesh& mesh)
+{
+    PlanarMesh split = cover(mesh);
+    std::vector<std::uint32_t> next(split.rimVertexCount());
+    for (std::size_t loop = 0; loop < split.loopCount(); ++loop) {
+        for (std::uint32_t v = split.loop_starts[loop]; v < split.loop_starts[loop + 1]; ++v) {
+            next[v] = nextOnRim(split, loop, v);
+        }
+    }
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle_of = [&](std::uint32_t a, std::uint32_t b) -> std::optional<std::uint32_t> {
+        if (a >= next.size() || b >= next.size() || next[a] == b || next[b] == a) {
+            return std::nullopt;
+        }
+        const auto [found, is_new] =
+            middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(split.vertices.size()));
+        if (is_new) {
+            split.vertices.push_back(0.5 * (split.vertices[a] + split.vertices[b]));
+        }
+        return found->second;
+    };
+    const auto is_middle = [first = split.vertices.size()](std::uint32_t v) { return v >= first; };
+    const std::vector<Triangle> whole = std::exchange(split.triangles, {});
+    split.triangles.reserve(2 * whole.size());
+    for (const Triangle& t : whole) {
+        // What is left of the triangle while corners beside a middle are cut off.
+        std::vector<std::uint32_t> left;
+        left.reserve(6);
+        for (std::size_t k = 0; k < 3; ++k) {
+            left.push_back(t[k]);
+            if (const auto middle = middle_of(t[k], t[(k + 1) % 3])) {
+                left.push_back(*middle);
+            }
+        }
+        for (std::size_t k = 0; left.size() > 3;) {
+            const std::uint32_t before = left[(k + left.size() - 1) % left.size()];
+            const std::uint32_t after = left[(k + 1) % left.size()];
+            if (!is_middle(left[k]) && (is_middle(before) || is_middle(after))) {
+                split.triangles.push_back({before, left[k], after});
+                left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
+            } else {
+                ++k;
+            }
+            k %= left.size();
+        }
+        split.triangles.push_back({left[0], left[1], left[2]});
+    }
+    return split;
+}
+
+std::optional<PlanarMesh> moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim)
+{
+    if (rim.size() != mesh.rimVertexCount()) {
+        throw Error(ErrorCode::InvalidArgument, fmt::format("rim has {} vertices, must have {} as the mesh's rim",
+                                                            rim.size(), mesh.rimVertexCount()));
+    }
+    PlanarMesh moved = moveHarmonically(mesh, rim);
+    if (!isWhole(moved)) {
+        constexpr double kWhole = 2.0 * kDegree;  // covers have any angles: what matters is that it is positive
+        raiseAngles(moved, kWhole);
+    }
+    return isWhole(moved) ? std::optional(std::move(moved)) : std::nullopt;
+}
+
 std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last, const Footprint& footprint,
                                  double angles)
 {
@@ -596,31 +695,26 @@ std::optional<PlanarMesh> follow(const PlanarMesh& first, const PlanarMesh& last
     if (!loops || !(stretch <= kMaxStretch && stretch >= 1.0 / kMaxStretch)) {
         return std::nullopt;
     }
-    const double least = angles > 0.0 ? kMinSpacing : kMinSheetSpacing;
     std::vector<Vec2> rim;
     for (std::size_t k = 0; k < loops->size(); ++k) {
-        const std::optional<std::vector<Vec2>> moved = moveLoop(loopOf(first, k), loopOf(last, k), *(*loops)[k], least);
+        const std::optional<std::vector<Vec2>> moved = moveLoop(loopOf(first, k), loopOf(last, k), *(*loops)[k]);
         if (!moved) {
             return std::nullopt;
         }
         rim.insert(rim.end(), moved->begin(), moved->end());
     }
-    const auto is_good = [](const PlanarMesh& mesh, double angle) {
-        return std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
-                           [&](const Triangle& t) { return doubleArea(mesh, t) > 0.0; }) &&
-               minAngle(mesh) >= angle;
-    };
+    const auto is_good = [](const PlanarMesh& mesh, double angle) { return isWhole(mesh) && minAngle(mesh) >= angle; };
     const double wanted = angles > 0.0 ? kMinAngle : 0.0;
     const double first_angle = minAngle(first);
     const double least_angle = first_angle >= kMinAngle ? wanted : angles * first_angle;
-    PlanarMesh mesh = moveRim(first, rim);
+    PlanarMesh mesh = moveHarmonically(first, rim);
     if (is_good(mesh, wanted)) {
         return mesh;
     }
     for (const PlanarMesh* from : {&first, &last}) {
-        mesh = moveRim(*from, rim);
+        mesh = moveHarmonically(*from, rim);
         // More than is needed, so that the angles beside a small one make room for it.
-        constexpr double kRoom = 1.3;
+        constexpr double kRoom = 1.7;
         raiseAngles(mesh, kRoom * wanted);
         if (is_good(mesh, least_angle)) {
             return mesh;

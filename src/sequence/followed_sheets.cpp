@@ -13,22 +13,16 @@
 namespace droplet {
 namespace {
 
-bool isWhole(const PlanarMesh& mesh)
-{
-    return std::all_of(mesh.triangles.begin(), mesh.triangles.end(),
-                       [&](const Triangle& t) { return doubleArea(mesh, t) > 0.0; });
-}
-
 std::vector<Vec2> rimOf(const PlanarMesh& mesh)
 {
     return {mesh.vertices.begin(), mesh.vertices.begin() + mesh.rimVertexCount()};
 }
 
 /// Footprint of a sheet at its new place: that of the droplet, unless its inner corners are rounded.
-PlanarMesh movedFootprint(const SheetOrigin& origin, const PlanarMesh& mesh)
+std::optional<PlanarMesh> movedFootprint(const SheetOrigin& origin, const PlanarMesh& mesh)
 {
     const PlanarMesh& footprint = *origin.sheet.footprint;
-    return sameRim(footprint, origin.mesh) ? mesh
+    return sameRim(footprint, origin.mesh) ? std::optional(mesh)
                                            : moveRim(footprint, carryPoints(origin.mesh, mesh, rimOf(footprint)));
 }
 
@@ -48,15 +42,17 @@ std::optional<FollowedSheets> followSheets(const SheetOrigins& origins, const Dr
         if (surfaces[k].isHeightField()) {
             continue;
         }
-        footprints[k] = movedFootprint(*origins[k], meshes[k]);
-        if (!isWhole(footprints[k])) {
+        std::optional<PlanarMesh> footprint = movedFootprint(*origins[k], meshes[k]);
+        if (!footprint) {
             return std::nullopt;
         }
+        footprints[k] = *std::move(footprint);
         if (!bases.empty()) {
-            bases[k] = moveRim(*origins[k]->base, rimOf(footprints[k]));
-            if (!isWhole(bases[k])) {
+            std::optional<PlanarMesh> base = moveRim(*origins[k]->base, rimOf(footprints[k]));
+            if (!base) {
                 return std::nullopt;
             }
+            bases[k] = *std::move(base);
         }
     }
     FollowedSheets followed{{}, std::move(bases)};
@@ -119,7 +115,7 @@ SheetOrigins originsOf(const Droplet& droplet, const SheetOrigins& origins, cons
         }
         std::optional<PlanarMesh> base;
         if (!bases.empty()) {
-            base = sameRim(bases[k], *sheet.footprint) ? bases[k] : cover(*sheet.footprint);
+            base = sameRim(bases[k], *sheet.footprint) ? bases[k] : movableCover(*sheet.footprint);
         }
         result[k] = std::make_shared<const SheetOrigin>(SheetOrigin{sheet, droplet.meshes[k], std::move(base)});
     }

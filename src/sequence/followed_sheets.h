@@ -15,7 +15,7 @@ namespace droplet {
 struct SheetOrigin {
     CapillarySurface sheet;
     PlanarMesh mesh;                 ///< of the droplet then
-    std::optional<PlanarMesh> base;  ///< cover() of the sheet's footprint, if surfaces are closed
+    std::optional<PlanarMesh> base;  ///< movableCover() of the sheet's footprint, if surfaces are closed
 };
 
 /// Origins of the sheets of a frame, one per droplet; null where it is none.

@@ -256,8 +256,7 @@ std::optional<Meshed> followOne(const Frame& before, std::size_t k, const Footpr
     if (!first.bases.empty()) {
         const auto rim = moved.mesh.vertices.begin();
         moved.base = moveRim(first.bases[k], {rim, rim + moved.mesh.rimVertexCount()});
-        if (!std::all_of(moved.base->triangles.begin(), moved.base->triangles.end(),
-                         [&](const Triangle& t) { return doubleArea(*moved.base, t) > 0.0; })) {
+        if (!moved.base) {
             return std::nullopt;
         }
     }
@@ -318,7 +317,8 @@ FrameLineage triangulateAnew(const Domain& domain, const DropletOptions& options
     }
     if (needBases(options)) {
         lineage.bases.resize(meshes.size());
-        tbb::parallel_for(std::size_t{0}, meshes.size(), [&](std::size_t k) { lineage.bases[k] = cover(meshes[k]); });
+        tbb::parallel_for(std::size_t{0}, meshes.size(),
+                          [&](std::size_t k) { lineage.bases[k] = movableCover(meshes[k]); });
     }
     lineage.first = std::make_shared<const TriangulatedMeshes>(TriangulatedMeshes{meshes, lineage.bases});
     return lineage;
@@ -381,7 +381,7 @@ std::optional<FrameLineage> keepVertices(const Frame& before, const std::vector<
             made[k].mesh = triangulate({{footprint}, {}}, {.edge = edge}).front();
         }
         if (needBases(options)) {
-            made[k].base = cover(made[k].mesh);
+            made[k].base = movableCover(made[k].mesh);
         }
     });
     std::size_t triangles = 0;

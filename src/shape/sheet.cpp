@@ -257,13 +257,6 @@ SheetResult follow(const CapillarySurface& first, const CapillarySurface& last, 
         footprint.loop_starts != first.loop_starts) {
         throw Error(ErrorCode::InvalidArgument, "first, last and footprint must have the same triangles and loops");
     }
-    if (hasInnerCorner(footprint) && !hasInnerCorner(rimOf(first))) {
-        // It needs rounding, which solveSheet() does.
-        SheetResult unmoved;
-        unmoved.surface = last;
-        unmoved.end = SheetEnd::Unstable;
-        return unmoved;
-    }
     const std::vector<Vec2> rim(footprint.vertices.begin(), footprint.vertices.begin() + footprint.rimVertexCount());
     return resultOf(followSheet(bare(first), bare(last), last.pressure / options.liquid.surface_tension, rim,
                                 {options.fill.by, options.fill.amount}, weightOf(options)),

@@ -24,9 +24,10 @@ constexpr int kFew = 4;
 constexpr double kGrow = 1.6;
 constexpr double kGentler = 0.6;
 constexpr double kRefused = 0.4;
-/// Angle of a triangle, over that when it was made, below which a sheet is solved anew. With 0.4, a word that swells
-/// kept its vertices in 14 of 23 frames, with 0.2 and 0.1 in 16.
-constexpr double kMostWorn = 0.2;
+/// Angle of a triangle, over that when it was made, below which a sheet is solved anew. Of 119 steps in which a word
+/// becomes a ring, 75 kept their vertices with 0.2 and 78 with 0.1; heights of both are as near to those of new
+/// triangles as these are to each other: 0.14 % in the median, 0.7 % in nine of ten frames.
+constexpr double kMostWorn = 0.1;
 /// Growth of the area above which, or below the inverse of which, it is: as for the edges of moved footprints.
 constexpr double kMostGrowth = 2.25;
 

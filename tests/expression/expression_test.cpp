@@ -396,6 +396,48 @@ TEST(Expression, ClawsGrowAtTheCrestAndCurlForward)
     EXPECT_THAT(state.curl, testing::Each(0.0));
 }
 
+// Particles that came down from the crest would draw claws that lie in the liquid, and show as nicks.
+TEST(Expression, NoClawsOnTheHollowFaceBelowACrest)
+{
+    const ExpressionOptions options = expressionOf(LiquidStyle::Wave);
+    constexpr double kSpeed = 4.0;
+    const Vec2 middle{60.0 * kSpacing, 30.0 * kSpacing};
+    const auto frame_at = [&](double time) {
+        std::vector<Vec2> position;
+        for (int row = 0; row < 60; ++row) {
+            for (int column = 0; column < 60; ++column) {
+                const Vec2 p{kSpacing * (column + 0.5), kSpacing * (row + 0.5)};
+                if (length(p - middle) > 15.0 * kSpacing) {
+                    position.push_back({p.x + kSpeed * time, p.y});
+                }
+            }
+        }
+        return frameOf(time, position, {kSpeed, 0.0});
+    };
+    ExpressionState state;
+    ParticleFrame frame;
+    for (int k = 0; k <= 4; ++k) {
+        frame = frame_at(k / 24.0);
+        state = advanceExpression(std::move(state), frame, options);
+    }
+    // Claws of all surface particles between two heights, fully grown.
+    const auto drawn = [&](double lower, double upper) {
+        const Vec2 moved = middle + Vec2{kSpeed * frame.time, 0.0};
+        std::fill(state.curl.begin(), state.curl.end(), 0.0);
+        for (std::size_t i = 0; i < frame.position.size(); ++i) {
+            const Vec2 p = frame.position[i];
+            const bool is_surface = length(p - moved) < 16.0 * kSpacing || p.y > 59.0 * kSpacing;
+            if (is_surface && p.y > lower * kSpacing && p.y < upper * kSpacing) {
+                state.curl[frame.id[i]] = 1.0;
+            }
+        }
+        return liquidShape(state, frame, options).liquid.at(0).points;
+    };
+    const std::vector<Vec2> without = drawn(0.0, 0.0);
+    EXPECT_EQ(drawn(22.0, 38.0), without);
+    EXPECT_NE(drawn(59.0, 60.0), without) << "the crest has some";
+}
+
 TEST(Expression, OutlineDoesNotPopWhenADropletLandsOrLeaves)
 {
     // A droplet of 19 particles falls into a block, slowly enough that every change shows.

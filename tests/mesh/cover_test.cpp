@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "droplet/mesh/follow.h"
 #include "droplet/mesh/triangulate.h"
 #include "support/domains.h"
 #include "support/zoo.h"
@@ -70,6 +71,21 @@ TEST(Cover, CoversTheSamePolygonOnce)
                     SCOPED_TRACE(name + " of " + std::to_string(triangles) + ", grading " + std::to_string(grading));
                     expectCovers(cover(mesh), mesh);
                 }
+            }
+        }
+    }
+}
+
+TEST(MovableCover, CoversWithoutEdgesFromRimToRim)
+{
+    for (const auto& [name, domain] : testing::zoo()) {
+        SCOPED_TRACE(name);
+        for (const PlanarMesh& mesh : triangulate(domain, {.triangles = 3000, .edge = {}})) {
+            const PlanarMesh ground = movableCover(mesh);
+            expectCovers(ground, mesh);
+            EXPECT_LE(ground.triangles.size(), 7 * mesh.rimVertexCount());
+            for (const Triangle& t : ground.triangles) {
+                EXPECT_FALSE(mesh.onRim(t[0]) && mesh.onRim(t[1]) && mesh.onRim(t[2]));
             }
         }
     }

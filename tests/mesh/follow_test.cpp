@@ -156,6 +156,30 @@ TEST(Follow, FollowsCornersThatBecomeRoundAndSharp)
     follow_to(square);
 }
 
+// The only corner becomes round, and one appears on the other side of the disc, or a quarter away.
+TEST(Follow, DoesNotTurnWhereACornerAppearsElsewhere)
+{
+    constexpr std::size_t kPoints = 400;
+    const auto drop = [](double tip) {
+        Loop loop;
+        for (std::size_t k = 0; k < kPoints; ++k) {
+            const double angle = 2.0 * kPi * static_cast<double>(k) / kPoints;
+            const double away = std::abs(std::remainder(angle - tip, 2.0 * kPi));
+            const double radius = 1.0 + std::max(0.02 - 0.2 * away, 0.0);
+            loop.points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+            loop.corner.push_back(away < 1e-9 ? 1 : 0);
+        }
+        return loop;
+    };
+    const PlanarMesh first = meshOf(domainOf(drop(0.0)).droplets[0]);
+    for (const double tip : {0.5 * kPi, kPi, 1.5 * kPi}) {
+        SCOPED_TRACE(tip);
+        const auto moved = follow(first, first, domainOf(drop(tip)).droplets[0]);
+        ASSERT_TRUE(moved);
+        EXPECT_LT(largestMove(first, *moved, {}), 0.1);
+    }
+}
+
 TEST(Follow, FollowsAShrinkingHoleWithoutDrift)
 {
     const auto ring = [](double hole) {
@@ -263,13 +287,42 @@ TEST(WithRim, MovesAffinelyIfTheRimDoes)
         for (std::uint32_t v = 0; v < mesh.rimVertexCount(); ++v) {
             rim.push_back(map(mesh.vertices[v]));
         }
-        const PlanarMesh moved = moveRim(mesh, rim);
-        const PlanarMesh base = moveRim(cover(mesh), rim);
+        const PlanarMesh moved = moveRim(mesh, rim).value();
+        const PlanarMesh base = moveRim(cover(mesh), rim).value();
         for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
             EXPECT_LT(length(moved.vertices[v] - map(mesh.vertices[v])), 1e-12);
         }
         EXPECT_NEAR(area(base), area(moved), 1e-12);
-        EXPECT_THROW(moveRim(mesh, {}), Error);
+        EXPECT_THROW((void)moveRim(mesh, {}), Error);
+    }
+}
+
+/// A star whose tips and bays become one another.
+std::vector<Vec2> star(std::size_t count, double depth)
+{
+    std::vector<Vec2> points;
+    points.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const double angle = 2.0 * kPi * static_cast<double>(k) / static_cast<double>(count);
+        const double radius = 1.0 + depth * std::cos(0.5 * static_cast<double>(count) * angle);
+        points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    return points;
+}
+
+TEST(MovableCover, FollowsARimWhoseCornersBendTheOtherWay)
+{
+    constexpr std::size_t kCorners = 24;
+    PlanarMesh rim;
+    rim.vertices = star(kCorners, 0.1);
+    rim.loop_starts = {0, kCorners};
+    EXPECT_FALSE(moveRim(cover(rim), star(kCorners, -0.1)));
+    const PlanarMesh ground = movableCover(rim);
+    const auto moved = moveRim(ground, star(kCorners, -0.1));
+    ASSERT_TRUE(moved);
+    EXPECT_EQ(moved->triangles, ground.triangles);
+    for (const Triangle& t : moved->triangles) {
+        EXPECT_GT(doubleArea(*moved, t), 0.0);
     }
 }
 

@@ -9,12 +9,28 @@
 
 namespace droplet {
 
-/// Moves the rim of a mesh; inner vertices follow harmonically, connections stay.
+/// Moves the rim of a mesh; inner vertices follow harmonically, connections stay. Where triangles would be turned over,
+/// single inner vertices step aside.
 /// @param mesh   mesh to start from
 /// @param rim    new places of the rim's vertices [m], as many as the mesh has
-/// @return       the moved mesh, without its lattice; triangles may be turned over
+/// @return       the moved mesh, without its lattice; empty if triangles are turned over all the same
 /// @throws Error InvalidArgument if the number of places is wrong
-PlanarMesh moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim);
+std::optional<PlanarMesh> moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim);
+
+/// Splits every inner edge that joins two rim vertices in its middle. A triangle of rim vertices alone is turned over
+/// where its corner bends the other way; one with an inner vertex can follow.
+///
+/// Guarantees: the rim stays; no triangle has three rim vertices unless they are the whole rim.
+/// @param mesh  valid; its lattice is dropped
+PlanarMesh splitChords(PlanarMesh mesh);
+
+/// Covers the polygon of a mesh as cover() does, with triangles that can follow its rim: every inner edge between two
+/// rim vertices is split in its middle. A triangle of three rim vertices would be turned over where its corner bends
+/// the other way, and no vertex could step aside.
+///
+/// Guarantees: as cover(); no inner edge joins two rim vertices.
+/// @param mesh  its rim alone counts
+PlanarMesh movableCover(const PlanarMesh& mesh);
 
 /// Moves a mesh to a footprint that moved and changed little, so that vertices keep their identity.
 ///

@@ -94,8 +94,8 @@ SheetResult refill(const CapillarySurface& sheet, double volume, const SolveOpti
 /// If the rim moves, turns or grows as a whole, so do the triangles.
 ///
 /// Guarantees: a given volume is met to 1e-10; the sheet is not below the ground, and does not cross itself; the same
-/// input gives the same bits. Triangles keep a fifth of the angles of `first`, or 18°, and their area is between 0.44
-/// and 2.25 times that of `first`.
+/// input gives the same bits. Triangles keep a tenth of the angles of `first`, or 18°, and their area is between 0.44
+/// and 2.25 times that of `first`. Corners of the rim that point inward stay as they are, unlike those of solveSheet().
 /// @param first      sheet with which the run of motions began, result of solveSheet
 /// @param last       the same sheet at its present place
 /// @param footprint  that of `first`, with the same loops, its rim moved

@@ -23,7 +23,7 @@ struct LoftOptions {
     bool open = false;        ///< leave out the base
     Vec2 extent;              ///< size of the image, centred at the origin, for texture coordinates [m]; both > 0
     BaseSurface ground = {};  ///< ground of the surfaces
-    std::vector<PlanarMesh> bases = {};     ///< cover() of every rim, if known already; may be empty
+    std::vector<PlanarMesh> bases = {};     ///< covers of every rim, if known already; may be empty
     std::optional<LoftRefill> refill = {};  ///< for a surface that can be filled and drained
     bool flatten = true;                    ///< spread sheets that lean out over their footprint in texture
                                             ///< coordinates; otherwise these are the place above or below
