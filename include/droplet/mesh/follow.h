@@ -17,13 +17,6 @@ namespace droplet {
 /// @throws Error InvalidArgument if the number of places is wrong
 std::optional<PlanarMesh> moveRim(const PlanarMesh& mesh, const std::vector<Vec2>& rim);
 
-/// Splits every inner edge that joins two rim vertices in its middle. A triangle of rim vertices alone is turned over
-/// where its corner bends the other way; one with an inner vertex can follow.
-///
-/// Guarantees: the rim stays; no triangle has three rim vertices unless they are the whole rim.
-/// @param mesh  valid; its lattice is dropped
-PlanarMesh splitChords(PlanarMesh mesh);
-
 /// Covers the polygon of a mesh as cover() does, with triangles that can follow its rim: every inner edge between two
 /// rim vertices is split in its middle. A triangle of three rim vertices would be turned over where its corner bends
 /// the other way, and no vertex could step aside.
