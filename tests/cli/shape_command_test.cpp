@@ -742,7 +742,7 @@ TEST_F(ShapeCommandTest, FilesOfScenesHaveTheObjectWithItsDroplets)
     const std::string both = made("both.glb");
     const json scene = jsonIn(both);
     const json alone = jsonIn(made("alone.glb", {"--droplets-only"}));
-    EXPECT_EQ(scene["scenes"][0]["nodes"], json({0}));
+    EXPECT_EQ(scene["scenes"][0]["nodes"], json::array({0}));
     EXPECT_EQ(scene["nodes"][0]["name"], "object");
     EXPECT_EQ(scene["nodes"][0]["children"], json({1}));
     EXPECT_EQ(scene["nodes"][1]["name"], "droplet");
