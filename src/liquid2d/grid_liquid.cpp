@@ -231,8 +231,10 @@ private:
     {
         const double h = grid_.cell;
         const auto [lower, upper] = state.position.empty() ? Bounds{{}, {}} : boundsOf(state.position);
-        // What matters, and the way of a step.
+        // The longest way of a step, of up to 6 kFaster spacings or 4.5 cells, and its neighbours. What matters is
+        // less.
         constexpr std::int64_t kMargin = 6;
+        static_assert(kMargin > static_cast<std::int64_t>(kPad));
         const auto number = [h](double x) { return static_cast<std::int64_t>(std::floor(x / h)); };
         const auto right = grid_.left + static_cast<std::int64_t>(grid_.columns);
         const auto top = grid_.bottom + static_cast<std::int64_t>(grid_.rows);

@@ -48,13 +48,13 @@ bool isDrawn(const xmlNode& element)
            std::strcmp(reinterpret_cast<const char*>(element.ns->href), "http://www.w3.org/2000/svg") == 0;
 }
 
-xmlNode* elementOf(xmlNode& root, std::string_view id)
+xmlNode* firstElement(xmlNode& root, const std::function<bool(const xmlNode&)>& is_wanted)
 {
     std::vector<xmlNode*> open{&root};
     while (!open.empty()) {
         xmlNode* const element = open.back();
         open.pop_back();
-        if (attributeOf(*element, "id") == id) {
+        if (is_wanted(*element)) {
             return element;
         }
         for (xmlNode* child = element->last; child != nullptr; child = child->prev) {
@@ -64,6 +64,11 @@ xmlNode* elementOf(xmlNode& root, std::string_view id)
         }
     }
     return nullptr;
+}
+
+xmlNode* elementOf(xmlNode& root, std::string_view id)
+{
+    return firstElement(root, [&](const xmlNode& element) { return attributeOf(element, "id") == id; });
 }
 
 std::optional<SvgBox> viewBoxOf(const xmlNode& element)

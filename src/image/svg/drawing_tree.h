@@ -4,6 +4,7 @@
 #include <libxml/tree.h>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,6 +30,9 @@ void setAttribute(xmlNode& element, const char* name, const std::string& value);
 
 /// Whether an element belongs to a drawing, and is not data of an editor.
 bool isDrawn(const xmlNode& element);
+
+/// First element of a tree that is wanted, in the order of the text; null if there is none.
+xmlNode* firstElement(xmlNode& root, const std::function<bool(const xmlNode&)>& is_wanted);
 
 /// First element of a tree with an id; null if there is none.
 xmlNode* elementOf(xmlNode& root, std::string_view id);

@@ -325,25 +325,6 @@ Matrix mapOf(const StyleSheets& styles, const xmlNode& element)
     return nameOf(element) == "svg" ? own * viewportScale(element).value_or(Matrix{}) : own;
 }
 
-/// First element of a name, in the order of the text; null if there is none.
-const xmlNode* firstNamed(const xmlNode& root, std::string_view name)
-{
-    std::vector<const xmlNode*> open{&root};
-    while (!open.empty()) {
-        const xmlNode* const element = open.back();
-        open.pop_back();
-        if (nameOf(*element) == name) {
-            return element;
-        }
-        for (const xmlNode* child = element->last; child != nullptr; child = child->prev) {
-            if (isElement(child)) {
-                open.push_back(child);
-            }
-        }
-    }
-    return nullptr;
-}
-
 /// Draws all that is displayed.
 void drawAll(Pen& pen, const StyleSheets& styles, const xmlNode& root)
 {
@@ -404,7 +385,8 @@ SvgLine lineIn(std::span<const std::byte> text)
         return {};
     }
     const StyleSheets styles(*root);
-    const xmlNode* const user = firstNamed(*root, "textPath");
+    const xmlNode* const user =
+        firstElement(*root, [](const xmlNode& element) { return nameOf(element) == "textPath"; });
     const std::string target(user == nullptr ? "" : trimmed(attributeOf(*user, "href").value_or("")));
     const xmlNode* const used = target.starts_with('#') ? elementOf(*root, target.substr(1)) : nullptr;
     std::vector<Part> parts;
